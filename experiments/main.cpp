@@ -330,8 +330,17 @@ int parse_and_run(int argc, char** argv) {
                         std::to_string(ReferenceSettings::default_samples) + ", or no limit with --seconds or --target")
         ->check(CLI::Range(16, 1 << 24));
     reference_command_
+        .add_option("--lit-samples", reference.settings.lit_samples,
+                    "Of these of the diffuse light, at most: the rest is of the specular light alone; default: all")
+        ->check(CLI::Range(16, 1 << 24));
+    reference_command_
+        .add_option("--guide-samples", reference.settings.guide_samples,
+                    "Per pixel of the guide, which weighs relative errors and tells roulette what to expect")
+        ->check(CLI::Range(16, 4096))
+        ->capture_default_str();
+    reference_command_
         .add_option("--seconds", reference.settings.max_seconds,
-                    "Time limit, beside the 64 samples of the guide; default: none")
+                    "Time limit, beside the samples of the guide; default: none")
         ->check(positive());
     reference_command_
         .add_option("--target", reference.settings.target_relative_error,

@@ -35,8 +35,8 @@ Keys reference_keys() {
                        "; no limit if `seconds` or `target_relative_error` is set"),
              "per pixel, rounded up to 16 x 2^k"},
             {"lit_samples", whole(16, 1 << 24),
-             otherwise("`samples`; with `target_relative_error` " + std::to_string(ReferenceSettings::default_samples) +
-                       " at most"),
+             otherwise("`samples`; where nothing else is rendered and `target_relative_error` is set " +
+                       std::to_string(ReferenceSettings::default_samples) + " at most"),
              "the same of the lit colour alone, which techniques read: the rest of `samples` is of the specular light. "
              "In frames that no result is compared with nothing else is rendered"},
             {"lit_noise", flag(), true,
@@ -173,14 +173,20 @@ void read_reference(ConfigObject& study, Config& config) {
     object.finish();
 }
 
-/// The truth ladder falls back to the scene's environment, and an ambient term is no probe's.
+/// What a study with reflection probes cannot have: the truth ladder and rasterised direct light know the scene's
+/// environment alone, and a capture brings its own.
 void check_probes(ConfigObject& study, const Config& config) {
-    if (std::ranges::none_of(config.shots, &ShotConfig::has_probe)) return;
-    if (std::ranges::find(config.targets, "on_screen") != config.targets.end())
+    const auto refuse_shots = [&](const auto& is_wrong, const char* why) {
+        if (std::ranges::any_of(config.shots, [&](const ShotConfig& s) { return s.has_probe && is_wrong(s); }))
+            fail(study.at("shots"), ": a shot with \"fallback\": \"probe\" ", why);
+    };
+    refuse_shots([](const ShotConfig& s) { return s.direct_lit; }, "needs path-traced light, not \"lit\": \"direct\"");
+    refuse_shots([](const ShotConfig& s) { return !s.gbuffer.empty(); },
+                 "needs a scene: a G-buffer from files brings its own fallback");
+    if (std::ranges::any_of(config.shots, &ShotConfig::has_probe) &&
+        std::ranges::find(config.targets, "on_screen") != config.targets.end())
         fail(study.at("targets"),
-             ": the target 'on_screen' falls back to the environment: leave it out, or \"fallback\": \"probe\"");
-    if (std::ranges::any_of(config.shots, [](const ShotConfig& shot) { return shot.has_probe && shot.direct_lit; }))
-        fail(config.file.string(), ": \"fallback\": \"probe\" needs path-traced light: leave out \"lit\": \"direct\"");
+             ": the target 'on_screen' falls back to the environment, the shots to a probe: leave out one of both");
 }
 
 void read_timing(ConfigObject timing, TimingConfig& config) {

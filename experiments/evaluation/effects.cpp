@@ -221,8 +221,7 @@ void judge(EffectRow& e, double p_holm, size_t count) {
     e.p_holm = p_holm, e.verdict = verdict_of(p_holm, *e.ratio);
     const double factor = adjustment_factor(*e.p, p_holm, count);
     const bool is_exact = e.estimate.standard_error == 0;
-    const auto [low, high] = is_exact ? std::pair(*e.low, *e.high) : e.estimate.interval(significance / factor);
-    if (std::isfinite(high)) e.low_holm = low, e.high_holm = high;  // else it is wider than any number
+    set_adjusted_interval(e, is_exact ? std::pair(*e.low, *e.high) : e.estimate.interval(significance / factor));
 }
 
 using Table = std::map<Quantity, std::map<Point, SeedsOfPoint>>;

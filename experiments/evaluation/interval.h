@@ -1,6 +1,8 @@
 #pragma once
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <utility>
 
 /// The false-alarm rate of every verdict ("better", "worse", "behind", "changed"), for a family of comparisons (Holm).
 inline constexpr double significance = 0.05;
@@ -10,6 +12,13 @@ inline constexpr double significance = 0.05;
 /// p at least.
 inline double adjustment_factor(double p, double p_holm, size_t count) {
     return !(p > 0) ? double(count) : p_holm < 1 ? p_holm / p : std::max(double(count), 1 / p);
+}
+
+/// Keeps the ends of an interval at the adjusted level as `low_holm` and `high_holm`; none where it is wider than any
+/// number.
+template <class Effect>
+void set_adjusted_interval(Effect& effect, std::pair<double, double> ends) {
+    if (std::isfinite(ends.second)) effect.low_holm = ends.first, effect.high_holm = ends.second;
 }
 
 /// What a 95 % interval holds, or why there is none: the column `interval` of summary.csv and effects.csv, which

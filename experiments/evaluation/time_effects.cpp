@@ -81,8 +81,7 @@ void set_time_verdicts(std::span<TimeEffectRow> effects, const nlohmann::json& m
         TimeEffectRow& e = *family[i];
         e.p = p[i], e.p_holm = adjusted[i];
         const double factor = adjustment_factor(p[i], adjusted[i], family.size());
-        const auto [low, high] = ratios[i].interval(significance / factor);
-        if (std::isfinite(high)) e.low_holm = low, e.high_holm = high;  // else it is wider than any number
+        set_adjusted_interval(e, ratios[i].interval(significance / factor));
         e.verdict = verdict_of(adjusted[i], e.ratio);
     }
 }

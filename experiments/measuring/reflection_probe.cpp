@@ -10,6 +10,9 @@
 namespace {
 
 constexpr unsigned face_side = 32, probe_samples = 64, probe_guide_samples = 16;
+/// Added to the study's seed: what reads a probe is compared with the reference, so that the noise of one must not be
+/// that of the other.
+constexpr unsigned probe_seed = 0x9706e;
 constexpr glm::uvec2 latlong_extent(4 * face_side, 2 * face_side);
 
 /// One side of a cube around the probe.
@@ -25,7 +28,7 @@ glm::mat3 looking_along(glm::vec3 forward) {
     return {right, up, -forward};
 }
 
-/// Between the centres of the face's pixels, in which `ws_direction` points.
+/// Where a direction in the view of a face meets it, between the centres of its pixels.
 glm::vec3 radiance_along(const Face& face, glm::vec3 vs_direction) {
     const glm::vec2 on_plane = glm::vec2(vs_direction.x, -vs_direction.y) / -vs_direction.z;  // y down
     const float last = float(face_side - 1);
@@ -48,17 +51,17 @@ glm::vec3 radiance_along(const std::array<Face, 6>& faces, glm::vec3 direction) 
 
 Environment reflection_probe(glm::vec3 position, const ReferenceSettings& settings, const ProbeView& render) {
     const std::array<glm::vec3, 6> axes = {{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
-    const ReferenceSettings of_face{.max_samples = probe_samples,
-                                    .max_depth = settings.max_depth,
-                                    .seed = settings.seed,
-                                    .guide_samples = probe_guide_samples,
-                                    .keep_all = settings.keep_all};
+    ReferenceSettings of_face{.max_samples = probe_samples,
+                              .max_depth = settings.max_depth,
+                              .guide_samples = probe_guide_samples,
+                              .keep_all = settings.keep_all};
     std::array<Face, 6> faces;
     for (size_t i = 0; i < faces.size(); ++i) {
         faces[i].world_from_view = looking_along(axes[i]);
         CameraPose camera{.vertical_fov = float(std::numbers::pi / 2)};
         camera.world_from_view = glm::mat4(faces[i].world_from_view);
         camera.world_from_view[3] = glm::vec4(position, 1.0f);
+        of_face.seed = settings.seed + probe_seed + unsigned(i);
         faces[i].radiance = render(camera, glm::uvec2(face_side), of_face).image.mean;
     }
     Environment probe{.type = Environment::Type::image, .latlong = HostImage(latlong_extent, 3)};

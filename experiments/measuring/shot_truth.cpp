@@ -67,6 +67,7 @@ const HostImage& ShotTruth::lit(const FrameStep& step) const {
 std::string ShotTruth::content_hash() const {
     ContentHash hash;
     for (const auto& [frame, pose] : poses) hash.add(frame), hash.add(pose->content_hash);
+    if (!probe_hash.empty()) hash.add(probe_hash);
     return hash.hex();
 }
 

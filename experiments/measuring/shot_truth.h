@@ -11,6 +11,8 @@ struct ShotTruth {
     std::map<unsigned, std::shared_ptr<const PoseTruth>> poses;                 ///< by frame
     std::map<std::pair<unsigned, std::optional<unsigned>>, FrameTruth> frames;  ///< by frame and the one before
 
+    std::string probe_hash;  ///< of the reflection probe that results fall back to; "": none
+
     const PoseTruth& pose(const FrameStep& step) const { return *poses.at(step.frame); }
     const HostImage& lit(const FrameStep& step) const;     ///< empty where no truth is needed
     const FrameTruth* frame(const FrameStep& step) const;  ///< nullptr: nothing of this frame is measured

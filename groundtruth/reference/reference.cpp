@@ -96,7 +96,7 @@ std::string reference_request(const Scene& scene, const ScenePose& pose, const C
     add(hash, camera);
     for (const unsigned value :
          {extent.x, extent.y, settings.max_depth, settings.seed, unsigned(settings.ladder), unsigned(settings.lit_only),
-          unsigned(settings.keep_all), settings.lit_samples > 0 ? unsigned(rounded_samples(settings.lit_samples)) : 0u,
+          unsigned(settings.keep_all), unsigned(lit_sample_limit(settings)),
           settings.lit_only ? 0u : unsigned(rounded_samples(settings.guide_samples))})
         hash.add(value);
     return hash.hex();

@@ -84,11 +84,10 @@ void render_tile(ReferenceState& state, const PixelTracer& tracer, const Tile& t
             const size_t pixel = size_t(y) * reference.extent.x + x;
             const unsigned samples = unsigned(state.sample_goal.values[pixel] - reference.sample_count.values[pixel]);
             if (samples == 0) continue;
-            const PixelCost cost = add_samples(
-                reference, tracer, x, y,
-                {.seed = state.settings.seed,
-                 .batch_samples = samples / batch_count,
-                 .most_lit = state.settings.lit_samples > 0 ? rounded_samples(state.settings.lit_samples) : 0});
+            const PixelCost cost = add_samples(reference, tracer, x, y,
+                                               {.seed = state.settings.seed,
+                                                .batch_samples = samples / batch_count,
+                                                .most_lit = lit_sample_limit(state.settings)});
             if (!state.rays_per_sample.values.empty())
                 state.rays_per_sample.values[pixel] = float(double(cost.rays) / samples);
             counts.rays += cost.rays;

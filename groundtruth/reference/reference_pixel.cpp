@@ -109,23 +109,21 @@ void write_first_hit(Reference& reference, size_t pixel, const FirstHit& hit) {
     reference.ladder.fallback.set_rgb(pixel, hit.fallback);
 }
 
-/// The sum of an image whose specular light was sampled further than its diffuse light. What both shared of their
-/// samples makes them depend on each other: `covariance`, of the means of both that the pixel has now.
-void add_up(Reference& reference, size_t pixel, glm::dvec3 covariance) {
-    const ReferenceOutput &diffuse = reference.diffuse, &specular = reference.specular;
-    const glm::vec3 highlight = reference.highlights.rgb(pixel);
+/// Adds samples of the specular light alone. The image stays the sum of both parts, whose means depend on each other as
+/// far as they share samples: of the specular mean those weigh less now.
+void merge_specular_alone(Reference& reference, size_t pixel, const PassMeans& pass, const double (&old_weight)[2]) {
     ReferenceOutput& image = reference.image;
+    const ReferenceOutput &diffuse = reference.diffuse, &specular = reference.specular;
+    const auto of_both = [&] {
+        return glm::dvec3(diffuse.variance.rgb(pixel)) + glm::dvec3(specular.variance.rgb(pixel));
+    };
+    const double before = old_weight[0] + old_weight[1], added = pass.weight[0] + pass.weight[1];
+    const glm::dvec3 covariances = (glm::dvec3(image.variance.rgb(pixel)) - of_both()) * (before / (before + added));
+    merge(reference.specular, pixel, pass, old_weight);
+    image.variance.set_rgb(pixel, glm::vec3(max(of_both() + covariances, glm::dvec3(0.0))));
     for (const auto half : {&ReferenceOutput::half_a, &ReferenceOutput::half_b, &ReferenceOutput::mean})
-        (image.*half).set_rgb(pixel, (diffuse.*half).rgb(pixel) + (specular.*half).rgb(pixel) + highlight);
-    const glm::dvec3 variance =
-        glm::dvec3(diffuse.variance.rgb(pixel)) + glm::dvec3(specular.variance.rgb(pixel)) + 2.0 * covariance;
-    image.variance.set_rgb(pixel, glm::vec3(max(variance, glm::dvec3(0.0))));
-}
-
-/// Of the means of both that the pixel has now.
-glm::dvec3 covariance_of_both(const Reference& reference, size_t pixel) {
-    return 0.5 * (glm::dvec3(reference.image.variance.rgb(pixel)) - glm::dvec3(reference.diffuse.variance.rgb(pixel)) -
-                  glm::dvec3(reference.specular.variance.rgb(pixel)));
+        (image.*half)
+            .set_rgb(pixel, (diffuse.*half).rgb(pixel) + (specular.*half).rgb(pixel) + reference.highlights.rgb(pixel));
 }
 
 /// `batch_samples` in each batch, all with the diffuse light or all without.
@@ -173,9 +171,10 @@ PixelCost add_alike(Reference& reference, const PixelTracer& tracer, glm::uvec2 
     }
     reference.sample_count.values[pixel] += float(samples);
     if (is_lit_only) return cost;
-    const glm::dvec3 covariance = covariance_of_both(reference, pixel) * (samples_before / (samples_before + samples));
-    merge(reference.specular, pixel, means(specular), old_weight);
-    if (!has_diffuse) add_up(reference, pixel, covariance);
+    if (has_diffuse)
+        merge(reference.specular, pixel, means(specular), old_weight);
+    else
+        merge_specular_alone(reference, pixel, means(specular), old_weight);
 
     float* lobe_samples = &reference.lobe_samples.values[pixel * 2];
     const double old_lobe_weight[2] = {lobe_samples[0], lobe_samples[1]};

@@ -202,6 +202,10 @@ uint64_t sample_limit(const ReferenceSettings& settings) {
     return ends_otherwise ? max_sample_limit : uint64_t(ReferenceSettings::default_samples);
 }
 
+uint64_t lit_sample_limit(const ReferenceSettings& settings) {
+    return settings.lit_samples > 0 ? rounded_samples(settings.lit_samples) : 0;
+}
+
 bool can_be_extended(const ReferenceSettings& finished, const ReferenceSettings& wanted) {
     const uint64_t held = sample_limit(finished), limit = sample_limit(wanted);
     if ((finished.max_seconds > 0) != (wanted.max_seconds > 0) || held > limit) return false;

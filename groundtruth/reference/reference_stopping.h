@@ -10,6 +10,9 @@ uint64_t rounded_samples(double samples);
 /// Samples per pixel at which a render of these settings ends: what is set; else, if nothing else ends it, the default.
 uint64_t sample_limit(const ReferenceSettings& settings);
 
+/// Samples per pixel of the diffuse light at which it ends; 0: at those of the render.
+uint64_t lit_sample_limit(const ReferenceSettings& settings);
+
 /// Whether a render may begin with what a finished one of the same samples left. With a time limit it may, if the other
 /// had no more time, samples or precision to reach: counts depend on the clock there, so no bits are promised, and
 /// since no pixel's count depends on its own samples the result is as sound as if it had never stopped. Without a time

@@ -170,7 +170,7 @@ void measure_learning(benchmark::State& state, const std::string& scene, const L
 }
 
 /// From 256 samples, the median falling with the square root of the rays: at 192x108, without the guide's, and with a
-/// budget of the lit colour of its own, which the specular light does not wait for.
+/// budget of the lit colour of its own, which the specular light does not wait for. The median of three seeds.
 void measure_rays(benchmark::State& state, const std::string& name) {
     constexpr double wanted = 0.03;
     Scene scene;
@@ -182,11 +182,18 @@ void measure_rays(benchmark::State& state, const std::string& name) {
     const ScenePose pose = pose_scene(scene, 0);
     const CameraPose camera = pose_camera(scene.cameras.front(), pose, 0);
     for (auto _ : state) {
-        const Reference r = render_reference(scene, pose, camera, {192, 108}, {.max_samples = 256, .lit_samples = 16});
-        const double median = relative_error_summary(r, r.specular).median;
-        state.counters["median"] = median, state.counters["rays"] = r.rays;
-        state.counters["rays_to_3_percent"] = r.rays * std::pow(median / wanted, 2);
-        state.counters["rays_per_second"] = r.rays / r.seconds;
+        std::vector<double> needed;
+        double rays = 0, seconds = 0;
+        for (unsigned seed = 1; seed <= 3; ++seed) {
+            const Reference r = render_reference(scene, pose, camera, {192, 108},
+                                                 {.max_samples = 256, .lit_samples = 16, .seed = seed});
+            needed.push_back(r.rays * std::pow(relative_error_summary(r, r.specular).median / wanted, 2));
+            rays += r.rays, seconds += r.seconds;
+        }
+        std::ranges::sort(needed);
+        state.counters["rays_to_3_percent"] = needed[1];
+        state.counters["least"] = needed[0], state.counters["most"] = needed[2];
+        state.counters["rays_per_second"] = rays / seconds;
     }
 }
 

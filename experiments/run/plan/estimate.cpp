@@ -26,7 +26,8 @@ constexpr std::array<glm::uvec2, 3> calibration_extents = {glm::uvec2(64, 36), g
 using OfTwoSizes = std::array<double, 2>;
 using OfAllSizes = std::array<double, calibration_extents.size()>;
 constexpr unsigned few_samples = 32, many_samples = 128;
-/// Of a reference's time without its guide is that of its lit colour alone, and that of its specular light alone.
+/// Shares of a reference's time without its guide that its lit colour alone and its specular light alone take; of the
+/// rays of three rooms the latter has 0.46 to 0.54. Both trace the first hits.
 constexpr double lit_share = 0.6, specular_share = 0.5;
 constexpr double clock_proof_seconds = 5, compiling_seconds = 0.3, counting_factor = 5;
 

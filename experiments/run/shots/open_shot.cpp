@@ -1,5 +1,6 @@
 #include "experiments/run/shots/open_shot.h"
 
+#include "core/files.h"
 #include "core/gbuffer/gbuffer_transfer.h"
 #include "core/gpu/device.h"
 #include "experiments/measuring/reflection_probe.h"
@@ -10,6 +11,7 @@
 
 #include <cstdio>
 #include <map>
+#include <span>
 
 namespace {
 
@@ -152,6 +154,11 @@ void open_scene(Opening& opening, const ShotConfig& config) {
                                     note_reference(opening, reference, frame, use);
                                     return reference;
                                 });
+    if (open.probe) {
+        ContentHash hash;
+        hash.add(std::as_bytes(std::span(open.probe->latlong.values)));
+        open.truth.probe_hash = hash.hex();
+    }
 }
 
 /// A capture: measured if it comes with a reference, else only rendered and timed.

@@ -276,6 +276,34 @@ TEST(Effects, HoldWhatNoisyLightMayHaveAdded) {
     EXPECT_EQ(*noisy.p, 1.0);
 }
 
+/// Intervals of logarithms can have ends beyond all numbers, which no table can hold: they are left out.
+TEST(Effects, HaveNoEndsBeyondAllNumbers) {
+    constexpr int points = 20;
+    for (const double half_width : {600.0, 800.0}) {  // of the logarithm; e^709 is the largest number
+        std::vector<VariantConfig> variants = {{.variant = "v", .point = "base", .is_baseline = true}};
+        std::vector<ResultRow> rows;
+        for (unsigned seed = 0; seed < 3; ++seed) rows.push_back(row("0", "base", seed, "mse", 1 + 0.1 * seed));
+        for (int i = 0; i < points; ++i) {
+            variants.push_back({.variant = "v", .point = std::to_string(i)});
+            for (unsigned seed = 0; seed < 3; ++seed) {
+                rows.push_back(row("0", variants.back().point, seed, "mse", 1 + 0.1 * seed));
+                rows.back().lit_noise = 0, rows.back().lit_half_width = half_width * 1.1;  // the mean is 1.1
+            }
+        }
+        std::vector<EffectRow> effects = effects_of(rows, variants);
+        set_verdicts(effects, {.metric = "mse", .mask = "all", .target = "specular"});
+        ASSERT_EQ(effects.size(), size_t(points));
+        for (const EffectRow& e : effects) {
+            EXPECT_FALSE(e.low_holm || e.high_holm) << "the adjusted interval is wider: e^925";
+            EXPECT_EQ(e.high.has_value(), half_width < 700);
+            if (e.high) {
+                EXPECT_NEAR(std::log(*e.high), half_width, 0.01 * half_width) << "the 1.96 of the one and the other";
+                EXPECT_EQ(e.verdict, verdict::not_distinguishable);
+            }
+        }
+    }
+}
+
 TEST(Effects, NeedAValueOfEverySeed) {
     std::vector<ResultRow> rows;
     for (unsigned seed = 0; seed < 3; ++seed)

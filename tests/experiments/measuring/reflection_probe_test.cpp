@@ -6,6 +6,7 @@
 #include "tests/experiments/run/study_fixture.h"
 
 #include <random>
+#include <set>
 
 /// A sky without a mirror plane: any two axes that were exchanged or turned would show.
 TEST(ReflectionProbes, OfASkyAreThatSky) {
@@ -42,13 +43,24 @@ TEST_F(StudyTest, ReflectionsFallBackToAProbeWhereAsked) {
     for (const ResultRow& r : read_rows<ResultRow>(run(read_config(folder / "study.json"), "out") / "results.csv"))
         errors[r.shot.ends_with(".probe")] = *r.value;
     ASSERT_EQ(errors.size(), 2u);
-    EXPECT_LT(errors[true], 0.5 * errors[false]);
+    EXPECT_LT(errors[true], 0.5 * errors[false]) << "of a dark room whose one window shows a bright sky";
+    // Both shots have the same references: the probe alone distinguishes their cells, so that none of other pixels is
+    // merged.
+    std::set<std::string> truths;
+    for (const auto& file : fs::directory_iterator(folder / "out" / "cells"))
+        truths.insert(nlohmann::json::parse(read_text(file.path()))["cell"]["truth"].get<std::string>());
+    EXPECT_EQ(truths.size(), 2u);
     const auto refused = [&](const std::string& more) {
         write_text(folder / "study.json",
-                   R"({"shots": [{"scene": "dark_room", "fallback": "probe"}], "variants": [{"variant": "none"}], )" + more + "}");
+                   R"({"shots": [{"scene": "dark_room", "fallback": "probe"}], "variants": [{"variant": "none"}], )" +
+                       more + "}");
         return error_message([&] { read_config(folder / "study.json"); });
     };
     EXPECT_NE(refused(R"("targets": ["specular", "on_screen"])").find("falls back to the environment"),
               std::string::npos);
+    fs::create_directories(folder / "capture" / "frame_0");
+    write_text(folder / "study.json",
+               R"({"shots": [{"gbuffer": "capture", "fallback": "probe"}], "variants": [{"variant": "none"}]})");
+    EXPECT_NE(error_message([&] { read_config(folder / "study.json"); }).find("needs a scene"), std::string::npos);
     EXPECT_NE(refused(R"("lit": "direct")").find("needs path-traced light"), std::string::npos);
 }
