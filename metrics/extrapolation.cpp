@@ -87,6 +87,11 @@ NoiseGrowth noise_growth(const NoisierMaps& maps, const Mask& mask) {
     return growth;
 }
 
+std::optional<Extrapolated> extrapolated_mean(const NoiseGrowth& growth) {
+    if (growth.empty()) return {};
+    return extrapolated(totals(mean_columns(growth)));
+}
+
 MapInterval extrapolated_interval(const NoiseGrowth& growth) {
     if (growth.empty()) return {};
     const std::vector<std::vector<double>> columns = mean_columns(growth);

@@ -46,6 +46,9 @@ struct NoisierMaps {
 };
 NoiseGrowth noise_growth(const NoisierMaps& maps, const Mask& mask);
 
+/// The mean with and without the noise; none of an empty growth.
+std::optional<Extrapolated> extrapolated_mean(const NoiseGrowth& growth);
+
 struct MapInterval {
     std::optional<double> low, high;
 };
