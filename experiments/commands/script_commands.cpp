@@ -7,7 +7,7 @@
 #include "experiments/config/config.h"
 #include "experiments/config/config_parts.h"
 #include "experiments/config/config_schema.h"
-#include "experiments/evaluation/tradeoff.h"
+#include "experiments/evaluation/tradeoff/tradeoff.h"
 #include "experiments/store/host_info.h"
 #include "metrics/estimators.h"
 

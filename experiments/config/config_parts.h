@@ -12,7 +12,7 @@ Keys tune_keys();
 /// "tables" of the study, if it has any; `config`: what has been read of `study`.
 void check_tables(ConfigObject& study, const Config& config);
 
-/// An entry of `frozen`: which points stand for their techniques at a cost (evaluation/chosen_points.h).
+/// An entry of `frozen`: which points stand for their techniques at a cost (evaluation/tradeoff/chosen_points.h).
 Keys frozen_keys();
 void check_frozen(ConfigObject& study, const Config& config);
 

@@ -42,7 +42,7 @@ std::string writer_of(const nlohmann::json& manifest) {
 void write_evaluation(const std::filesystem::path& folder, const StudyRows& rows, const nlohmann::json& manifest,
                       const std::vector<VariantConfig>& variants, const PrimaryComparisons& primary) {
     const PointSet not_repeatable = points_not_repeatable(manifest);
-    std::vector<MetricSummary> errors = summarise(rows.results, points_without_seeds(manifest));
+    std::vector<MetricSummary> errors = summarise(rows.results, points_without_seeds(manifest), rows.reference_noise);
     // No interval holds how they scatter from run to run.
     for (MetricSummary& e : errors)
         if (not_repeatable.contains({e.variant, e.point})) e.holds_all_noise = false;
@@ -53,7 +53,7 @@ void write_evaluation(const std::filesystem::path& folder, const StudyRows& rows
         if (const auto floor = aa_floor(manifest, t.shot)) floors[t.shot] = *floor;
     const std::vector<TimeSummary> times = summarise(rows.times, floors);
     set_fronts(errors, times, rows.costs);
-    write_rows(folder / "over_scenes.csv", errors_over_scenes(errors, manifest));
+    write_rows(folder / "over_scenes.csv", errors_over_scenes(errors, manifest, variants));
     write_rows(folder / "time_summary.csv", times);
 
     std::vector<EffectRow> effects = paired_effects(rows.results, variants, not_repeatable, rows.reference_noise);

@@ -46,15 +46,34 @@ MeanOverScenes mean_of_scenes(std::span<const double> values) {
     return mean;
 }
 
+constexpr size_t laws = std::tuple_size_v<ScenesByLaw>;
+
+/// The mean of what was measured, with an interval and a p that hold by every law.
+MeanOverScenes mean_by_laws(const ScenesByLaw& values) {
+    MeanOverScenes found = mean_of_scenes(values.front());
+    for (size_t law = 1; law < laws; ++law) {
+        const MeanOverScenes other = mean_of_scenes(values[law]);
+        if (other.low) found.low = std::min(*found.low, *other.low), found.high = std::max(*found.high, *other.high);
+        if (other.p) found.p = std::max(found.p.value_or(0), *other.p);
+        if (found.p && other.value * found.value < 0) found.p = 1;
+    }
+    return found;
+}
+
 std::optional<double> exponential(const std::optional<double>& value) {
     return value ? std::optional(std::exp(*value)) : std::nullopt;
 }
 
-using Logarithms = std::map<size_t, double>;  // by the index of the shot
+using OfLaws = std::array<double, laws>;
+using Logarithms = std::map<size_t, OfLaws>;  // by the index of the shot
 
-std::vector<ShotValue> with_assets(const Logarithms& logarithms, std::span<const ShotErrors> shots) {
-    std::vector<ShotValue> values;
-    for (const auto& [shot, value] : logarithms) values.push_back({shots[shot].asset, value});
+ScenesByLaw over_scenes(const Logarithms& logarithms, std::span<const ShotErrors> shots) {
+    ScenesByLaw values;
+    for (size_t law = 0; law < laws; ++law) {
+        std::vector<ShotValue> of_shots;
+        for (const auto& [shot, of_laws] : logarithms) of_shots.push_back({shots[shot].asset, of_laws[law]});
+        values[law] = values_of(scene_means(of_shots));
+    }
     return values;
 }
 
@@ -72,7 +91,7 @@ std::vector<double> ranks(const std::vector<std::vector<double>>& of_points, std
 
 void set_ranks(const std::vector<OverScenes*>& points) {
     std::vector<std::vector<double>> of_points;
-    for (const OverScenes* point : points) of_points.push_back(point->logarithms);
+    for (const OverScenes* point : points) of_points.push_back(point->logarithms.front());
     const std::vector<double> places = ranks(of_points, {});
     for (size_t i = 0; i < points.size(); ++i) points[i]->rank = points[i]->rank_low = points[i]->rank_high = places[i];
     const size_t scenes = of_points.front().size();
@@ -94,10 +113,11 @@ void set_standings(std::vector<OverScenes>& points, OverScenes& first, std::span
         if (&point == &first) continue;
         Logarithms over_first;
         const Logarithms& of_first = logarithms.at({first.variant, first.point});
-        for (const auto& [shot, value] : logarithms.at({point.variant, point.point}))
-            if (const auto own = of_first.find(shot); own != of_first.end()) over_first[shot] = value - own->second;
+        for (const auto& [shot, of_laws] : logarithms.at({point.variant, point.point}))
+            if (const auto own = of_first.find(shot); own != of_first.end())
+                std::ranges::transform(of_laws, own->second, over_first[shot].begin(), std::minus());
         if (over_first.empty()) continue;
-        const MeanOverScenes mean = mean_over_scenes(with_assets(over_first, shots));
+        const MeanOverScenes mean = mean_by_laws(over_scenes(over_first, shots));
         point.over_best = std::exp(mean.value);
         point.over_best_low = exponential(mean.low), point.over_best_high = exponential(mean.high);
         if (mean.p) compared.push_back(&point), p.push_back(*mean.p);
@@ -180,6 +200,15 @@ MedianOverScenes median_over_scenes(std::vector<double> values) {
     return median;
 }
 
+MedianOverScenes median_over_scenes(const ScenesByLaw& values) {
+    MedianOverScenes found = median_over_scenes(values.front());
+    for (size_t law = 1; law < laws; ++law) {
+        const MedianOverScenes other = median_over_scenes(values[law]);
+        if (other.low) found.low = std::min(*found.low, *other.low), found.high = std::max(*found.high, *other.high);
+    }
+    return found;
+}
+
 double scenes_needed(double deviation) {
     constexpr double power = 0.8;
     const double effects = deviation / std::log1p(worth_deciding);  // deviations in one difference
@@ -200,7 +229,9 @@ std::vector<OverScenes> compare_over_scenes(std::span<const ShotErrors> shots, d
         if (!shots[i].divisor) continue;
         ++counted;
         for (const auto& [name, error] : shots[i].errors)
-            if (error > 0) logarithms[name][i] = std::log(error / *shots[i].divisor);
+            if (error.low() > 0)
+                std::ranges::transform(error.all(), shots[i].divisor->all(), logarithms[name][i].begin(),
+                                       [](double own, double divisor) { return std::log(own / divisor); });
     }
     const auto is_ranked = [&](const Logarithms& own) { return double(own.size()) >= (1 - lacking) * double(counted); };
     std::vector<size_t> common;
@@ -217,8 +248,8 @@ std::vector<OverScenes> compare_over_scenes(std::span<const ShotErrors> shots, d
             std::erase_if(own, [&](const auto& entry) { return std::ranges::count(common, entry.first) == 0; });
         }
         OverScenes& point = points.emplace_back(OverScenes{.variant = name.first, .point = name.second});
-        point.logarithms = values_of(scene_means(with_assets(own, shots)));
-        const MeanOverScenes mean = mean_of_scenes(point.logarithms);
+        point.logarithms = over_scenes(own, shots);
+        const MeanOverScenes mean = mean_by_laws(point.logarithms);
         point.scenes = mean.scenes, point.shots = own.size(), point.ratio = std::exp(mean.value);
         point.low = exponential(mean.low), point.high = exponential(mean.high);
     }
@@ -247,18 +278,20 @@ PointName baseline_over_scenes(const nlohmann::json& manifest) {
     return name_of(variants.front());
 }
 
-std::optional<double> divisor_of(std::span<const MetricSummary* const> errors, const PointName& baseline) {
+std::optional<Extrapolated> divisor_of(std::span<const MetricSummary* const> errors, const PointName& baseline) {
     double largest = -INFINITY;
     const MetricSummary* own = nullptr;
     for (const MetricSummary* e : errors) {
         largest = std::max(largest, *e->value);
         if (!own && PointName(e->variant, e->point) == baseline) own = e;
     }
-    if (!own || !own->low || !(*own->low > 0)) return {};
-    return *own->value > std::max(2 * own->floor.value_or(0), 1e-6 * largest) ? own->value : std::nullopt;
+    if (!own || !own->low || !(*own->low > 0) || !(own->extrapolated().low() > 0)) return {};
+    const bool is_measure = *own->value > std::max(2 * own->floor.value_or(0), 1e-6 * largest);
+    return is_measure ? std::optional(own->extrapolated()) : std::nullopt;
 }
 
-std::vector<OverScenesRow> errors_over_scenes(std::span<const MetricSummary> errors, const nlohmann::json& manifest) {
+std::vector<OverScenesRow> errors_over_scenes(std::span<const MetricSummary> errors, const nlohmann::json& manifest,
+                                              const std::vector<VariantConfig>& variants) {
     using ErrorName = std::tuple<std::string, std::string, std::string>;  // target, metric, mask
     std::vector<ErrorName> names;
     std::map<ErrorName, std::vector<std::pair<std::string, std::vector<const MetricSummary*>>>> of_error;  // by shot
@@ -276,19 +309,35 @@ std::vector<OverScenesRow> errors_over_scenes(std::span<const MetricSummary> err
     const PointName baseline = baseline_over_scenes(manifest);
     std::vector<OverScenesRow> rows;
     for (const ErrorName& name : names) {
-        std::vector<ShotErrors> shots;
+        std::vector<ShotErrors> shots, pairs;  // the latter with what uses scene data, too
         for (const auto& [shot, of_shot] : of_error[name]) {
             ShotErrors& own = shots.emplace_back(
                 ShotErrors{.asset = asset_of(manifest, shot), .divisor = divisor_of(of_shot, baseline), .errors = {}});
             for (const MetricSummary* e : of_shot)
-                if (e->counts_over_scenes() && !using_scene.contains({e->variant, e->point}))
-                    own.errors[{e->variant, e->point}] = *e->value;
+                if (e->counts_over_scenes()) own.errors[{e->variant, e->point}] = e->extrapolated();
+            pairs.push_back(own);
+            std::erase_if(own.errors, [&](const auto& error) { return using_scene.contains(error.first); });
         }
-        for (OverScenes& o : compare_over_scenes(shots, most_lacking)) {
+        const auto add = [&](OverScenes&& o, const PointName& divisor) {
             OverScenesRow& row = rows.emplace_back();
             static_cast<OverScenes&>(row) = std::move(o);
             std::tie(row.target, row.metric, row.mask) = name;
-            std::tie(row.baseline_variant, row.baseline_point) = baseline;
+            std::tie(row.baseline_variant, row.baseline_point) = divisor;
+        };
+        for (OverScenes& o : compare_over_scenes(shots, most_lacking)) add(std::move(o), baseline);
+        for (const PointComparison& c : comparisons_of(variants)) {
+            const PointName own(c.point->variant, c.point->point), other(c.baseline->variant, c.baseline->point);
+            if (c.against == baseline_name) continue;
+            std::vector<ShotErrors> of_pair;
+            for (const ShotErrors& shot : pairs) {
+                const auto a = shot.errors.find(own), b = shot.errors.find(other);
+                if (shot.divisor && a != shot.errors.end() && b != shot.errors.end() && b->second.low() > 0)
+                    of_pair.push_back({.asset = shot.asset, .divisor = b->second, .errors = {*a}});
+            }
+            for (OverScenes& o : compare_over_scenes(of_pair)) {
+                o.rank = o.rank_low = o.rank_high = std::nullopt;
+                add(std::move(o), other);
+            }
         }
     }
     return rows;

@@ -1,4 +1,5 @@
 #pragma once
+#include "experiments/config/comparisons.h"
 #include "experiments/evaluation/summary.h"
 
 #include <nlohmann/json.hpp>
@@ -38,12 +39,18 @@ std::optional<std::pair<double, double>> bootstrap_over_scenes(std::span<const d
 /// A point, or what else is compared by name.
 using PointName = std::pair<std::string, std::string>;  // variant, point
 
-/// One shot's errors of all that is compared over scenes.
+/// One shot's errors of all that is compared over scenes, with and without the reference's noise.
 struct ShotErrors {
     std::string asset;
-    std::optional<double> divisor;  ///< the baseline's error; none where it is no measure, and the shot counts for none
-    std::map<PointName, double> errors;
+    std::optional<Extrapolated> divisor;  ///< the baseline's; none where it is no measure, and the shot counts for none
+    std::map<PointName, Extrapolated> errors;
 };
+
+/// A value of each scene, as measured, and without the reference's noise by either law of its growth (Extrapolated).
+/// Which law holds is not known, but it is the same for all points and scenes: an interval is the hull of the three
+/// that each has by itself, and p the largest. What either law says is thus no part of the scatter over scenes, and
+/// does not shrink with their number.
+using ScenesByLaw = std::array<std::vector<double>, 3>;
 
 /// How many scenes like these show a difference of `worth_deciding` in the mean of logarithms of ratios that scatter by
 /// `deviation` (a standard deviation over scenes), with 80 % power at a significance of 5 % (two-sided, Student's t of
@@ -56,7 +63,7 @@ struct OverScenes {
     std::string variant, point;
     size_t scenes = 0, shots = 0;                     ///< in which it and the baseline have an error above 0
     double ratio = 1;                                 ///< geometric mean over scenes of error / the baseline's
-    std::optional<double> low, high;                  ///< its MeanOverScenes
+    std::optional<double> low, high;                  ///< its MeanOverScenes, by all laws
     std::optional<double> rank, rank_low, rank_high;  ///< 1: the least; ends with any one scene left out
     std::optional<double> over_best, over_best_low, over_best_high;  ///< error / that of the first rank
     std::optional<double> p_holm;  ///< of "over_best is 1", adjusted for all that is compared here
@@ -64,7 +71,7 @@ struct OverScenes {
     /// To tell it and the first rank apart where one errs worth_deciding more; ends by those of the deviation (95 %, of
     /// normal logarithms). None below least_scenes.
     std::optional<double> scenes_needed, scenes_needed_low, scenes_needed_high;
-    std::vector<double> logarithms = {};  ///< of the ratio in each scene
+    ScenesByLaw logarithms = {};  ///< of the ratio
 };
 
 /// By ascending rank, those without one last. Ranked, over the shots that they have in common, is what lacks at most
@@ -84,6 +91,7 @@ struct MedianOverScenes {
 };
 /// Fails with Error where there is no value.
 MedianOverScenes median_over_scenes(std::vector<double> values);
+MedianOverScenes median_over_scenes(const ScenesByLaw& values);
 
 /// The point that errors are given as multiples of: `none`, no screen-space reflections, where the study has it, else
 /// its first baseline, else its first point. Fails with Error where the manifest has no variants.
@@ -92,7 +100,7 @@ PointName baseline_over_scenes(const nlohmann::json& manifest);
 /// The baseline's error in a shot, to divide by; none where any error would be a huge multiple of it: it is not
 /// distinguishable from 0, is not twice what the reference's noise scores, or is below a millionth of the shot's
 /// largest, as rounding leaves it. `errors`: of that shot, by one target, metric and mask.
-std::optional<double> divisor_of(std::span<const MetricSummary* const> errors, const PointName& baseline);
+std::optional<Extrapolated> divisor_of(std::span<const MetricSummary* const> errors, const PointName& baseline);
 
 /// A row of over_scenes.csv.
 struct OverScenesRow : OverScenes {
@@ -115,5 +123,8 @@ struct OverScenesRow : OverScenes {
 };
 
 /// Of every error (target, metric, mask) for which less is better, the points that can be ranked in a shot
-/// (MetricSummary::counts_over_scenes()) and use no scene data, as multiples of baseline_over_scenes().
-std::vector<OverScenesRow> errors_over_scenes(std::span<const MetricSummary> errors, const nlohmann::json& manifest);
+/// (MetricSummary::counts_over_scenes()) and use no scene data, as multiples of baseline_over_scenes(). Then the points
+/// that the study compares with one that differs in a parameter (comparisons_of()), scene data or not, as multiples of
+/// that, over the shots that count for the former: without ranks.
+std::vector<OverScenesRow> errors_over_scenes(std::span<const MetricSummary> errors, const nlohmann::json& manifest,
+                                              const std::vector<VariantConfig>& variants = {});

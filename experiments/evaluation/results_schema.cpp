@@ -58,6 +58,8 @@ const std::map<std::string, Meaning>& meanings() {
         {"non_finite", {"pixel", "pixels of the result that are NaN or infinite"}},
         {"negative", {"pixel", "pixels of the result below zero"}},
         {"represents_shot", {"", "whether the row represents its shot"}},
+        {"value_of_power", {"", "value without the reference's noise, which grows as a power of its variance"}},
+        {"value_of_bounded", {"", "value without the reference's noise, which grows towards a bound"}},
         {"standing", {"", "best, tied or behind among the points of its shot; empty: not ranked"}},
         {"over_best", {"", "value over that of the best measured point of its shot, paired by seed"}},
         {"over_best_low", {"", "low end of its 95 % interval"}},

@@ -113,18 +113,34 @@ std::vector<std::vector<const Row*>> grouped(std::span<const Row> rows, KeyOf ke
 
 }  // namespace
 
-bool MetricSummary::counts_over_scenes() const {
-    const bool has_no_bias = is_corrected || floor == 0.0;
-    return value && ((holds_all_noise && low) || (interval == interval::one_seed && has_no_bias));
+Extrapolated MetricSummary::extrapolated() const {
+    return {*value, value_of_power.value_or(*value), value_of_bounded.value_or(*value)};
 }
 
-std::vector<MetricSummary> summarise(std::span<const ResultRow> rows, const PointSet& without_seeds) {
+bool MetricSummary::counts_over_scenes() const {
+    const bool has_known_bias = is_corrected || floor == 0.0 || value_of_power;
+    return value && ((holds_all_noise && low) || (interval == interval::one_seed && has_known_bias));
+}
+
+std::vector<MetricSummary> summarise(std::span<const ResultRow> rows, const PointSet& without_seeds,
+                                     std::span<const ReferenceNoise> noise) {
+    using Error = std::tuple<std::string, std::string, std::string, std::string, std::string, std::string, std::string>;
+    std::map<Error, Extrapolated> without_noise;
+    for (const ReferenceNoise& n : noise)
+        if (const auto mean = extrapolated_mean(n.growth))
+            without_noise[{n.shot, n.frame, n.variant, n.point, n.target, n.metric, n.mask}] = *mean;
     std::vector<MetricSummary> summaries;
     const auto key = [](const ResultRow& r) {
         return std::tie(r.shot, r.frame, r.variant, r.point, r.target, r.metric, r.formula, r.mask);
     };
-    for (const auto& group : grouped(rows, key))
-        summaries.push_back(summary_of(group, !without_seeds.contains({group.front()->variant, group.front()->point})));
+    for (const auto& group : grouped(rows, key)) {
+        const ResultRow& first = *group.front();
+        MetricSummary& s =
+            summaries.emplace_back(summary_of(group, !without_seeds.contains({first.variant, first.point})));
+        const auto found = without_noise.find({s.shot, s.frame, s.variant, s.point, s.target, s.metric, s.mask});
+        if (found != without_noise.end())
+            s.value_of_power = found->second.of_power, s.value_of_bounded = found->second.of_bounded;
+    }
     return summaries;
 }
 

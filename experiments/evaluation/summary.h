@@ -22,6 +22,9 @@ struct MetricSummary {
     std::optional<double> floor;           ///< what the reference's own noise scores
     std::optional<double> lit_noise;       ///< what the noise of the lit colour adds to the value (LitNoise)
     bool is_corrected = false;
+    /// `value` without the reference's noise, by either law of its growth (Extrapolated); none of errors that are freed
+    /// of it, and where it is not known.
+    std::optional<double> value_of_power, value_of_bounded;
     size_t pixels = 0, non_finite = 0, negative = 0;  ///< the last two are the worst seed's
     bool represents_shot = false;                     ///< see mark_representative_rows()
     std::string standing = {};  ///< among the points of its shot, see evaluation/standings.h; empty: not ranked
@@ -30,8 +33,11 @@ struct MetricSummary {
     std::string fronts = {};       ///< the costs against which the point is on the front, see set_fronts()
     std::string dominated = {};    ///< whether another point of the shot surely beats it, see set_dominated()
 
-    /// Whether it is one draw of what scenes are compared by: an estimate without bias, of however few seeds. How seeds
-    /// scatter is then part of how scenes do.
+    /// `value` with and without the reference's noise: three times the same where that is no part of it.
+    Extrapolated extrapolated() const;
+
+    /// Whether it is one draw of what scenes are compared by: an estimate without bias, or with one that extrapolated()
+    /// bounds, of however few seeds. How seeds scatter is then part of how scenes do.
     bool counts_over_scenes() const;
 
     static constexpr auto columns() {
@@ -45,10 +51,11 @@ struct MetricSummary {
             Column{"interval", &MetricSummary::interval}, Column{"ranked", &MetricSummary::holds_all_noise},
             Column{"seed_deviation", &MetricSummary::seed_deviation}, Column{"floor", &MetricSummary::floor},
             Column{"lit_noise", &MetricSummary::lit_noise}, Column{"corrected", &MetricSummary::is_corrected},
-            Column{"pixels", &MetricSummary::pixels}, Column{"non_finite", &MetricSummary::non_finite},
-            Column{"negative", &MetricSummary::negative}, Column{"represents_shot", &MetricSummary::represents_shot},
-            Column{"standing", &MetricSummary::standing}, Column{"over_best", &MetricSummary::over_best},
-            Column{"over_best_low", &MetricSummary::over_best_low},
+            Column{"value_of_power", &MetricSummary::value_of_power},
+            Column{"value_of_bounded", &MetricSummary::value_of_bounded}, Column{"pixels", &MetricSummary::pixels},
+            Column{"non_finite", &MetricSummary::non_finite}, Column{"negative", &MetricSummary::negative},
+            Column{"represents_shot", &MetricSummary::represents_shot}, Column{"standing", &MetricSummary::standing},
+            Column{"over_best", &MetricSummary::over_best}, Column{"over_best_low", &MetricSummary::over_best_low},
             Column{"over_best_high", &MetricSummary::over_best_high}, Column{"p_best", &MetricSummary::p_best},
             Column{"fronts", &MetricSummary::fronts}, Column{"dominated", &MetricSummary::dominated});
     }
@@ -61,8 +68,9 @@ struct MetricSummary {
 /// rest. Points in `without_seeds` do not depend on seeds: the reference's noise is all of their interval. Of the
 /// others a single seed has none. Where the noise of the lit colour is known, what it leaves of the value joins, too,
 /// and the lower end reaches down by what it adds: `value` still holds that, as it may be less. Intervals of errors end
-/// at 0.
-std::vector<MetricSummary> summarise(std::span<const ResultRow> rows, const PointSet& without_seeds = {});
+/// at 0. `noise`, of these rows' points, tells the values without it.
+std::vector<MetricSummary> summarise(std::span<const ResultRow> rows, const PointSet& without_seeds = {},
+                                     std::span<const ReferenceNoise> noise = {});
 
 /// One stage of one variant point: the median over the measured frames of all seeds of its time in a frame, with its
 /// median_interval().

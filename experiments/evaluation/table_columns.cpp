@@ -4,9 +4,10 @@
 #include "core/near_miss.h"
 #include "experiments/config/extends.h"
 #include "experiments/evaluation/effects.h"
+#include "experiments/evaluation/over_scenes.h"
 #include "experiments/evaluation/summary.h"
 #include "experiments/evaluation/time_effects.h"
-#include "experiments/evaluation/tradeoff.h"
+#include "experiments/evaluation/tradeoff/tradeoff.h"
 #include "experiments/measuring/cell.h"
 #include "metrics/metric.h"
 #include "metrics/temporal.h"
@@ -46,6 +47,7 @@ const std::map<std::string, Source>& sources() {
         {"costs", alike(columns_of<CostRow>())},
         {"at_cost", alike(columns_of<AcrossRow>())},
         {"changes", alike(columns_of<ChangeRow>({"quantity", "value", "low", "high"}))},
+        {"over_scenes", alike(columns_of<OverScenesRow>())},
         {"agreement", {columns_of<MetricSummary>(), {"shot", "metric", "against", "value"}}},
         {"eye", {columns_of<MetricSummary>(), {"shot", "pair", "metric", "what", "value"}}}};
     return all;

@@ -26,7 +26,9 @@ SOURCES = {  # name to (file, columns of value, low and high)
     "eye": ("summary.csv", ("value", "low", "high")),  # ... with people: agreement.py
     "at_cost": (tradeoff.ACROSS, ("ratio", "low", "high")),  # answers of `ssrlab tradeoff`, over scenes, and ...
     "changes": (tradeoff.CHANGES, ("value", "low", "high")),  # ... what a change buys: see _change_rows()
+    "over_scenes": ("over_scenes.csv", ("ratio", "low", "high")),
 }
+OVER_SCENES = ("at_cost", "over_scenes")  # whose cells are means over scenes already
 NOT_SHARES = ("fetches", "fetches: median", "fetches: 90 %", "fetches: most", "distance_error")  # of hits.csv; all its other quantities are
 NAMING = ("shot", "frame", "variant", "point", "against", "against_variant", "against_point", "target", "metric", "mask", "stage", "quantity", "clock")
 GROUPS = {  # what rows, columns and means are by, beside the columns of a file
@@ -170,7 +172,7 @@ def _cell(selection, row, name):
         is_significant=row.get("verdict") in ("less", "more"),
         seeds=seeds,
         interval=row.get("interval") or None,
-        mean_of=whole(row, "scenes") if table.of == "at_cost" else None,
+        mean_of=whole(row, "scenes") if table.of in OVER_SCENES else None,
         clock=_clock(selection, row) if row.get("clock") else None,
         disturbed_share=largest(shares),
         is_share=is_share,
@@ -222,7 +224,7 @@ def _most_parts(selection):
 def _about(selection, filled):
     """What is said of a table beside its cells; `filled`: the rows that have a value."""
     table, over = selection.table, selection.table.over
-    if table.of == "at_cost":
+    if table.of in OVER_SCENES:
         over, count = "scene", len({s["scene"] for s in selection.shots})
     else:
         count = _most_parts(selection) if over else None

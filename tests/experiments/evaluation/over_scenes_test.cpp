@@ -16,9 +16,11 @@ std::vector<ShotErrors> shots_of(const std::vector<std::vector<double>>& of_poin
     std::vector<ShotErrors> shots;
     for (size_t i = 0; i < of_points.front().size(); ++i) {
         ShotErrors& shot =
-            shots.emplace_back(ShotErrors{.asset = "scene " + std::to_string(i), .divisor = 1.0, .errors = {}});
-        for (size_t p = 0; p < of_points.size(); ++p)
-            shot.errors[{std::string(1, char('a' + p)), ""}] = std::exp(of_points[p][i]);
+            shots.emplace_back(ShotErrors{.asset = "scene " + std::to_string(i), .divisor = {{1, 1, 1}}, .errors = {}});
+        for (size_t p = 0; p < of_points.size(); ++p) {
+            const double error = std::exp(of_points[p][i]);
+            shot.errors[{std::string(1, char('a' + p)), ""}] = {error, error, error};
+        }
     }
     return shots;
 }
@@ -162,7 +164,8 @@ TEST(OverScenes, VerdictsAreThoseOfClosedTesting) {
         for (size_t i = 1; i < rows.size(); ++i) {
             std::vector<ShotValue> differences;
             for (size_t scene = 0; scene < 6; ++scene)
-                differences.push_back({std::to_string(scene), rows[i].logarithms[scene] - rows[0].logarithms[scene]});
+                differences.push_back(
+                    {std::to_string(scene), rows[i].logarithms[0][scene] - rows[0].logarithms[0][scene]});
             p.push_back(*mean_over_scenes(differences).p);
             EXPECT_NEAR(*rows[i].over_best, rows[i].ratio / rows[0].ratio, 1e-12 * *rows[i].over_best);
         }
@@ -202,12 +205,16 @@ TEST(OverScenes, DivisorsAreNoNoise) {
         const MetricSummary* errors[] = {&base, &large};
         return divisor_of(errors, {"none", "default"});
     };
-    EXPECT_EQ(divisor(), 1.0);
+    EXPECT_EQ(divisor()->own, 1);
     base.floor = 0.5;  // not twice what the reference's noise scores
     EXPECT_FALSE(divisor());
     base.floor = 0.4, base.low = 0;
     EXPECT_FALSE(divisor());
-    base.low = 0.9, large.value = 2e6;
+    base.low = 0.9, base.value_of_power = 0, base.value_of_bounded = 0.8;  // all of it may be noise
+    EXPECT_FALSE(divisor());
+    base.value_of_power = 0.7;
+    EXPECT_EQ(divisor()->of_power, 0.7);
+    large.value = 2e6;
     EXPECT_FALSE(divisor());
 }
 
@@ -252,6 +259,23 @@ TEST(OverScenes, EveryErrorHasItsRows) {
     EXPECT_EQ(rows[1].baseline_variant, "none");
     EXPECT_NEAR(*rows[1].over_best, 2, 1e-12);
 
+    // What is compared with a point that differs in a parameter stands behind those, scene data or not.
+    std::vector<VariantConfig> variants(2);
+    variants[0].variant = variants[1].variant = "half", variants[0].point = "default", variants[1].point = "exact";
+    variants[1].against = {{"p", 1}}, variants[1].against_point = "default";
+    std::vector<MetricSummary> of_pair = errors;
+    for (MetricSummary& e : of_pair)
+        if (e.variant == "exact") e.variant = "half", e.point = "exact";
+    nlohmann::json of_exact = manifest;
+    of_exact["variants"][1]["variant"] = "half", of_exact["variants"][1]["point"] = "exact";
+    const std::vector<OverScenesRow> with_pair = errors_over_scenes(of_pair, of_exact, variants);
+    ASSERT_EQ(with_pair.size(), 3u);
+    EXPECT_EQ(with_pair[2].point, "exact");
+    EXPECT_EQ(with_pair[2].baseline_point, "default");
+    EXPECT_NEAR(with_pair[2].ratio, 0.2, 1e-12);
+    EXPECT_EQ(with_pair[2].scenes, 3u);
+    EXPECT_FALSE(with_pair[2].rank);
+
     // One seed has no interval in a shot, but counts over scenes, if the reference's noise is no part of its value.
     for (MetricSummary& e : errors)
         if (e.variant == "half")
@@ -260,4 +284,69 @@ TEST(OverScenes, EveryErrorHasItsRows) {
     for (MetricSummary& e : errors)
         if (e.variant == "half") e.is_corrected = false;
     EXPECT_EQ(errors_over_scenes(errors, manifest).size(), 1u);
+    // Or if it is known how large a part it may be.
+    for (MetricSummary& e : errors) {
+        e.value_of_power = *e.value - 0.4, e.value_of_bounded = *e.value - 0.1;
+        if (e.variant == "exact") e.value_of_power = e.value_of_bounded = e.value;
+    }
+    nlohmann::json of_four_assets = manifest;
+    of_four_assets.erase("shots");
+    const OverScenesRow half = errors_over_scenes(errors, of_four_assets).front();
+    ASSERT_TRUE(half.low && half.high);
+    EXPECT_EQ(half.variant, "half");
+    EXPECT_NEAR(half.ratio, 0.5, 1e-12);
+    EXPECT_NEAR(*half.low, 0.1 / 0.6, 1e-12);
+    EXPECT_NEAR(*half.high, 0.5, 1e-12);
+}
+
+/// Measured errors hold noise that grows by one of two laws, and another one in each technique. Without the hull the
+/// interval of the mean over 40 scenes holds the truth in none of the trials; with it, in 95 % of 400 at the least: 17
+/// misses more than 20 are seen in one of 10^4 runs.
+TEST(OverScenes, IntervalsHoldTheRatioWithoutTheReferencesNoise) {
+    std::mt19937 random(11);
+    std::normal_distribution<double> of_scene(0, 0.5), of_pair(std::log(0.8), 0.1);
+    std::uniform_real_distribution<double> noise(0.1, 0.3);
+    for (const bool is_of_power : {true, false}) {
+        unsigned held = 0, naive = 0;
+        double p = 0;
+        for (unsigned trial = 0; trial < 400; ++trial) {
+            std::vector<ShotErrors> shots;
+            for (unsigned i = 0; i < 40; ++i) {
+                const double base = std::exp(of_scene(random)), error = base * std::exp(of_pair(random));
+                // a: v^p with p = 0.6; b: -b / (c + v) with c = 4.
+                const auto measured = [&](double truth, double grown) {
+                    const auto at = [&](double v) {
+                        return truth * (1 + grown * (is_of_power ? std::pow(v, 0.6) : 5 * (0.25 - 1 / (4 + v))));
+                    };
+                    return without_noise(at(1), at(2), at(4));
+                };
+                const Extrapolated of_base = measured(base, noise(random)),
+                                   of_error = measured(error, 3 * noise(random));
+                shots.push_back({.asset = std::to_string(i),
+                                 .divisor = of_base,
+                                 .errors = {{{"a", ""}, of_error}, {{"base", ""}, of_base}}});
+            }
+            const auto found = by_name(compare_over_scenes(shots));
+            const OverScenes& a = found.at("a");
+            held += *a.low <= 0.8 && 0.8 <= *a.high;
+            std::vector<ShotValue> values;
+            for (const double v : a.logarithms.front()) values.push_back({std::to_string(values.size()), v});
+            const MeanOverScenes of_measured = mean_over_scenes(values);
+            naive += std::exp(*of_measured.low) <= 0.8 && 0.8 <= std::exp(*of_measured.high);
+            p = found.at("base").rank == 1 ? *a.p_holm : *found.at("base").p_holm;
+        }
+        EXPECT_EQ(naive, 0u);
+        EXPECT_GE(held, 400u - 37u) << is_of_power;
+        EXPECT_GT(p, 0) << is_of_power;
+    }
+}
+
+TEST(OverScenes, LawsThatDisagreeDecideNothing) {
+    std::vector<ShotErrors> shots = shots_of({{1, 1.01, 0.99, 1}, {0, 0, 0, 0}});
+    for (ShotErrors& shot : shots) shot.errors[{"a", ""}].of_power = std::exp(-1);
+    const auto found = by_name(compare_over_scenes(shots));
+    EXPECT_EQ(found.at("a").p_holm, 1);
+    EXPECT_EQ(found.at("a").standing, standing::tied);
+    EXPECT_LT(*found.at("a").low, 0.4);
+    EXPECT_GT(*found.at("a").high, 2.7);
 }

@@ -1,9 +1,11 @@
 #include "experiments/evaluation/table_columns.h"
 
 #include "core/files.h"
+#include "experiments/config/config_parts.h"
 #include "tests/error_message.h"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 namespace fs = std::filesystem;
 
@@ -12,9 +14,10 @@ namespace {
 const fs::path source = SSRLAB_SOURCE_DIR, file = fs::path(testing::TempDir()) / "table_columns.json";
 
 std::string mistake_in(const std::string& table) {
-    write_text(file, R"({"shots": [{"scene": "fence"}], "variants": [{"variant": "mcguire_dda"}], "hits": {},
+    write_text(file,
+               R"({"shots": [{"scene": "fence"}], "variants": [{"variant": "mcguire_dda"}], "hits": {}, "costs": true,
  "tables": [{"name": "a", "caption": "", )" +
-                         table + "}]}");
+                   table + "}]}");
     const std::string message = error_message([] { check_table_columns(read_config(file)); });
     return message.starts_with(file.string()) ? message.substr(file.string().size()) : message;
 }
@@ -38,6 +41,17 @@ TEST(TableColumns, AreThoseOfTheFilesOrParameters) {
     EXPECT_NE(mistake_in(R"("of": "times")" + rest).find("'metric' is neither"), std::string::npos);
     EXPECT_EQ(mistake_in(R"("of": "results", "where": {"mask": "!all", "dda.stride": [1, 2]}, "over": "shot")" + rest),
               "no error");
+}
+
+TEST(TableColumns, AreKnownOfAllThatTablesAreOf) {
+    const Keys keys = table_keys();
+    const auto& sources = std::ranges::find(keys, "of", &Key::name)->values.schema.at("enum");
+    EXPECT_GT(sources.size(), 10u);
+    for (const std::string source_name : sources) {
+        const std::string mistake =
+            mistake_in(R"("columns": "shot", "rows": "no column", "of": ")" + source_name + "\"");
+        EXPECT_NE(mistake.find("neither a column"), std::string::npos) << source_name << ": " << mistake;
+    }
 }
 
 TEST(TableColumns, AreRightInAllConfigs) {

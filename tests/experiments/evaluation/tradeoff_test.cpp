@@ -1,5 +1,5 @@
 // Error against cost: the point that stands for a technique, the front, and what changes are worth, of made-up tables.
-#include "experiments/evaluation/tradeoff.h"
+#include "experiments/evaluation/tradeoff/tradeoff.h"
 
 #include "experiments/evaluation/interval.h"
 #include "tests/error_message.h"

@@ -27,7 +27,7 @@ PRESETS = {"none": (0.2, 8.0), "v:rays=1": (4.0, 2.0), "v:rays=2": (8.0, 1.0), "
 
 
 COLUMNS = {  # of the files that ssrlab reads, which refuses those that lack one
-    "summary.csv": "shot,frame,variant,point,target,metric,formula,mask,seeds,value,low,high,interval,ranked,seed_deviation,floor,lit_noise,corrected,pixels,non_finite,negative,represents_shot,standing,over_best,over_best_low,over_best_high,p_best,fronts,dominated",
+    "summary.csv": "shot,frame,variant,point,target,metric,formula,mask,seeds,value,low,high,interval,ranked,seed_deviation,floor,lit_noise,corrected,value_of_power,value_of_bounded,pixels,non_finite,negative,represents_shot,standing,over_best,over_best_low,over_best_high,p_best,fronts,dominated",
     "results.csv": "shot,scene,camera,frame,width,height,variant,point,seed,target,metric,formula,mask,value,corrected,uncorrected,low,high,floor,lit_noise,lit_half_width,pixels,non_finite,negative,represents_shot",
     "times.csv": "shot,variant,point,seed,stage,frame,milliseconds,clock,foreign_load,disturbed",
     "time_summary.csv": "shot,variant,point,stage,clock,frames,median_ms,low_ms,high_ms,fits_from_ms,may_fit_from_ms,disturbed_share",
@@ -80,7 +80,8 @@ def write_study(folder):
         compared = {"shot": a_shot, "variant": "v", "point": "rays=2", "against_variant": "v", "against_point": "rays=1", "target": "specular"}
         effects.append(compared | {"metric": "mse", "mask": "reflective", "ratio": 0.5, "low": 0.49, "high": 0.51, "p_holm": 0.001, "low_holm": 0.48, "high_holm": 0.52, "verdict": "less"})
     write_csv(folder, "summary.csv", errors)
-    write_csv(folder, "over_scenes.csv", [])  # tradeoff compares anew, by its own baseline and shots
+    over_scenes = {"target": "specular", "metric": "mse", "mask": "all", "variant": "v", "point": "rays=1", "scenes": 3, "ratio": 0.25, "low": 0.2, "high": 0.3}
+    write_csv(folder, "over_scenes.csv", [over_scenes])  # tradeoff compares anew, by its own baseline and shots
     write_csv(folder, "results.csv", errors)
     write_csv(folder, "times.csv", times)
     medians = [own_times(s, *keys[name], 1.01 * ms) for s in shots for name, (ms, _) in PRESETS.items()]
@@ -186,6 +187,8 @@ class Folder(unittest.TestCase):
         self.assertAlmostEqual(changes["rays: 1 -> 2", "error"].value, 0.5)
         self.assertAlmostEqual(changes["rays: 1 -> 2", "cost"].value, 4.04)
         self.assertIsNone(changes["rays: 1 -> 2", "cost per % of error"].value, "two scenes are too few to give it")
+        _, over_scenes = cells_of(Results(self.folder), Table({"name": "t", "caption": "", "of": "over_scenes", "rows": ["variant", "point"], "columns": "mask"}))
+        self.assertEqual([(c.row, c.column, c.value, c.low, c.high, c.mean_of) for c in over_scenes], [("v, rays=1", "all", 0.25, 0.2, 0.3, 3)])
         # What was answered of other errors is none of these.
         summary = os.path.join(self.folder, "summary.csv")
         with open(summary, encoding="utf-8") as stream:

@@ -1,6 +1,6 @@
 #pragma once
-#include "experiments/evaluation/chosen_points.h"
 #include "experiments/evaluation/pairs.h"
+#include "experiments/evaluation/tradeoff/chosen_points.h"
 
 inline constexpr const char* unit_of_times = "ms";
 

@@ -1,9 +1,9 @@
-#include "experiments/evaluation/tradeoff.h"
+#include "experiments/evaluation/tradeoff/tradeoff.h"
 
 #include "core/error.h"
 #include "experiments/evaluation/standings.h"
 #include "experiments/evaluation/study_points.h"
-#include "experiments/evaluation/tradeoff_shots.h"
+#include "experiments/evaluation/tradeoff/tradeoff_shots.h"
 
 #include <algorithm>
 #include <cmath>
@@ -189,7 +189,8 @@ std::vector<AcrossRow> across_of(const Contest& contest, double lacking, const L
         const TradeoffShot& shot = *contest.shots[i];
         assets.insert(shot.asset);
         ShotErrors& own = errors.emplace_back(ShotErrors{.asset = shot.asset, .divisor = shot.divisor, .errors = {}});
-        for (const auto& [name, point] : contest.stands_for[i]) own.errors[name] = *shot.find(point)->row.error;
+        for (const auto& [name, point] : contest.stands_for[i])
+            own.errors[name] = shot.find(point)->error->extrapolated();
     }
     std::vector<AcrossRow> rows;
     for (OverScenes& o : compare_over_scenes(errors, lacking)) {
@@ -199,7 +200,7 @@ std::vector<AcrossRow> across_of(const Contest& contest, double lacking, const L
         const MedianOverScenes median = median_over_scenes(row.logarithms);
         row.median = std::exp(median.value);
         if (median.low) row.median_low = std::exp(*median.low), row.median_high = std::exp(*median.high);
-        if (const auto ends = bootstrap_over_scenes(row.logarithms))
+        if (const auto ends = bootstrap_over_scenes(row.logarithms.front()))
             row.bootstrap_low = std::exp(ends->first), row.bootstrap_high = std::exp(ends->second);
         count_wins(row, contest, less);
     }
@@ -299,7 +300,7 @@ Tradeoff tradeoff_of(const StudyTables& tables, const TradeoffQuestion& question
         std::vector<const MetricSummary*> errors;
         for (const TradeoffPoint& p : shot.points) errors.push_back(p.error);
         shot.divisor = divisor_of(errors, found.baseline);
-        found.divisors.emplace_back(shot.name, shot.divisor);
+        found.divisors.emplace_back(shot.name, shot.divisor ? std::optional(shot.divisor->own) : std::nullopt);
         judge_front(shot, dominates[shot.name], using_scene);
         for (const TradeoffPoint& p : shot.points) found.front.push_back(p.row);
     }

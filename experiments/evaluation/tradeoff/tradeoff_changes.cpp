@@ -1,4 +1,4 @@
-#include "experiments/evaluation/tradeoff.h"
+#include "experiments/evaluation/tradeoff/tradeoff.h"
 #include "metrics/quantiles.h"
 #include "metrics/statistics.h"
 

@@ -1,7 +1,7 @@
-#include "experiments/evaluation/chosen_points.h"
+#include "experiments/evaluation/tradeoff/chosen_points.h"
 
 #include "core/json_types.h"
-#include "experiments/evaluation/tradeoff_shots.h"
+#include "experiments/evaluation/tradeoff/tradeoff_shots.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ std::string fits(const TradeoffPoint& point, double cost) {
 double mean_elsewhere(const PointName& name, const std::vector<const TradeoffShot*>& shots) {
     std::vector<ShotValue> logarithms;
     for (const TradeoffShot* shot : shots)
-        logarithms.push_back({shot->asset, std::log(*shot->find(name)->row.error / *shot->divisor)});
+        logarithms.push_back({shot->asset, std::log(*shot->find(name)->row.error / shot->divisor->own)});
     return mean_over_scenes(logarithms).value;
 }
 

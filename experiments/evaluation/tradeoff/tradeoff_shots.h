@@ -1,7 +1,7 @@
 #pragma once
-#include "experiments/evaluation/chosen_points.h"
 #include "experiments/evaluation/over_scenes.h"
-#include "experiments/evaluation/tradeoff.h"
+#include "experiments/evaluation/tradeoff/chosen_points.h"
+#include "experiments/evaluation/tradeoff/tradeoff.h"
 
 // The shots of a study as tradeoff.cpp and chosen_points.cpp share them.
 
@@ -15,12 +15,12 @@ struct TradeoffPoint {
     /// Whether it can stand for its variant at a cost: in many scenes one seed in each is enough.
     bool can_be_chosen() const { return !uses_scene_data && has_error() && row.cost && *row.cost > 0; }
     /// Whether others can be chosen by it.
-    bool has_error() const { return error->counts_over_scenes() && *error->value > 0; }
+    bool has_error() const { return error->counts_over_scenes() && error->extrapolated().low() > 0; }
 };
 
 struct TradeoffShot {
     std::string name, scene, asset, group, machine;
-    std::optional<double> divisor;
+    std::optional<Extrapolated> divisor;
     std::vector<TradeoffPoint> points;
     bool is_timed() const { return std::ranges::any_of(points, &TradeoffPoint::can_be_chosen); }
     const TradeoffPoint* find(const PointName& name) const {
