@@ -125,11 +125,11 @@ class Answers:
         for variant in dict.fromkeys(r["variant"] for r in self._rows_at(machine, cost)):
             own = [next((r for r in of_group[g] if r["variant"] == variant), None) for g in groups]
             cells.append((variant, *(r and f"{self._place(r)}{measured(r['ratio'], r['low'], r['high'])}; {number(r['median'])}" or "" for r in own)))
-        return ["", f"In each group (scenes): error / {self.base}, geometric mean with its interval, then the median. **Best or tied**: not distinguishable from the least.", "", *table(head, cells)]
+        return ["", f"In each group (scenes): error / {self.base}, geometric mean with its interval, then the median. Best or tied: not distinguishable from the least.", "", *table(head, cells)]
 
     @staticmethod
     def _place(row):
-        return "**best or tied** " if row["standing"] in ("best", "tied") else ""
+        return "best or tied: " if row["standing"] in ("best", "tied") else ""
 
     def _short(self, machine, cost):
         rows = self._rows_at(machine, cost)
