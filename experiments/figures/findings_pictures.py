@@ -85,6 +85,16 @@ def budgets():
     )
 
 
+def rooms():
+    panels = []
+    for table, titles in (("at_time", {f"{t} ms": f"within {t} ms" for t in (5, 10, 20, 40)}), ("by_place", {})):
+        cells = grid("rooms", table)
+        for column in titles or dict.fromkeys(c for _, c in cells):
+            marks = [(p, [technique_mark(p, cells[p, column])] if (p, column) in cells else []) for p in TECHNIQUES]
+            panels.append(Panel(titles.get(column, f"40 ms: {column}"), marks, 1.0))
+    return Picture(panels, "FLIP over that of no reflections but the probe's, 95 % intervals", columns=4, is_log=False, extra={"xlim": (0.5, 1.15)})
+
+
 def metrics():
     cells = grid("comparison", "eye")
     rows = [(row, [Mark("", style.COLORS[0], "o", c)]) for (row, _), c in sorted(cells.items(), key=lambda item: -item[1].value)]
@@ -245,7 +255,7 @@ def traced_environment():
     return Picture(panels, "error over that of no reflections, 95 % intervals; with and without the environment's reflections in the traced image", columns=4)
 
 
-PICTURES = {p.__name__: p for p in (techniques, budgets, metrics, causes, limit, third_party, traced_environment, corrections, estimators, march, thickness, temporal, fragments, resolution)}
+PICTURES = {p.__name__: p for p in (techniques, budgets, rooms, metrics, causes, limit, third_party, traced_environment, corrections, estimators, march, thickness, temporal, fragments, resolution)}
 
 
 def save(name, folder):

@@ -226,6 +226,8 @@ def _about(selection, filled):
     table, over = selection.table, selection.table.over
     if table.of in OVER_SCENES:
         over, count = "scene", len({s["scene"] for s in selection.shots})
+        if "group" in (*table.rows, *table.columns) and all(r["scenes"] == r["of_scenes"] for r in filled):
+            count = None  # each cell has all scenes of its group
     else:
         count = _most_parts(selection) if over else None
     shots = [s for s in selection.shots if any(r.get("shot") in (None, "", s["shot"]) for r in filled)]  # without one: over all

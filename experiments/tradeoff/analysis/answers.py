@@ -36,6 +36,11 @@ def table(head, rows):
     return lines + ["| " + " | ".join(markdown_text(c) for c in row) + " |" for row in rows] + [""]
 
 
+def where(machine):
+    """The beginning of a sentence; frozen points need no times, and so no machine."""
+    return markdown_text(machine[0].upper() + machine[1:] if machine.startswith("not timed") else f"On {machine}")
+
+
 class Answers:
     def __init__(self, analysis):
         self.analysis, self.study = analysis, analysis.study
@@ -99,7 +104,7 @@ class Answers:
     def _at_costs(self):
         lines = []
         for machine in self.analysis.machines():
-            lines += [f"## Which technique at which {'time' if self.unit == 'ms' else 'cost'}", "", f"On {markdown_text(machine)}, over scenes. {self._who_stands()}".rstrip(), ""]
+            lines += [f"## Which technique at which {'time' if self.unit == 'ms' else 'cost'}", "", f"{where(machine)}, over scenes. {self._who_stands()}".rstrip(), ""]
             lines += table((self.unit, "least error", f"error / {self.base}", "not distinguishable from it"), [self._short(machine, c) for c in self.analysis.costs])
             for cost in self.analysis.costs:
                 lines += self._at_cost(machine, cost)
