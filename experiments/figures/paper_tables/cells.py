@@ -243,7 +243,7 @@ def _about(selection, filled):
         "clocks": sorted({_clock(selection, r) for r in filled if r.get("clock")}),
         "has_adjusted_intervals": table.of == "effects",
         "sample": ASSETS if over in SAMPLED else None,
-        "assets": {s["shot"]: selection.results.asset(s["shot"]) for s in shots} if table.rows == ["shot"] else None,
+        "assets": {selection.label(s, table.rows): selection.results.asset(s["shot"]) for s in shots} if table.rows == ["shot"] else None,
     }
 
 

@@ -91,7 +91,8 @@ class Numbers:
         asset averaged first). `as_in`: of the shots of this table of the study alone."""
         about, cells = self._table(study, table)
         values = {(c.row, c.column): c.value for c in cells if c.value}
-        shots = [s for s in self.shots(study, as_in or table) if (s, column) in values and (s, base) in values]
+        rows = self.shots(study, as_in) if as_in else dict.fromkeys(c.row for c in cells)  # shots, by their display names
+        shots = [s for s in rows if (s, column) in values and (s, base) in values]
         if not shots:
             raise ResultsError(f"{self.file}: no shot of {study} {table} has both '{column}' and '{base}'")
         return statistics.geometric_mean_over_scenes([(about["assets"][s], math.log(values[s, column] / values[s, base])) for s in shots])[:3]
