@@ -308,7 +308,6 @@ TEST(OverScenes, IntervalsHoldTheRatioWithoutTheReferencesNoise) {
     std::uniform_real_distribution<double> noise(0.1, 0.3);
     for (const bool is_of_power : {true, false}) {
         unsigned held = 0, naive = 0;
-        double p = 0;
         for (unsigned trial = 0; trial < 400; ++trial) {
             std::vector<ShotErrors> shots;
             for (unsigned i = 0; i < 40; ++i) {
@@ -333,11 +332,9 @@ TEST(OverScenes, IntervalsHoldTheRatioWithoutTheReferencesNoise) {
             for (const double v : a.logarithms.front()) values.push_back({std::to_string(values.size()), v});
             const MeanOverScenes of_measured = mean_over_scenes(values);
             naive += std::exp(*of_measured.low) <= 0.8 && 0.8 <= std::exp(*of_measured.high);
-            p = found.at("base").rank == 1 ? *a.p_holm : *found.at("base").p_holm;
         }
-        EXPECT_EQ(naive, 0u);
+        EXPECT_EQ(naive, 0u) << "else the test sees nothing";
         EXPECT_GE(held, 400u - 37u) << is_of_power;
-        EXPECT_GT(p, 0) << is_of_power;
     }
 }
 
