@@ -16,6 +16,8 @@ namespace {
 const char* const validation_layer = "VK_LAYER_KHRONOS_validation";
 const char* const no_device =
     "there is no Vulkan 1.3 device: install a driver (on Debian: apt-get install mesa-vulkan-drivers)";
+const char* const no_hardware =
+    "compiles shaders for a chip and runs none: to render, take RADV_FORCE_FAMILY out of the environment";
 
 VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                           const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
@@ -109,14 +111,14 @@ std::string lower(std::string text) {
     return text;
 }
 
-size_t choose(const std::vector<DeviceInfo>& devices, const std::string& choice) {
-    if (devices.empty()) fail_machine(no_device);
-    if (choice.empty()) {
-        for (const char* type : {"discrete", "integrated", "virtual"})
-            if (const auto found = std::ranges::find(devices, type, &DeviceInfo::type); found != devices.end())
-                return size_t(found - devices.begin());
-        return 0;
-    }
+size_t choose_by_type(const std::vector<DeviceInfo>& devices) {
+    for (const char* type : {"discrete", "integrated", "virtual", "cpu", "other"})
+        for (size_t i = 0; i < devices.size(); ++i)
+            if (devices[i].type == type && devices[i].has_hardware()) return i;
+    fail_machine("'", devices.front().name, "' ", no_hardware, "; there is no other Vulkan device");
+}
+
+size_t choose_by_name(const std::vector<DeviceInfo>& devices, const std::string& choice) {
     if (std::ranges::all_of(choice, [](unsigned char c) { return std::isdigit(c); }) && choice.size() < 6)
         if (const size_t index = std::stoul(choice); index < devices.size()) return index;
     std::vector<std::string> names;
@@ -125,6 +127,14 @@ size_t choose(const std::vector<DeviceInfo>& devices, const std::string& choice)
         names.push_back(std::to_string(i) + " '" + devices[i].name + "'");
     }
     fail("no Vulkan device fits '", choice, "'", suggestion(choice, names));
+}
+
+size_t choose(const std::vector<DeviceInfo>& devices, const std::string& choice) {
+    if (devices.empty()) fail_machine(no_device);
+    if (choice.empty()) return choose_by_type(devices);
+    const size_t chosen = choose_by_name(devices, choice);
+    if (!devices[chosen].has_hardware()) fail("'", devices[chosen].name, "' ", no_hardware, ", or name another device");
+    return chosen;
 }
 
 /// Runs `action` and reports what Vulkan throws as a fault of the machine.

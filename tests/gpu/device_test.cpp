@@ -38,6 +38,38 @@ TEST(NoDeviceDeathTest, IsAFaultOfTheMachine) {
     EXPECT_EXIT(without_drivers([] { list_devices(); }), testing::ExitedWithCode(0), "there is no Vulkan 1.3 device");
 }
 
+/// radv, which mesa-vulkan-drivers has, compiles for a chip that is not there, and crashes where it is asked to render.
+TEST(NullHardwareDeathTest, IsRefused) {
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    const auto exit_saying = [](const std::string& choice) {
+        setenv("RADV_FORCE_FAMILY", "navi21", 1);
+        const std::vector<DeviceInfo> devices = list_devices();
+        if (std::ranges::all_of(devices, &DeviceInfo::has_hardware)) std::exit(2);  // without radv
+        try {
+            const Device device(choice, false);
+            std::fprintf(stderr, "hardware: %d\n", device.info().has_hardware());
+        } catch (const Error& error) {
+            std::fprintf(stderr, "%s\n", error.what());
+        }
+        std::exit(0);
+    };
+    EXPECT_EXIT(exit_saying(""), testing::ExitedWithCode(0), "hardware: 1");
+    EXPECT_EXIT(exit_saying("null"), testing::ExitedWithCode(0),
+                "'Null hardware .* runs none: to render, take RADV_FORCE_FAMILY");
+    const auto alone = [&] {
+        for (const char* name : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"})
+            setenv(name, "/usr/share/vulkan/icd.d/radeon_icd.x86_64.json", 1);
+        setenv("RADV_FORCE_FAMILY", "navi21", 1);
+        try {
+            const Device device("", false);
+        } catch (const MachineError& error) {
+            std::fprintf(stderr, "%s\n", error.what());
+        }
+        std::exit(0);
+    };
+    EXPECT_EXIT(alone(), testing::ExitedWithCode(0), "there is no other Vulkan device");
+}
+
 TEST(Device, DescribesItself) {
     const DeviceInfo info = Device().info();
     EXPECT_FALSE(info.name.empty() || info.driver.empty() || info.type.empty());
