@@ -1,5 +1,6 @@
 // The command line. Over 400 lines: the options of all commands, so that one place says what each takes.
 #include "core/error.h"
+#include "core/gpu/chips/chip_compiler.h"
 #include "core/gpu/shader_error.h"
 #include "core/near_miss.h"
 #include "core/reading_limits.h"
@@ -86,6 +87,19 @@ void add_shot(CLI::App& command, ShotOptions& shot) {
         ->check(CLI::Range(1, 16384));
     command.add_option("--frame", shot.frame, "Frame of the camera's path and of the animation; default: 0")
         ->type_name("N");
+}
+
+/// {NAME: VALUE} of texts NAME=VALUE, whose values are JSON or else texts.
+nlohmann::json parameters_of(const std::vector<std::string>& values) {
+    nlohmann::json parameters = nlohmann::json::object();
+    for (const std::string& text : values) {
+        const size_t equals = text.find('=');
+        if (equals == std::string::npos || equals == 0) fail("'", shortened(text), "' must be NAME=VALUE");
+        const std::string value = text.substr(equals + 1);
+        nlohmann::json json = nlohmann::json::parse(value, nullptr, false);
+        parameters[text.substr(0, equals)] = json.is_discarded() ? nlohmann::json(value) : json;
+    }
+    return parameters;
 }
 
 /// A command whose options a script declares, --help among them.
@@ -414,6 +428,46 @@ int parse_and_run(int argc, char** argv) {
     add_reading(needs_command_);
     needs_command_.callback([&] { status = needs_command(needs, common); });
 
+    ShadersOptions shaders{.shot = {.scene = "mirror_pillars", .camera = {}, .size = {96, 54}}};
+    shaders.chips.assign(default_chips.begin(), default_chips.end());
+    CLI::App& shaders_command_ = *app.add_subcommand(
+        "shaders", "Show what compilers of GPUs make of a technique's passes: registers, occupancy, instructions");
+    shaders_command_.add_option("variant", shaders.variant, "A technique (see: ssrlab list variants)")
+        ->required()
+        ->type_name("NAME");
+    shaders_command_.add_option("--preset", shaders.preset, "One of its presets; default: its defaults")
+        ->type_name("NAME");
+    shaders_command_
+        .add_option_function<std::vector<std::string>>(
+            "--set", [&](const std::vector<std::string>& values) { shaders.parameters = parameters_of(values); },
+            "A parameter's value; may be repeated")
+        ->type_name("NAME=VALUE");
+    shaders_command_
+        .add_option(
+            "--chip", shaders.chips,
+            "GPUs by the names that Mesa's radv has for them (see: ssrlab list chips); default: navi21, gfx1100, "
+            "vega10")
+        ->delimiter(',')
+        ->type_name("NAME");
+    shaders_command_
+        .add_option("--against", shaders.against,
+                    "Also show what differs from another preset, or from a study with \"gpu_compilers\"")
+        ->type_name("PRESET|RESULTS");
+    shaders_command_
+        .add_option("--assembly", shaders.assembly, "Write the machine code of each shader into this folder")
+        ->type_name("DIR");
+    shaders_command_.add_option("--csv", shaders.csv, "Also write the table")->type_name("FILE.csv");
+    CLI::Option* const scene = shaders_command_.add_option(
+        "--scene", shaders.shot.scene,
+        "Leave out what this scene does not need; default: nothing is left out, and mirror_pillars is rendered");
+    scene->type_name("SCENE");
+    add_device(shaders_command_, common), add_scene_path(shaders_command_, common), add_cache(shaders_command_, common);
+    add_reading(shaders_command_);
+    shaders_command_.callback([&] {
+        shaders.leaves_out = scene->count() > 0;
+        shaders_command(shaders, common);
+    });
+
     RaysOptions rays;
     CLI::App& rays_command_ =
         *app.add_subcommand("rays", "Trace the mirror rays of what reflects, and print where they end as a table");
@@ -486,11 +540,11 @@ int parse_and_run(int argc, char** argv) {
 
     std::string what;
     CLI::App& list_command_ = *app.add_subcommand(
-        "list", "List scenes and what each tests, variants, their presets, tracers, metrics or devices");
+        "list", "List scenes and what each tests, variants, their presets, tracers, metrics, devices or chips");
     list_command_.add_option("what", what, "What to list")
         ->required()
-        ->check(CLI::IsMember({"scenes", "variants", "presets", "tracers", "metrics", "devices"}))
-        ->type_name("scenes|variants|presets|tracers|metrics|devices");
+        ->check(CLI::IsMember({"scenes", "variants", "presets", "tracers", "metrics", "devices", "chips"}))
+        ->type_name("scenes|variants|presets|tracers|metrics|devices|chips");
     add_scene_path(list_command_, common);
     add_reading(list_command_);
     list_command_.callback([&] { list_command(what, common); });

@@ -134,11 +134,10 @@ void PassGraph::Impl::run(Pass& pass, std::optional<glm::uvec3> groups, const Bu
     ShaderChanges changed = changes_of(pass);
     const Shader& shader = pipelines.shader(pass.shader_, pass.vertex_shader_, *params, pass.includes_, changed);
     check(pass, shader.interface);
-    PipelineState state{.attachments = {},
-                        .stencil = pass.stencil_.mode,
-                        .stencil_value = pass.stencil_.value,
-                        .has_depth = bool(pass.depth_.image.storage),
-                        .depth = pass.depth_};
+    PipelineState state{
+        .attachments = {}, .stencil = pass.stencil_.mode, .stencil_value = pass.stencil_.value, .depth = {}};
+    if (pass.depth_.image.storage)
+        state.depth = {pass.depth_.compare, pass.depth_.is_written, pass.depth_.image.format};
     std::vector<Image> attachments;
     if (!pass.is_compute_) {
         attachments.resize(shader.interface.outputs.size());
@@ -151,6 +150,8 @@ void PassGraph::Impl::run(Pass& pass, std::optional<glm::uvec3> groups, const Bu
         for (const Image& image : attachments) state.attachments.push_back(image.format);
     }
     check_limits(pass, shader, attachments);
+    if (pipeline_observer)
+        pipeline_observer(pass.label_, PipelineCache::recipe(shader, pass.shader_, *params, constants, state));
     changed.is_counted = is_counting;
     if (is_counting) make_counters(pass);
     const Pipeline& pipeline =

@@ -17,6 +17,9 @@ PassGraph::~PassGraph() = default;
 
 Clock PassGraph::clock() const { return impl_->clock; }
 void PassGraph::observe(PassObserver observer) { impl_->observer = std::move(observer); }
+bool PassGraph::uses_gpu_forms() const { return impl_->uses_gpu_forms; }
+void PassGraph::use_gpu_forms(bool uses_them) { impl_->uses_gpu_forms = uses_them; }
+void PassGraph::observe_pipelines(PipelineObserver observer) { impl_->pipeline_observer = std::move(observer); }
 void PassGraph::set_precision(Precision precision) { impl_->precision = std::move(precision); }
 std::string PassGraph::asked_name(const Image& image) const {
     for (const auto& [name, known] : impl_->images)

@@ -14,6 +14,7 @@
 #include <span>
 
 class Device;
+struct PipelineRecipe;
 
 /// The time of one stage: the label of its pass, by default the shader's path without extension.
 struct PassTime {
@@ -72,6 +73,9 @@ using Constants = std::map<std::string, uint32_t>;
 /// Called for each added pass with its stage and the images that it writes, for PassGraph::download().
 using PassObserver = std::function<void(const std::string& stage, std::span<const Image> written)>;
 
+/// Called for each added pass with its stage and what its pipeline is made of.
+using PipelineObserver = std::function<void(const std::string& stage, const PipelineRecipe& recipe)>;
+
 /// A list of GPU passes, executed in the order in which they are added. Images, buffers and shader resources meet by
 /// name; the graph creates the images, compiles the shaders, binds, separates the passes by barriers and times each of
 /// them.
@@ -126,6 +130,14 @@ public:
     /// From now on `observer` is called for each pass ({}: none), and images begin as zeros, so that it never sees
     /// unwritten memory.
     void observe(PassObserver observer);
+
+    /// Whether passes that are written in one form for CPUs and in another for GPUs take the latter: as the device is,
+    /// until it is set.
+    bool uses_gpu_forms() const;
+    void use_gpu_forms(bool uses_them);
+
+    /// From now on `observer` is called for each pass ({}: none), counted or not with the pipeline that does not count.
+    void observe_pipelines(PipelineObserver observer);
 
     /// Of passes and images requested from now on.
     void set_precision(Precision precision);

@@ -32,6 +32,8 @@ struct PassGraph::Impl {
     Limits limits = Limits::none;
     Constants constants;
     PassObserver observer;
+    PipelineObserver pipeline_observer;
+    bool uses_gpu_forms = !gpu.info.is_cpu();
     Precision precision;
     bool is_counting = false;
     std::vector<PassCost> costs;

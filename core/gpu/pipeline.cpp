@@ -41,23 +41,25 @@ struct Stages {
     std::vector<vk::PipelineShaderStageCreateInfo> infos;
 };
 
-Stages make_stages(Device::Impl& gpu, const Shader& shader, bool is_compute, const vk::SpecializationInfo& constants) {
+Stages make_stages(const vk::raii::Device& device, const PipelineRecipe& recipe,
+                   const vk::SpecializationInfo& constants) {
     Stages stages;
-    for (const auto& spirv : shader.spirv) {
-        stages.modules.emplace_back(gpu.device,
+    for (const auto& spirv : recipe.spirv) {
+        stages.modules.emplace_back(device,
                                     vk::ShaderModuleCreateInfo{.codeSize = spirv.size() * 4, .pCode = spirv.data()});
-        const bool is_vertex = !is_compute && stages.modules.size() == 1;
-        const auto stage = is_compute  ? vk::ShaderStageFlagBits::eCompute
-                           : is_vertex ? vk::ShaderStageFlagBits::eVertex
-                                       : vk::ShaderStageFlagBits::eFragment;
+        const bool is_vertex = !recipe.is_compute && stages.modules.size() == 1;
+        const auto stage = recipe.is_compute ? vk::ShaderStageFlagBits::eCompute
+                           : is_vertex       ? vk::ShaderStageFlagBits::eVertex
+                                             : vk::ShaderStageFlagBits::eFragment;
         stages.infos.push_back(
             {.stage = stage, .module = *stages.modules.back(), .pName = "main", .pSpecializationInfo = &constants});
     }
     return stages;
 }
 
-vk::raii::Pipeline make_graphics_pipeline(Device::Impl& gpu, const Stages& stages,
-                                          const vk::raii::PipelineLayout& layout, const PipelineState& state) {
+vk::raii::Pipeline make_graphics_pipeline(const vk::raii::Device& device, const Stages& stages,
+                                          const vk::raii::PipelineLayout& layout, const PipelineState& state,
+                                          vk::PipelineCreateFlags flags) {
     const vk::PipelineVertexInputStateCreateInfo no_vertices{};
     const vk::PipelineInputAssemblyStateCreateInfo triangles{.topology = vk::PrimitiveTopology::eTriangleList};
     const vk::PipelineViewportStateCreateInfo viewport{.viewportCount = 1, .scissorCount = 1};
@@ -71,9 +73,9 @@ vk::raii::Pipeline make_graphics_pipeline(Device::Impl& gpu, const Stages& stage
                                 .writeMask = 255,
                                 .reference = state.stencil_value};
     const vk::PipelineDepthStencilStateCreateInfo depth_stencil{
-        .depthTestEnable = state.has_depth,
-        .depthWriteEnable = state.has_depth && state.depth.is_written,
-        .depthCompareOp = compare_op(state.depth.compare),
+        .depthTestEnable = state.depth.has_value(),
+        .depthWriteEnable = state.depth && state.depth->is_written,
+        .depthCompareOp = compare_op(state.depth ? state.depth->compare : DepthTest::Compare::less),
         .stencilTestEnable = state.stencil != Stencil::Mode::off,
         .front = op,
         .back = op};
@@ -88,13 +90,14 @@ vk::raii::Pipeline make_graphics_pipeline(Device::Impl& gpu, const Stages& stage
     for (const Format format : state.attachments) formats.push_back(vulkan_format(format));
     const vk::Format stencil_format =
         state.stencil == Stencil::Mode::off ? vk::Format::eUndefined : vk::Format::eD32SfloatS8Uint;
-    const vk::Format depth_format = state.has_depth ? vulkan_format(state.depth.image.format) : stencil_format;
+    const vk::Format depth_format = state.depth ? vulkan_format(state.depth->format) : stencil_format;
     const vk::PipelineRenderingCreateInfo rendering{.colorAttachmentCount = uint32_t(formats.size()),
                                                     .pColorAttachmentFormats = formats.data(),
                                                     .depthAttachmentFormat = depth_format,
                                                     .stencilAttachmentFormat = stencil_format};
-    return {gpu.device, nullptr,
+    return {device, nullptr,
             vk::GraphicsPipelineCreateInfo{.pNext = &rendering,
+                                           .flags = flags,
                                            .stageCount = uint32_t(stages.infos.size()),
                                            .pStages = stages.infos.data(),
                                            .pVertexInputState = &no_vertices,
@@ -145,44 +148,54 @@ void PipelineCache::require_webgl2(const Shader& shader, const std::string& file
     webgl2_shaders_.insert(&shader);
 }
 
-Pipeline& PipelineCache::pipeline(const std::string& file, const std::string& vertex_file, const ParameterSet& params,
-                                  const ShaderIncludes& includes, const Constants& constants,
-                                  const PipelineState& state, const ShaderChanges& changes) {
-    const Shader& shader = this->shader(file, vertex_file, params, includes, changes);
-
-    // Only the constants that this shader uses take part in the key: a new value of another one costs it no new
-    // pipeline.
-    std::vector<uint32_t> values;
-    std::vector<vk::SpecializationMapEntry> entries;
-    std::string key = file + '\n' + vertex_file + '\n' + key_of(changes) + key_of(includes) + params.glsl() + '\n' +
-                      std::to_string(int(state.stencil)) + ' ' + std::to_string(state.stencil_value);
+PipelineRecipe PipelineCache::recipe(const Shader& shader, const std::string& file, const ParameterSet& params,
+                                     const Constants& constants, const PipelineState& state) {
+    PipelineRecipe recipe{.spirv = shader.spirv,
+                          .is_compute = file.ends_with(".comp"),
+                          .resources = shader.interface.resources,
+                          .push_size = shader.interface.push_size,
+                          .local_size = shader.interface.local_size,
+                          .constants = {},
+                          .state = state};
     const auto specialize = [&](uint32_t id, const std::string& name, uint32_t initial) {
         if (!shader.interface.constants.contains(id)) return;
         const auto set = constants.find(name);
-        entries.push_back({.constantID = id, .offset = uint32_t(values.size() * 4), .size = 4});
-        values.push_back(set != constants.end() ? set->second : initial);
-        key += ' ' + std::to_string(values.back());
+        recipe.constants[id] = set != constants.end() ? set->second : initial;
     };
     uint32_t id = 0;
     for (const Parameter& p : params)
         if (p.use == Use::constant) specialize(id++, p.glsl_name(), p.bits());
     for (const SceneConstant& constant : scene_constants()) specialize(constant.id, constant.name, constant.initial);
+    return recipe;
+}
+
+Pipeline& PipelineCache::pipeline(const std::string& file, const std::string& vertex_file, const ParameterSet& params,
+                                  const ShaderIncludes& includes, const Constants& constants,
+                                  const PipelineState& state, const ShaderChanges& changes) {
+    const Shader& shader = this->shader(file, vertex_file, params, includes, changes);
+    const PipelineRecipe recipe = this->recipe(shader, file, params, constants, state);
+    // Only the constants that this shader uses take part in the key: a new value of another one costs it no new
+    // pipeline.
+    std::string key = file + '\n' + vertex_file + '\n' + key_of(changes) + key_of(includes) + params.glsl() + '\n' +
+                      std::to_string(int(state.stencil)) + ' ' + std::to_string(state.stencil_value);
+    for (const auto& [id, value] : recipe.constants) key += ' ' + std::to_string(value);
     key += '\n';
     for (const Format format : state.attachments) key += ' ' + std::to_string(int(format));
-    if (state.has_depth)
-        key += " depth " + std::to_string(int(state.depth.compare)) + ' ' + std::to_string(state.depth.is_written) +
-               ' ' + std::to_string(int(state.depth.image.format));
+    if (state.depth)
+        key += " depth " + std::to_string(int(state.depth->compare)) + ' ' + std::to_string(state.depth->is_written) +
+               ' ' + std::to_string(int(state.depth->format));
     const auto [entry, is_new] = pipelines_.try_emplace(key);
-    Pipeline& p = entry->second;
-    if (!is_new) return p;
+    if (is_new) entry->second = make_pipeline(gpu_.device, recipe), entry->second.interface = shader.interface;
+    return entry->second;
+}
 
-    p.interface = shader.interface;
-    p.is_compute = file.ends_with(".comp");
+Pipeline make_pipeline(const vk::raii::Device& device, const PipelineRecipe& recipe, vk::PipelineCreateFlags flags) {
+    Pipeline p{.is_compute = recipe.is_compute};
     std::vector<vk::DescriptorSetLayoutBinding> bindings;
     const vk::ShaderStageFlags all_stages = p.is_compute
                                                 ? vk::ShaderStageFlagBits::eCompute
                                                 : vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
-    for (const auto& r : p.interface.resources) {
+    for (const auto& r : recipe.resources) {
         const vk::ShaderStageFlags stage = p.is_compute  ? vk::ShaderStageFlagBits::eCompute
                                            : r.is_vertex ? vk::ShaderStageFlagBits::eVertex
                                                          : vk::ShaderStageFlagBits::eFragment;
@@ -191,25 +204,31 @@ Pipeline& PipelineCache::pipeline(const std::string& file, const std::string& ve
                             .descriptorCount = 1,
                             .stageFlags = stage});
     }
-    p.set = {gpu_.device,
+    p.set = {device,
              vk::DescriptorSetLayoutCreateInfo{.flags = vk::DescriptorSetLayoutCreateFlagBits::ePushDescriptorKHR,
                                                .bindingCount = uint32_t(bindings.size()),
                                                .pBindings = bindings.data()}};
-    const vk::PushConstantRange push{.stageFlags = all_stages, .size = p.interface.push_size};
+    const vk::PushConstantRange push{.stageFlags = all_stages, .size = recipe.push_size};
     const vk::DescriptorSetLayout set = *p.set;
-    p.layout = {gpu_.device, vk::PipelineLayoutCreateInfo{.setLayoutCount = 1,
-                                                          .pSetLayouts = &set,
-                                                          .pushConstantRangeCount = p.interface.push_size ? 1u : 0u,
-                                                          .pPushConstantRanges = &push}};
+    p.layout = {device, vk::PipelineLayoutCreateInfo{.setLayoutCount = 1,
+                                                     .pSetLayouts = &set,
+                                                     .pushConstantRangeCount = recipe.push_size ? 1u : 0u,
+                                                     .pPushConstantRanges = &push}};
 
+    std::vector<uint32_t> values;
+    std::vector<vk::SpecializationMapEntry> entries;
+    for (const auto& [id, value] : recipe.constants) {
+        entries.push_back({.constantID = id, .offset = uint32_t(values.size() * 4), .size = 4});
+        values.push_back(value);
+    }
     const vk::SpecializationInfo specialization{.mapEntryCount = uint32_t(entries.size()),
                                                 .pMapEntries = entries.data(),
                                                 .dataSize = values.size() * 4,
                                                 .pData = values.data()};
-    const Stages stages = make_stages(gpu_, shader, p.is_compute, specialization);
-    p.pipeline = p.is_compute
-                     ? vk::raii::Pipeline(gpu_.device, nullptr,
-                                          vk::ComputePipelineCreateInfo{.stage = stages.infos[0], .layout = *p.layout})
-                     : make_graphics_pipeline(gpu_, stages, p.layout, state);
+    const Stages stages = make_stages(device, recipe, specialization);
+    p.pipeline = p.is_compute ? vk::raii::Pipeline(device, nullptr,
+                                                   vk::ComputePipelineCreateInfo{
+                                                       .flags = flags, .stage = stages.infos[0], .layout = *p.layout})
+                              : make_graphics_pipeline(device, stages, p.layout, recipe.state, flags);
     return p;
 }

@@ -1,7 +1,6 @@
 #pragma once
 #include "core/gpu/device_impl.h"
-#include "core/gpu/pass_graph.h"
-#include "core/gpu/shader.h"
+#include "core/gpu/pipeline_recipe.h"
 
 #include <map>
 
@@ -13,14 +12,9 @@ struct Pipeline {
     bool is_compute = false;
 };
 
-/// What a pipeline is made for, apart from its shader.
-struct PipelineState {
-    std::vector<Format> attachments;  ///< by location
-    Stencil::Mode stencil = Stencil::Mode::off;
-    unsigned stencil_value = 0;
-    bool has_depth = false;
-    DepthTest depth;
-};
+/// The pipeline that a driver makes of `recipe`; Pipeline::interface stays empty.
+Pipeline make_pipeline(const vk::raii::Device& device, const PipelineRecipe& recipe,
+                       vk::PipelineCreateFlags flags = {});
 
 /// Shaders and pipelines, each made at its first use.
 class PipelineCache {
@@ -34,6 +28,9 @@ public:
     /// Fails with Error unless the fragment shader, which shader() gave for `file`, is valid as GLSL ES 3.00.
     void require_webgl2(const Shader& shader, const std::string& file, const ParameterSet& params,
                         const ShaderIncludes& includes);
+    /// What pipeline() makes one of. `shader`: what shader() gave for `file`.
+    static PipelineRecipe recipe(const Shader& shader, const std::string& file, const ParameterSet& params,
+                                 const Constants& constants, const PipelineState& state);
     Pipeline& pipeline(const std::string& file, const std::string& vertex_file, const ParameterSet& params,
                        const ShaderIncludes& includes, const Constants& constants, const PipelineState& state,
                        const ShaderChanges& changes = {});

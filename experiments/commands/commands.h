@@ -110,6 +110,17 @@ struct CaptureCommandOptions {
 };
 void capture_command(const CaptureCommandOptions& options);
 
+struct ShadersOptions {
+    std::string variant, preset;
+    nlohmann::json parameters = nlohmann::json::object();
+    std::vector<std::string> chips;  ///< names that radv has for them
+    std::string against;             ///< another preset, or a results folder; "": nothing
+    ShotOptions shot;
+    bool leaves_out = false;              ///< what the scene does not need
+    std::filesystem::path assembly, csv;  ///< a folder, and a file; "": none
+};
+void shaders_command(const ShadersOptions& options, const CommonOptions& common);
+
 struct NeedsOptions {
     ShotOptions shot;
     unsigned frames = 1;                ///< of the shot, from shot.frame on

@@ -1,5 +1,6 @@
 // The commands that list things: describe, list.
 #include "core/files.h"
+#include "core/gpu/chips/chip_compiler.h"
 #include "core/gpu/device.h"
 #include "core/json.h"
 #include "core/scene/load_scene.h"
@@ -159,10 +160,13 @@ void list_command(const std::string& what, const CommonOptions& common) {
         std::printf("\nOf shots that move or repeat a frame:\n");
         for (const TemporalMetric& metric : temporal_metrics()) print(metric);
     }
+    if (what == "chips")
+        for (const Chip& chip : known_chips()) std::printf("%-12s %s\n", chip.name.c_str(), chip.driver.c_str());
     if (what == "devices") {
         const std::vector<DeviceInfo> devices = list_devices();
         for (size_t i = 0; i < devices.size(); ++i)
-            std::printf("%zu  %s (%s, %s, Vulkan %s)\n", i, devices[i].name.c_str(), devices[i].type.c_str(),
-                        devices[i].driver.c_str(), devices[i].api.c_str());
+            std::printf("%zu  %s (%s, %s, Vulkan %s)%s\n", i, devices[i].name.c_str(), devices[i].type.c_str(),
+                        devices[i].driver.c_str(), devices[i].api.c_str(),
+                        devices[i].has_hardware() ? "" : ": compiles shaders and runs none (RADV_FORCE_FAMILY is set)");
     }
 }

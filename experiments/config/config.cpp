@@ -111,6 +111,9 @@ Keys study_keys(const json& variant = json::object()) {
         {"costs", flag(), plain.counts_costs,
          "counts what each stage of each point does in a shot's last frame (`costs.csv`): invocations, fetches, bytes, "
          "operations, without a clock. Costs each point another run of one seed, and the compilation of its shaders"},
+        {"gpu_compilers", array_of(any_text(), 0), json::array(),
+         "GPUs whose compiler is asked what it makes of each point's passes (`compiled.csv`): registers, occupancy, "
+         "instructions. No GPU is needed; `ssrlab list chips` names them, `navi21`, `gfx1100` and `vega10` among them"},
         {"images", one_of({"last", "all", "played"}), "last",
          "of which frames results, references, confidence and verdicts are kept as images, which the report's viewer "
          "plays: the last, or `all` that are measured. `played`: the last, and of each frame before it the reflections "
@@ -289,6 +292,7 @@ Config read_config(const std::filesystem::path& file) {
         hits.finish();
     }
     config.counts_costs = study.get<bool>("costs");
+    config.gpu_compilers = study.get<std::vector<std::string>>("gpu_compilers");
     config.kept_images = study["images"] == "all"      ? KeptImages::measured
                          : study["images"] == "played" ? KeptImages::played
                                                        : KeptImages::last;

@@ -113,8 +113,10 @@ struct Config {
     bool has_reference = true;       ///< else no error is measured: frames are timed and rays judged
     CompositeFormula composite = CompositeFormula::split_sum;
     TimingConfig timing;
-    std::optional<JudgedRays> hits;  ///< none: no ray is judged
-    bool counts_costs = false;       ///< what each stage does, see count_costs()
+    std::optional<JudgedRays> hits;          ///< none: no ray is judged
+    bool counts_costs = false;               ///< what each stage does, see count_costs()
+    std::vector<std::string> gpu_compilers;  ///< chips, see compiled_shaders.h
+    bool has_cost_cells() const { return counts_costs || !gpu_compilers.empty(); }
     KeptImages kept_images = KeptImages::last;
     std::vector<std::string> metrics;  ///< names of metrics/metric.h
     std::vector<std::string> masks;

@@ -83,8 +83,8 @@ Keys table_keys() {
     return {{"name", name, required, "of its files"},
             {"caption", any_text(), required, "what stands above it"},
             {"of",
-             one_of({"effects", "results", "splits", "times", "time_effects", "hits", "costs", "limits", "agreement",
-                     "eye", "at_cost", "changes", "over_scenes"}),
+             one_of({"effects", "results", "splits", "times", "time_effects", "hits", "costs", "compiled", "limits",
+                     "agreement", "eye", "at_cost", "changes", "over_scenes"}),
              required, "where its numbers come from, below"},
             {"where", any_object, otherwise("all rows"),
              "column to the value, or array of values, of the rows that count; rows and columns of the table stand in "
@@ -112,6 +112,8 @@ void check_tables(ConfigObject& study, const Config& config) {
         if (!names.insert(name).second) fail(table.where(), ": two tables are called '", name, "'");
         if (of == "costs" && !config.counts_costs)
             fail(table.at("of"), ": the study counts no costs; add \"costs\": true");
+        if (of == "compiled" && config.gpu_compilers.empty())
+            fail(table.at("of"), ": the study asks no compiler; add \"gpu_compilers\": [\"navi21\"]");
         if (table.has("best") && of != "results" && of != "limits")
             fail(table.at("best"), ": 'best' is of 'results' and 'limits', which have a standing, not of '", of, "'");
         if (table.has("best") && table.has("over"))

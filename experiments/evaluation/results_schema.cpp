@@ -109,6 +109,28 @@ const std::map<std::string, Meaning>& meanings() {
         {"quantity", {"", "what became of the rays"}},
         {"costs.quantity", {"", "what is counted of the stage's passes"}},
         {"costs.value", {"", "how many; bytes of the quantities that are called so"}},
+        {"pipeline", {"", "number of the pipeline within its stage, from 0"}},
+        {"shader", {"", "compute, vertex or fragment; empty: nothing was compiled"}},
+        {"chip", {"", "the GPU that was compiled for, by Mesa's name"}},
+        {"driver", {"", "the compiler and its version"}},
+        {"lanes", {"", "invocations of a wave"}},
+        {"vgprs", {"", "vector registers of a lane"}},
+        {"sgprs", {"", "scalar registers of a wave"}},
+        {"spilled_vgprs", {"", "vector registers that were moved to memory"}},
+        {"spilled_sgprs", {"", "scalar registers that were moved to vector registers"}},
+        {"scratch_bytes", {"byte", "memory of a wave"}},
+        {"lds_bytes", {"byte", "shared memory of a workgroup"}},
+        {"waves", {"", "that a SIMD holds at a time"}},
+        {"most_waves", {"", "that it could hold"}},
+        {"limit",
+         {"", "why it holds no more: nothing, registers, scalar registers or shared memory; empty: not known"}},
+        {"code_bytes", {"byte", "size of the machine code"}},
+        {"instructions", {"", "of the machine code"}},
+        {"branches", {"", "of the machine code"}},
+        {"latency", {"cycle", "the compiler's estimate of a wave's time"}},
+        {"inverse_throughput", {"cycle", "the compiler's estimate of how long a wave keeps the busiest unit"}},
+        {"hash", {"", "of the machine code: the same code has the same"}},
+        {"refusal", {"", "why there are no numbers"}},
         {"rays", {"ray", "rays of one seed, on average; of the stage error pixels"}},
         {"against", {"", "baseline, or the value in which the point differs from what it is compared with"}},
         {"against_variant", {"", "variant of what the point is compared with"}},
@@ -201,7 +223,7 @@ nlohmann::json results_schema(const std::vector<VariantConfig>& variants) {
              {table<ResultRow>("results"), table<SplitRow>("splits"), table<EffectRow>("effects"),
               table<TimeEffectRow>("time_effects"), table<TimeRow>("times"), table<MetricSummary>("summary"),
               table<OverScenesRow>("over_scenes"), table<TimeSummary>("time_summary"), table<HitRow>("hits"),
-              table<CostRow>("costs"), parameters_table(variants)}}};
+              table<CostRow>("costs"), table<CompiledRow>("compiled"), parameters_table(variants)}}};
 }
 
 void write_parameters(const std::filesystem::path& folder, const std::vector<VariantConfig>& variants) {

@@ -45,6 +45,7 @@ const std::map<std::string, Source>& sources() {
         {"time_effects", alike(columns_of<TimeEffectRow>())},
         {"hits", alike(columns_of<HitRow>())},
         {"costs", alike(columns_of<CostRow>())},
+        {"compiled", alike(columns_of<CompiledRow>({"quantity", "value"}))},
         {"at_cost", alike(columns_of<AcrossRow>())},
         {"changes", alike(columns_of<ChangeRow>({"quantity", "value", "low", "high"}))},
         {"over_scenes", alike(columns_of<OverScenesRow>())},

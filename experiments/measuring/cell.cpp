@@ -53,6 +53,7 @@ void to_json(nlohmann::json& json, const Cell& cell) {
             {"times", rows_json(cell.times)},
             {"hits", rows_json(cell.hits)},
             {"costs", rows_json(cell.costs)},
+            {"compiled", rows_json(cell.compiled)},
             {"images", cell.images},
             {"timing", cell.timing},
             {"notes", cell.notes},
@@ -68,6 +69,7 @@ void from_json(const nlohmann::json& json, Cell& cell) {
     cell.times = rows_from_json<TimeRow>(json.at("times"));
     cell.hits = rows_from_json<HitRow>(json.at("hits"));
     cell.costs = rows_from_json<CostRow>(json.at("costs"));
+    cell.compiled = rows_from_json<CompiledRow>(json.at("compiled"));
     json.at("reference_noise").get_to(cell.reference_noise);
     cell.images = json.at("images"), cell.timing = json.at("timing");
     json.at("notes").get_to(cell.notes), json.at("truth").get_to(cell.truth);

@@ -12,6 +12,7 @@ struct StudyRows {
     std::vector<TimeRow> times;
     std::vector<HitRow> hits;
     std::vector<CostRow> costs;
+    std::vector<CompiledRow> compiled;
     std::vector<ReferenceNoise> reference_noise;
 };
 /// With mark_representative_rows() done.
@@ -21,6 +22,6 @@ StudyRows rows_of(const std::vector<Cell>& cells);
 /// mask) the rows over its frames where a point has such, else those of its last frame.
 void mark_representative_rows(std::span<ResultRow> rows);
 
-/// Writes results.csv, splits.csv and times.csv, hits.csv if rays were judged, and costs.csv if costs were counted; the
-/// columns are explained in experiments/RESULTS.md.
+/// Writes results.csv, splits.csv and times.csv, hits.csv if rays were judged, costs.csv if costs were counted, and
+/// compiled.csv if compilers were asked; the columns are explained in experiments/RESULTS.md.
 void write_tables(const std::filesystem::path& folder, const StudyRows& rows);

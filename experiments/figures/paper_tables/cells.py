@@ -21,6 +21,7 @@ SOURCES = {  # name to (file, columns of value, low and high)
     "time_effects": ("time_effects.csv", ("ratio", "low", "high")),
     "hits": ("hits.csv", ("value", "low", "high")),
     "costs": ("costs.csv", ("value", "low", "high")),  # counts: without an interval, as they are exact
+    "compiled": ("compiled.csv", ("value", "low", "high")),  # exact for its compiler; quantities are columns: see _compiled_rows()
     "limits": ("summary.csv", ("value", "low", "high")),  # errors over the information limit of one frame: limits.py
     "agreement": ("summary.csv", ("value", "low", "high")),  # of metrics with each other, and ...
     "eye": ("summary.csv", ("value", "low", "high")),  # ... with people: agreement.py
@@ -30,7 +31,7 @@ SOURCES = {  # name to (file, columns of value, low and high)
 }
 OVER_SCENES = ("at_cost", "over_scenes")  # whose cells are means over scenes already
 NOT_SHARES = ("fetches", "fetches: median", "fetches: 90 %", "fetches: most", "distance_error")  # of hits.csv; all its other quantities are
-NAMING = ("shot", "frame", "variant", "point", "against", "against_variant", "against_point", "target", "metric", "mask", "stage", "quantity", "clock")
+NAMING = ("shot", "frame", "variant", "point", "against", "against_variant", "against_point", "target", "metric", "mask", "stage", "quantity", "clock", "chip", "shader", "pipeline")
 GROUPS = {  # what rows, columns and means are by, beside the columns of a file
     "group": lambda results, row: results.point_group(row.get("variant"), row.get("point")),
     "shot_group": lambda results, row: results.shot_group(row.get("shot")),
@@ -57,6 +58,18 @@ def _split_rows(rows):
                 "low": row.get(metric + "_low", ""),
                 "high": row.get(metric + "_high", ""),
             }
+
+
+COMPILED = ("vgprs", "sgprs", "spilled_vgprs", "spilled_sgprs", "scratch_bytes", "lds_bytes", "waves", "most_waves", "code_bytes", "instructions",
+            "branches", "latency", "inverse_throughput")  # fmt: skip
+
+
+def _compiled_rows(rows):
+    """A row for each number that compiled.csv has, named by `quantity`."""
+    for row in rows:
+        for quantity in COMPILED:
+            if row[quantity]:
+                yield row | {"quantity": quantity, "value": row[quantity]}
 
 
 class Table:
@@ -89,6 +102,8 @@ class Selection:
             rows = [r for r in rows if not r["group"]]
         if table.of == "changes":
             rows = list(_change_rows(rows))
+        if table.of == "compiled":
+            rows = list(_compiled_rows(rows))
         if table.of == "splits":
             rows = list(_split_rows(rows))
         if table.of in ("results", "limits", "agreement", "eye"):
@@ -152,7 +167,7 @@ def _timed(row, against=""):
 
 def _cell(selection, row, name):
     table = selection.table
-    if table.of == "costs":
+    if table.of in ("costs", "compiled"):
         return Cell(table.name, *name, whole(row, "value"), interval=EXACT)
     columns = SOURCES[table.of][1] or ("value", "low", "high")
     if table.of == "time_effects" and row["verdict"]:

@@ -62,7 +62,11 @@ public:
         sources.push_back("experiments/measuring/times/costs.cpp"),
             sources.push_back("experiments/run/shots/open_shot.cpp");
         const VariantConfig& v = config_.variants[variant];
-        return name(sources, request, {v.variant, v.point, point.parameters, std::to_string(v.seeds.front())});
+        std::vector<std::string> what = {v.variant, v.point, point.parameters, std::to_string(v.seeds.front())};
+        if (!config_.counts_costs) what.push_back("compiled alone");
+        if (!config_.gpu_compilers.empty()) sources.push_back("experiments/measuring/times/compiled_shaders.cpp");
+        what.insert(what.end(), config_.gpu_compilers.begin(), config_.gpu_compilers.end());
+        return name(sources, request, what);
     }
     /// `runs`: by variant, whether it runs on the shot.
     std::string of_times(const std::string& request, const std::vector<bool>& runs) {
@@ -202,7 +206,7 @@ StudyPlan plan_study(const Config& config, const DeviceInfo& device,
                 double(shot.steps.size() * variant.seeds.size()))
                 .variant = &variant;
         }
-        for (size_t i = 0; i < config.variants.size() && config.counts_costs; ++i) {
+        for (size_t i = 0; i < config.variants.size() && config.has_cost_cells(); ++i) {
             const VariantConfig& variant = config.variants[i];
             if (!runs[i]) continue;
             add(CellKind::costs, names.of_costs(request, i), "costs of " + variant.variant + " " + variant.point,

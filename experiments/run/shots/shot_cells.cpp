@@ -4,6 +4,7 @@
 #include "experiments/config/conditions.h"
 #include "experiments/measuring/rehearsal.h"
 #include "experiments/measuring/times/clock_proofs.h"
+#include "experiments/measuring/times/compiled_shaders.h"
 #include "experiments/measuring/times/costs.h"
 #include "experiments/measuring/times/timing.h"
 #include "experiments/measuring/times/timing_lock.h"
@@ -187,8 +188,18 @@ Cell renders_cell(StudySession& study, OpenShot& open, const PlannedCell& planne
 Cell costs_cell(StudySession& study, OpenShot& open, const PlannedCell& planned,
                 const std::function<void(double)>& report) {
     const auto lit = [&](const FrameStep& step) -> const HostImage& { return open.truth.lit(step); };
-    return {.costs = count_costs(study.device, open.shot, *open.store, lit, *planned.variant, study.settings.keep_all,
-                                 report)};
+    Cell cell;
+    if (study.config.counts_costs)
+        cell.costs =
+            count_costs(study.device, open.shot, *open.store, lit, *planned.variant, study.settings.keep_all, report);
+    if (study.config.gpu_compilers.empty()) return cell;
+    const StagePipelines pipelines =
+        stage_pipelines(study.device, open.shot, *open.store, lit, *planned.variant, study.settings.keep_all);
+    const std::string shot = open.shot.name();
+    const ChipCompilation how{.cache = study.settings.cache,
+                              .notice = [&](const std::string& text) { study.progress.say("warning: " + text); }};
+    cell.compiled = compiled_rows(pipelines, shot, *planned.variant, study.compilers, how);
+    return cell;
 }
 
 Cell make_cell(StudySession& study, OpenShot& open, const PlannedShot& shot, const PlannedCell& planned,

@@ -15,7 +15,7 @@ const fs::path source = SSRLAB_SOURCE_DIR, file = fs::path(testing::TempDir()) /
 
 std::string mistake_in(const std::string& table) {
     write_text(file,
-               R"({"shots": [{"scene": "fence"}], "variants": [{"variant": "mcguire_dda"}], "hits": {}, "costs": true,
+               R"({"shots": [{"scene": "fence"}], "variants": [{"variant": "mcguire_dda"}], "hits": {}, "costs": true, "gpu_compilers": ["navi21"],
  "tables": [{"name": "a", "caption": "", )" +
                    table + "}]}");
     const std::string message = error_message([] { check_table_columns(read_config(file)); });

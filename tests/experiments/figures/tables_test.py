@@ -345,6 +345,30 @@ def test_counts(temporary):
     check("is not a whole number" in tables(folder).stderr, "half an operation")
 
 
+def test_compiled(temporary):
+    """Numbers of compiled.csv are rows by quantity; what a compiler did not state has no cell."""
+    folder = os.path.join(temporary, "compiled")
+    table = {"name": "chips", "caption": "Registers", "of": "compiled", "where": {"quantity": ["vgprs", "waves"]},
+             "rows": "stage", "columns": ["chip", "quantity"]}  # fmt: skip
+    write_results(folder, [table])
+    columns = ("shot", "variant", "point", "stage", "pipeline", "shader", "chip", "driver", "vgprs", "sgprs", "spilled_vgprs", "spilled_sgprs",
+               "scratch_bytes", "lds_bytes", "waves", "most_waves", "code_bytes", "instructions", "branches", "latency", "inverse_throughput")  # fmt: skip
+    empty = dict.fromkeys(columns, "") | {"shot": SHOTS[0], "variant": "sssr", "point": "default"}
+    rows = [
+        empty | {"stage": "trace", "chip": "navi21", "vgprs": "48", "waves": "10"},
+        empty | {"stage": "trace", "chip": "vega10", "vgprs": "52", "waves": ""},
+        empty | {"stage": "blur", "chip": "navi21", "vgprs": "16", "waves": "16"},
+        empty | {"stage": "blur", "chip": "vega10"},  # refused
+    ]
+    write_rows(os.path.join(folder, "compiled.csv"), rows)
+    result = tables(folder)
+    check(result.returncode == 0, result.stderr)
+    grid = list(csv.reader(open(os.path.join(folder, "tables", "chips.csv"))))
+    values = {(row[0], i): row[i] for row in grid[1:] for i in range(1, len(row)) if row[i]}
+    check(sorted(v for (stage, _), v in values.items() if stage == "trace") == ["10", "48", "52"], grid)
+    check(sorted(v for (stage, _), v in values.items() if stage == "blur") == ["16", "16"], grid)
+
+
 def test_means_over_what_differs(folder):
     """Two metrics of a shot are not two shots."""
     for changed, parts in (
@@ -495,6 +519,7 @@ def main():
         test_times(folder)
         test_shares(folder)
         test_counts(temporary)
+        test_compiled(temporary)
         test_means_over_what_differs(folder)
         test_refusals(folder)
         test_tables_that_nobody_asks_for(temporary)

@@ -1,0 +1,218 @@
+#include "core/gpu/chips/chip_compiler.h"
+
+#include "core/child_process.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "core/near_miss.h"
+
+#include <algorithm>
+#include <atomic>
+#include <future>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+const char* const no_radv =
+    "there is no radv, Mesa's Vulkan driver of AMD's GPUs, which compiles without one (on Debian: apt-get install "
+    "mesa-vulkan-drivers)";
+
+/// src/amd/vulkan/winsys/null/radv_null_winsys.c and src/amd/common/amd_family.c of Mesa 22.3 to 25, in lower case.
+const std::vector<std::string> candidates = {
+    "tahiti",   "pitcairn", "verde",   "oland",      "hainan",     "bonaire",   "kabini",    "kaveri",    "hawaii",
+    "tonga",    "iceland",  "carrizo", "fiji",       "stoney",     "polaris10", "polaris11", "polaris12", "vegam",
+    "vega10",   "vega12",   "vega20",  "raven",      "raven2",     "renoir",    "arcturus",  "aldebaran", "navi10",
+    "navi12",   "navi14",   "navi21",  "navi22",     "navi23",     "navi24",    "vangogh",   "rembrandt", "gfx1036",
+    "gfx1100",  "gfx1101",  "gfx1102", "gfx1103_r1", "gfx1103_r2", "navi31",    "navi32",    "navi33",    "phoenix",
+    "phoenix2", "gfx1150",  "gfx1151", "gfx1152",    "gfx1153",    "gfx1200",   "gfx1201"};
+
+/// A folder of this process's own, gone with it.
+struct ScratchFolder {
+    fs::path path;
+    ScratchFolder() {
+        std::string name = (fs::temp_directory_path() / "ssrlab_chip_XXXXXX").string();
+        if (!mkdtemp(name.data())) fail_machine("cannot make a folder in ", fs::temp_directory_path().string());
+        path = name;
+    }
+    ~ScratchFolder() {
+        std::error_code ignored;
+        fs::remove_all(path, ignored);
+    }
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+};
+
+struct Answer {
+    std::vector<json> lines;  ///< as far as the compiler got
+    std::string end;          ///< how it ended, if not well
+};
+
+/// The lines that the program in main.cpp writes.
+Answer ask(const std::string& chip, const std::string& recipes, bool has_assembly) {
+    const ScratchFolder folder;
+    const fs::path in = folder.path / "recipes", out = folder.path / "results";
+    write_text(in, recipes);
+    std::vector<std::string> command = {CHIP_COMPILER, chip, in.string(), out.string()};
+    if (has_assembly) command.push_back("--assembly");
+    Answer answer;
+    try {
+        if (const int code = run_program(command); code != 0) answer.end = "exit code " + std::to_string(code);
+    } catch (const MachineError& e) {
+        answer.end = e.what();
+    }
+    if (!fs::exists(out)) fail_machine("cannot compile for ", chip, ": ", answer.end);
+    std::istringstream lines(read_text(out));
+    for (std::string line; std::getline(lines, line);)
+        if (json value = json::parse(line, nullptr, false); !value.is_discarded()) answer.lines.push_back(value);
+    return answer;
+}
+
+/// The chip, if there is one of that name; MachineError without radv.
+std::optional<Chip> ask_for_chip(const std::string& name) {
+    const Answer answer = ask(name, bytes_of({}), false);
+    if (answer.lines.empty()) return {};
+    const json& about = answer.lines.front();
+    if (about.contains("refusal")) fail_machine(no_radv);
+    return Chip{.name = name, .device = about.at("device"), .driver = about.at("driver")};
+}
+
+CompiledShader shader_of(const json& j, const PipelineRecipe& recipe) {
+    const json& statistics = j.at("statistics");
+    const auto find = [&](std::initializer_list<const char*> names) -> std::optional<uint64_t> {
+        for (const char* name : names)
+            if (const auto found = statistics.find(name); found != statistics.end() && found->is_number())
+                return found->get<uint64_t>();
+        return {};
+    };
+    // VkShaderStageFlagBits
+    const auto stages = j.at("stages").get<unsigned>();
+    const bool is_compute = stages & 0x20;
+    CompiledShader shader{.stage = is_compute      ? "compute"
+                                   : stages & 0x10 ? "fragment"
+                                                   : "vertex",
+                          .lanes = j.at("lanes"),
+                          .group_waves = 1,
+                          .vgprs = find({"VGPRs"}),
+                          .sgprs = find({"SGPRs"}),
+                          .spilled_vgprs = find({"Spilled VGPRs"}),
+                          .spilled_sgprs = find({"Spilled SGPRs"}),
+                          .scratch_bytes = find({"Scratch size"}),
+                          .lds_bytes = find({"LDS size"}),
+                          .waves = find({"Subgroups per SIMD"}),
+                          .code_bytes = find({"Code size"}),
+                          .instructions = find({"Instructions"}),
+                          .branches = find({"Branches"}),
+                          .latency = find({"Latency"}),
+                          .inverse_throughput = find({"Inverse Throughput"})};
+    if (is_compute && shader.lanes > 0)
+        shader.group_waves =
+            (recipe.local_size[0] * recipe.local_size[1] * recipe.local_size[2] + shader.lanes - 1) / shader.lanes;
+    if (const auto hash = find({"Hash"})) {
+        char text[17];
+        std::snprintf(text, sizeof text, "%08llx", static_cast<unsigned long long>(*hash));
+        shader.hash = text;
+    }
+    if (const auto assembly = j.at("texts").find("Assembly"); assembly != j.at("texts").end())
+        shader.assembly = assembly->get<std::string>();
+    return shader;
+}
+
+CompiledPipeline pipeline_of(const json& j, const PipelineRecipe& recipe) {
+    if (j.contains("refusal")) return {.shaders = {}, .refusal = j.at("refusal")};
+    CompiledPipeline pipeline;
+    for (const json& shader : j.at("shaders")) pipeline.shaders.push_back(shader_of(shader, recipe));
+    return pipeline;
+}
+
+/// Those of `recipes` whose places are given, one after the other; a compiler that ends early is started again behind
+/// the pipeline that ended it.
+void compile_some(const Chip& chip, const std::vector<PipelineRecipe>& recipes, std::vector<size_t> places,
+                  bool has_assembly, std::vector<json>& results) {
+    while (!places.empty()) {
+        std::vector<PipelineRecipe> some;
+        for (const size_t place : places) some.push_back(recipes[place]);
+        const Answer answer = ask(chip.name, bytes_of(some), has_assembly);
+        const size_t known = answer.lines.empty() ? 0 : std::min(answer.lines.size() - 1, places.size());
+        for (size_t i = 0; i < known; ++i) results[places[i]] = answer.lines[i + 1];
+        if (known == places.size()) return;
+        results[places[known]] = {{"refusal", "radv's compiler ended: " + answer.end}};
+        places.erase(places.begin(), places.begin() + long(known) + 1);
+    }
+}
+
+fs::path cached_file(const fs::path& cache, const Chip& chip, const PipelineRecipe& recipe) {
+    ContentHash hash;
+    hash.add(bytes_of({recipe})), hash.add(chip.name), hash.add(chip.driver);
+    return cache / "chips" / (hash.hex() + ".json");
+}
+
+/// Null if there is none, or one that was not written whole.
+json read_cached(const fs::path& file, const PipelineRecipe& recipe) {
+    if (!fs::exists(file)) return {};
+    json value = json::parse(read_text(file), nullptr, false);
+    try {
+        return pipeline_of(value, recipe).shaders.empty() ? json() : value;
+    } catch (const json::exception&) {
+        return {};
+    }
+}
+
+}  // namespace
+
+Chip find_chip(const std::string& name) {
+    if (const std::optional<Chip> chip = ask_for_chip(name)) return *chip;
+    fail("the installed radv knows no chip '", name, "'", suggestion(name, candidates),
+         "; `ssrlab list chips` shows those that it knows");
+}
+
+std::vector<Chip> known_chips() {
+    ask_for_chip(default_chips.front());  // throws once where there is no radv
+    std::vector<std::optional<Chip>> found(candidates.size());
+    std::atomic<size_t> next = 0;
+    const auto work = [&] {
+        for (size_t i; (i = next++) < candidates.size();) found[i] = ask_for_chip(candidates[i]);
+    };
+    std::vector<std::future<void>> workers;
+    for (unsigned i = 0; i < std::max(1u, std::thread::hardware_concurrency()); ++i)
+        workers.push_back(std::async(std::launch::async, work));
+    for (auto& worker : workers) worker.get();
+    std::vector<Chip> chips;
+    for (const auto& chip : found)
+        if (chip) chips.push_back(*chip);
+    return chips;
+}
+
+std::vector<CompiledPipeline> compile_for_chip(const Chip& chip, const std::vector<PipelineRecipe>& recipes,
+                                               const ChipCompilation& how) {
+    const bool uses_cache = !how.cache.empty() && !how.has_assembly;
+    std::vector<json> results(recipes.size());
+    const size_t most = std::max(1u, std::thread::hardware_concurrency());
+    std::vector<std::vector<size_t>> shares(most);
+    size_t missing = 0;
+    for (size_t i = 0; i < recipes.size(); ++i) {
+        if (uses_cache) results[i] = read_cached(cached_file(how.cache, chip, recipes[i]), recipes[i]);
+        if (results[i].is_null()) shares[missing++ % most].push_back(i);
+    }
+    std::vector<std::future<void>> workers;
+    for (const auto& share : shares)
+        if (!share.empty())
+            workers.push_back(
+                std::async(std::launch::async, [&] { compile_some(chip, recipes, share, how.has_assembly, results); }));
+    for (auto& worker : workers) worker.get();
+
+    if (uses_cache) try {
+            for (const auto& share : shares)
+                for (const size_t i : share)
+                    if (results[i].contains("shaders"))
+                        write_text(cached_file(how.cache, chip, recipes[i]), results[i].dump());
+        } catch (const MachineError& e) {
+            if (how.notice) how.notice(std::string("what was compiled for ") + chip.name + " is not kept: " + e.what());
+        }
+    std::vector<CompiledPipeline> pipelines;
+    for (size_t i = 0; i < recipes.size(); ++i) pipelines.push_back(pipeline_of(results[i], recipes[i]));
+    return pipelines;
+}

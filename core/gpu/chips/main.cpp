@@ -1,0 +1,146 @@
+// chip_compiler CHIP RECIPES RESULTS [--assembly]: what Mesa's radv makes of pipelines for a chip that is not there.
+//
+// A program of its own: radv reads the chip's name from the environment when it is loaded, once, and ends the process
+// on a name that it does not know. RECIPES holds bytes_of(), RESULTS gets a JSON object a line, each as soon as it is
+// known: the device, then what became of each recipe. A line is missing where the compiler ended the process.
+#include "core/error.h"
+#include "core/files.h"
+#include "core/gpu/pipeline.h"
+
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+using nlohmann::json;
+
+namespace {
+
+/// The device without hardware among those that there are; nothing where radv is not installed.
+std::optional<vk::raii::PhysicalDevice> find_chip(const vk::raii::Instance& instance) {
+    for (vk::raii::PhysicalDevice& device : instance.enumeratePhysicalDevices())
+        if (std::string(device.getProperties().deviceName.data()).starts_with(no_hardware_prefix))
+            return std::move(device);
+    return {};
+}
+
+json describe(const vk::raii::PhysicalDevice& chip) {
+    const auto chain = chip.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
+    const auto& driver = chain.get<vk::PhysicalDeviceDriverProperties>();
+    return {{"device", chain.get<vk::PhysicalDeviceProperties2>().properties.deviceName.data()},
+            {"driver", std::string(driver.driverName.data()) + " " + driver.driverInfo.data()}};
+}
+
+/// With what our pipelines need of a device (Device), and nothing else: no queue of it can be used.
+vk::raii::Device make_device(const vk::raii::PhysicalDevice& chip) {
+    const float priority = 1;
+    const vk::DeviceQueueCreateInfo queue{.queueFamilyIndex = 0, .queueCount = 1, .pQueuePriorities = &priority};
+    vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR executables{.pipelineExecutableInfo = true};
+    const vk::PhysicalDeviceVulkan13Features v13{.pNext = &executables,
+                                                 .robustImageAccess = true,
+                                                 .synchronization2 = true,
+                                                 .dynamicRendering = true,
+                                                 .maintenance4 = true};
+    const vk::PhysicalDeviceFeatures v10{.robustBufferAccess = true,
+                                         .independentBlend = true,
+                                         .fragmentStoresAndAtomics = true,
+                                         .shaderStorageImageExtendedFormats = true,
+                                         .shaderStorageImageWriteWithoutFormat = true,
+                                         .shaderFloat64 = true};
+    const char* const extensions[] = {VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME,
+                                      VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME};
+    return {chip, vk::DeviceCreateInfo{.pNext = &v13,
+                                       .queueCreateInfoCount = 1,
+                                       .pQueueCreateInfos = &queue,
+                                       .enabledExtensionCount = 2,
+                                       .ppEnabledExtensionNames = extensions,
+                                       .pEnabledFeatures = &v10}};
+}
+
+json value_of(const vk::PipelineExecutableStatisticKHR& statistic) {
+    switch (statistic.format) {
+        case vk::PipelineExecutableStatisticFormatKHR::eBool32:
+            return bool(statistic.value.b32);
+        case vk::PipelineExecutableStatisticFormatKHR::eInt64:
+            return statistic.value.i64;
+        case vk::PipelineExecutableStatisticFormatKHR::eUint64:
+            return statistic.value.u64;
+        case vk::PipelineExecutableStatisticFormatKHR::eFloat64:
+            return statistic.value.f64;
+    }
+    return nullptr;
+}
+
+/// The driver's texts of a shader by their names, of which "Assembly" is one.
+json texts_of(const vk::raii::Device& device, const vk::PipelineExecutableInfoKHR& shader) {
+    json texts = json::object();
+    const auto get = reinterpret_cast<PFN_vkGetPipelineExecutableInternalRepresentationsKHR>(
+        device.getProcAddr("vkGetPipelineExecutableInternalRepresentationsKHR"));
+    const VkPipelineExecutableInfoKHR& info = shader;
+    uint32_t count = 0;
+    get(*device, &info, &count, nullptr);
+    std::vector<VkPipelineExecutableInternalRepresentationKHR> list(
+        count, {VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_INTERNAL_REPRESENTATION_KHR, nullptr, {}, {}, 0, 0, nullptr});
+    get(*device, &info, &count, list.data());
+    std::vector<std::string> buffers;
+    for (auto& text : list) buffers.emplace_back(text.dataSize, '\0');
+    for (size_t i = 0; i < list.size(); ++i) list[i].pData = buffers[i].data();
+    get(*device, &info, &count, list.data());
+    for (size_t i = 0; i < list.size(); ++i)
+        if (list[i].isText) texts[list[i].name] = std::string(buffers[i].c_str());
+    return texts;
+}
+
+json compile(const vk::raii::Device& device, const PipelineRecipe& recipe, bool has_assembly) {
+    vk::PipelineCreateFlags flags = vk::PipelineCreateFlagBits::eCaptureStatisticsKHR;
+    if (has_assembly) flags |= vk::PipelineCreateFlagBits::eCaptureInternalRepresentationsKHR;
+    const Pipeline made = make_pipeline(device, recipe, flags);
+    json shaders = json::array();
+    const auto executables = device.getPipelineExecutablePropertiesKHR({.pipeline = *made.pipeline});
+    for (uint32_t i = 0; i < executables.size(); ++i) {
+        const vk::PipelineExecutableInfoKHR which{.pipeline = *made.pipeline, .executableIndex = i};
+        json statistics = json::object();
+        for (const auto& statistic : device.getPipelineExecutableStatisticsKHR(which))
+            statistics[statistic.name.data()] = value_of(statistic);
+        shaders.push_back({{"stages", uint32_t(executables[i].stages)},
+                           {"lanes", executables[i].subgroupSize},
+                           {"statistics", statistics},
+                           {"texts", has_assembly ? texts_of(device, which) : json::object()}});
+    }
+    return {{"shaders", shaders}};
+}
+
+void compile_all(const std::string& chip_name, const std::string& recipes, std::ostream& results, bool has_assembly) {
+    setenv("RADV_FORCE_FAMILY", chip_name.c_str(), 1);
+    if (!std::freopen("/dev/null", "w", stderr)) std::cerr << '\n';  // where radv names what it does not know
+    const auto put = [&](const json& line) { results << line.dump() << std::endl; };
+    const vk::raii::Context context;
+    const vk::ApplicationInfo application{.pApplicationName = "ssrlab", .apiVersion = VK_API_VERSION_1_3};
+    const vk::raii::Instance instance(context, vk::InstanceCreateInfo{.pApplicationInfo = &application});
+    const std::optional<vk::raii::PhysicalDevice> chip = find_chip(instance);
+    if (!chip) return put({{"refusal", "there is no radv"}});
+    put(describe(*chip));
+    const vk::raii::Device device = make_device(*chip);
+    for (const PipelineRecipe& recipe : recipes_of(recipes)) try {
+            put(compile(device, recipe, has_assembly));
+        } catch (const vk::SystemError& e) {
+            put({{"refusal", e.what()}});
+        }
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+    if (count < 4) {
+        std::cerr << "usage: chip_compiler CHIP RECIPES RESULTS [--assembly], as ssrlab starts it\n";
+        return 2;
+    }
+    try {
+        std::ofstream results(arguments[3]);
+        compile_all(arguments[1], read_text(arguments[2]), results, count > 4);
+        return results ? 0 : 3;
+    } catch (const std::exception& e) {
+        std::cerr << "error: " << e.what() << '\n';
+        return 3;
+    }
+}

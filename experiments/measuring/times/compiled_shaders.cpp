@@ -1,0 +1,107 @@
+#include "experiments/measuring/times/compiled_shaders.h"
+
+#include "core/error.h"
+#include "core/gpu/chips/occupancy.h"
+#include "experiments/measuring/render_variant.h"
+
+#include <algorithm>
+
+namespace {
+
+template <class Count>
+std::optional<double> number(const std::optional<Count>& value) {
+    return value ? std::optional(double(*value)) : std::nullopt;
+}
+
+CompiledRow row_of(const StagePipelines::Entry& entry, const std::string& shot, const VariantConfig& point,
+                   const Chip& chip) {
+    CompiledRow row;
+    row.shot = shot, row.variant = point.variant, row.point = point.point;
+    row.stage = entry.stage, row.pipeline = entry.number;
+    row.chip = chip.name, row.driver = chip.driver;
+    return row;
+}
+
+}  // namespace
+
+void StagePipelines::collect_from(PassGraph& graph) {
+    graph.use_gpu_forms(true);
+    graph.observe_pipelines([this](const std::string& stage, const PipelineRecipe& recipe) {
+        if (seen_.insert(stage + '\n' + bytes_of({recipe})).second)
+            entries_.push_back({.stage = stage, .number = count_[stage]++, .recipe = recipe});
+    });
+}
+
+StagePipelines stage_pipelines(Device& device, const Shot& shot, FrameStore& store,
+                               const std::function<const HostImage&(const FrameStep&)>& lit, const VariantConfig& point,
+                               bool keep_all) {
+    StagePipelines pipelines;
+    const Renderer renderer(device, shot.config.extent, point);
+    if (renderer.variant->uses_scene_data()) return pipelines;
+    if (!keep_all) renderer.variant->leave_out(shot.facts);
+    pipelines.collect_from(*renderer.graph);
+    for (const FrameStep& step : std::span(shot.steps).first(std::min<size_t>(shot.steps.size(), 2))) {
+        const FrameStore::Frame frame = store.frame(step, lit(step));
+        renderer.render(frame.camera, point.seeds.front(), frame.gbuffer);
+        renderer.graph->times();  // waits: the frame's images are gone with the next one
+    }
+    return pipelines;
+}
+
+std::vector<CompiledRow> compiled_rows(const StagePipelines& pipelines, const std::string& shot,
+                                       const VariantConfig& point, const Chip& chip, const ChipCompilation& how,
+                                       std::vector<std::string>* assembly) {
+    std::vector<PipelineRecipe> recipes;
+    for (const StagePipelines::Entry& entry : pipelines.entries()) recipes.push_back(entry.recipe);
+    const std::vector<CompiledPipeline> compiled = compile_for_chip(chip, recipes, how);
+    std::vector<CompiledRow> rows;
+    for (size_t i = 0; i < recipes.size(); ++i) {
+        CompiledRow row = row_of(pipelines.entries()[i], shot, point, chip);
+        row.refusal = compiled[i].refusal;
+        if (!row.refusal.empty()) rows.push_back(row);
+        for (const CompiledShader& shader : compiled[i].shaders) {
+            const Occupancy occupancy = occupancy_of(chip.name, shader);
+            row.shader = shader.stage, row.lanes = shader.lanes, row.hash = shader.hash, row.limit = occupancy.limit;
+            row.vgprs = number(shader.vgprs), row.sgprs = number(shader.sgprs);
+            row.spilled_vgprs = number(shader.spilled_vgprs), row.spilled_sgprs = number(shader.spilled_sgprs);
+            row.scratch_bytes = number(shader.scratch_bytes), row.lds_bytes = number(shader.lds_bytes);
+            row.waves = number(occupancy.waves), row.most_waves = number(occupancy.most);
+            row.code_bytes = number(shader.code_bytes);
+            row.instructions = number(shader.instructions), row.branches = number(shader.branches);
+            row.latency = number(shader.latency), row.inverse_throughput = number(shader.inverse_throughput);
+            rows.push_back(row);
+            if (assembly) assembly->push_back(shader.assembly);
+        }
+    }
+    return rows;
+}
+
+GpuCompilers find_compilers(const std::vector<std::string>& names) {
+    GpuCompilers compilers;
+    for (const std::string& name : names) try {
+            compilers.chips.push_back(find_chip(name));
+        } catch (const MachineError& e) {
+            compilers.chips.push_back({.name = name, .device = {}, .driver = {}});
+            compilers.refusal = e.what();
+        }
+    return compilers;
+}
+
+std::vector<CompiledRow> compiled_rows(const StagePipelines& pipelines, const std::string& shot,
+                                       const VariantConfig& point, const GpuCompilers& compilers,
+                                       const ChipCompilation& how) {
+    std::vector<CompiledRow> rows;
+    for (const Chip& chip : compilers.chips) {
+        if (compilers.refusal.empty()) {
+            const std::vector<CompiledRow> of_chip = compiled_rows(pipelines, shot, point, chip, how);
+            rows.insert(rows.end(), of_chip.begin(), of_chip.end());
+            continue;
+        }
+        for (const StagePipelines::Entry& entry : pipelines.entries()) {
+            CompiledRow row = row_of(entry, shot, point, chip);
+            row.refusal = compilers.refusal;
+            rows.push_back(row);
+        }
+    }
+    return rows;
+}
