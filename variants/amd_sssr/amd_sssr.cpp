@@ -136,12 +136,12 @@ VariantEntry amd_sssr_entry() {
         .presets =
             {{"slides",
               "distances in the traversal loop as the slides of 2020 print them",
-              {{"hierarchy.march", "slides"}}},
+              {{"hierarchy.march", "slides"}, {"denoiser_form", "faithful"}}},
              {"sdk_1_5",
               "the shaders of FidelityFX SDK 1.1.4 with the defaults of its sample; of what its host code binds "
               "wrongly, "
               "the stale sample count is kept, as in version 1.3, the stale averages and the pyramid's are not",
-              nlohmann::json::object()},
+              {{"denoiser_form", "faithful"}}},
              {"repeatable",
               "as sdk_1_5, but subgroups do not give up their last rays: repeatable for every size of subgroups",
               {{"hierarchy.min_traversal_occupancy", 0}}},

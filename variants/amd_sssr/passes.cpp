@@ -60,6 +60,10 @@ void amd_intersect(PassGraph& graph, const GBuffer& gbuffer, const Tracers::Imag
 
 namespace {
 
+bool is_fast_form(const PassGraph& graph, const AmdDenoiserParameters& parameters) {
+    return parameters.denoiser_form.is("fast") || (parameters.denoiser_form.is("by_device") && !graph.uses_gpu_forms());
+}
+
 /// Each form has shaders of its own. A group of the faithful form denoises one tile, of the fast form eight.
 PassGraph::Pass denoiser_pass(PassGraph& graph, const std::string& name, bool is_fast) {
     return graph.compute("amd_sssr/" + name + (is_fast ? "_fast.comp" : ".comp")).label("amd_sssr/" + name);
@@ -91,7 +95,7 @@ void amd_reproject(PassGraph& graph, const GBuffer& gbuffer, const AmdWork& work
         for (const Image& image : {histories.variance.current, histories.sample_count.current}) graph.clear(image, {});
     constexpr float unlisted_average = 64512;  // as in denoiser_tile.glsl
     if (parameters.fresh_neighborhood) graph.clear(histories.average_radiance.current, glm::vec4(unlisted_average));
-    const bool is_fast = parameters.denoiser_form.is("fast");
+    const bool is_fast = is_fast_form(graph, parameters);
     PassGraph::Pass pass = denoiser_pass(graph, "reproject", is_fast);
     pass.read(histories.radiance.current.as("radiance"))
         .read(histories.roughness.current.as("roughness"))
@@ -110,7 +114,7 @@ void amd_reproject(PassGraph& graph, const GBuffer& gbuffer, const AmdWork& work
 
 void amd_prefilter(PassGraph& graph, const AmdWork& work, const AmdHistories& histories,
                    const AmdDenoiserParameters& parameters) {
-    const bool is_fast = parameters.denoiser_form.is("fast");
+    const bool is_fast = is_fast_form(graph, parameters);
     PassGraph::Pass pass = denoiser_pass(graph, "prefilter", is_fast);
     pass.read(histories.radiance.current.as("radiance"))
         .read(histories.variance.current.as("variance"))
@@ -124,7 +128,7 @@ void amd_prefilter(PassGraph& graph, const AmdWork& work, const AmdHistories& hi
 void amd_resolve_temporal(PassGraph& graph, const AmdWork& work, const AmdHistories& histories,
                           const AmdDenoiserParameters& parameters) {
     const PassGraph::History& samples = histories.sample_count;
-    const bool is_fast = parameters.denoiser_form.is("fast");
+    const bool is_fast = is_fast_form(graph, parameters);
     PassGraph::Pass pass = denoiser_pass(graph, "resolve_temporal", is_fast);
     pass.read(histories.radiance.current.as("traced_radiance"))
         .read(histories.radiance.previous.as("prefiltered_radiance"))

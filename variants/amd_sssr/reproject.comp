@@ -40,6 +40,8 @@ History find_history(Surface surface, Neighborhood around) {
     return history;
 }
 
+const uint denoiser_form_by_device = 0u;
+
 void main() {
     ivec2 local = ivec2(gl_LocalInvocationID.xy), pixel = tile_start(group_index()) + local;
     share_neighborhood(pixel, local);
@@ -51,7 +53,7 @@ void main() {
         History history = find_history(surface_of(pixel, alpha, color.w), neighborhood_at(local + reach));
         averaged = store_history(pixel, alpha, color.rgb, history);
     }
-    if (barrier_before_average) barrier();
+    if (barrier_before_average || denoiser_form == denoiser_form_by_device) barrier();
 
     share_color(local, weighted_for_average(pixel, averaged));
     barrier();

@@ -41,7 +41,7 @@ TEST_F(StudyReport, KnowsTheDefaultsOfRegisteredVariants) {
           {{"variant", "of another build"}, {"point", "default"}, {"parameters", nlohmann::json::object()}}}}};
     const nlohmann::json defaults = parameter_defaults(manifest);
     ASSERT_EQ(defaults.size(), 1u);
-    EXPECT_EQ(defaults["amd_sssr"]["denoiser_form"], "fast");
+    EXPECT_EQ(defaults["amd_sssr"]["denoiser_form"], "by_device");
     EXPECT_EQ(defaults["amd_sssr"]["hierarchy.march"], "sdk");
     EXPECT_TRUE(parameter_defaults(nlohmann::json::object()).empty());
 }
