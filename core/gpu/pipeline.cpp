@@ -127,8 +127,10 @@ std::string key_of(const ShaderChanges& changes) {
 }  // namespace
 
 const Shader& PipelineCache::shader(const std::string& file, const std::string& vertex_file, const ParameterSet& params,
-                                    const ShaderIncludes& includes, const ShaderChanges& changes) {
-    const std::string prelude = shader_prelude(params);
+                                    const ShaderIncludes& includes, const ShaderChanges& asked) {
+    ShaderChanges changes = asked;
+    changes.is_for_cpu = gpu_.info.is_cpu() && !changes.is_double && !changes.is_counted;
+    const std::string prelude = changes.is_for_cpu ? shader_prelude_for_cpu(params) : shader_prelude(params);
     const auto [entry, is_new] =
         shaders_.try_emplace(file + '\n' + vertex_file + '\n' + key_of(changes) + key_of(includes) + prelude);
     if (is_new) try {

@@ -75,12 +75,18 @@ std::string expand_includes(const std::string& text, size_t file, const ShaderIn
     return out.str();
 }
 
+/// What stands around a shader whose prelude is shader_prelude_for_cpu().
+const char* const before_main_for_cpu = "#define main shader_main\n";
+const char* const main_for_cpu =
+    "#undef main\nvoid main() {\n    copy_camera();\n    copy_params();\n    shader_main();\n}\n";
+
 /// The shader `files[index]` behind the prelude, which is file 0, with its includes, which are added to `files`.
 std::string complete_source(const std::string& prelude, size_t index, const ShaderIncludes& includes,
-                            std::vector<SourceFile>& files) {
+                            std::vector<SourceFile>& files, bool is_for_cpu = false) {
     const std::string begin = files[index].name.ends_with(".comp") ? "#define COMPUTE_SHADER\n#line 1 0\n" : "";
-    return begin + expand_includes(prelude, 0, includes, files) + "#line 1 " + std::to_string(index) + "\n" +
-           expand_includes(read_shader(files[index].name), index, includes, files);
+    return begin + expand_includes(prelude, 0, includes, files) + (is_for_cpu ? before_main_for_cpu : "") + "#line 1 " +
+           std::to_string(index) + "\n" + expand_includes(read_shader(files[index].name), index, includes, files) +
+           (is_for_cpu ? main_for_cpu : "");
 }
 
 std::string with_changes(std::string source, const ShaderChanges& changes) {
@@ -181,14 +187,28 @@ const std::vector<SceneConstant>& scene_constants() {
     return constants;
 }
 
-std::string shader_prelude(const ParameterSet& params, ShaderLanguage language) {
-    const bool is_webgl2 = language == ShaderLanguage::webgl2;
+namespace {
+
+std::string glsl_of_scene_constants(bool is_webgl2) {
     std::string constants;
     for (const SceneConstant& c : scene_constants())
         constants += (is_webgl2 ? "" : "layout(constant_id = " + std::to_string(c.id) + ") ") + "const bool " + c.name +
                      (c.initial ? " = true;\n" : " = false;\n");
-    return "#include \"core/shared/camera.h\"\nlayout(std140) uniform Camera { CameraData camera; };\n" + constants +
-           params.glsl(is_webgl2);
+    return constants;
+}
+
+const std::string camera_block = "#include \"core/shared/camera.h\"\nlayout(std140) uniform Camera { CameraData camera; }";
+
+}  // namespace
+
+std::string shader_prelude(const ParameterSet& params, ShaderLanguage language) {
+    const bool is_webgl2 = language == ShaderLanguage::webgl2;
+    return camera_block + ";\n" + glsl_of_scene_constants(is_webgl2) + params.glsl(is_webgl2);
+}
+
+std::string shader_prelude_for_cpu(const ParameterSet& params) {
+    return camera_block + " camera_block;\nCameraData camera;\n#include \"core/shaders/copy_camera.glsl\"\n" +
+           glsl_of_scene_constants(false) + params.glsl_with_copies();
 }
 
 Webgl2Sources webgl2_sources(const std::string& file, const std::string& prelude, const ShaderIncludes& includes) {
@@ -213,12 +233,14 @@ Shader compile(const std::string& file, const std::string& vertex_file, const st
             sources.emplace_back(EShLangVertex, fullscreen_triangle("gl_VertexIndex"));
         } else {
             files.push_back({vertex_file});
-            sources.emplace_back(EShLangVertex, complete_source(prelude, files.size() - 1, includes, files));
+            sources.emplace_back(EShLangVertex, complete_source(prelude, files.size() - 1, includes, files,
+                                                                changes.is_for_cpu));
         }
     }
     sources.emplace_back(is_compute ? EShLangCompute : EShLangFragment,
                          webgl2 ? webgl2_fragment(prelude, includes, files)
-                                : with_changes(complete_source(prelude, 1, includes, files), changes));
+                                : with_changes(complete_source(prelude, 1, includes, files, changes.is_for_cpu),
+                                               changes));
 
     Shader result;
     const auto rules = webgl2 ? EShMsgDefault : EShMessages(EShMsgSpvRules | EShMsgVulkanRules);

@@ -73,6 +73,17 @@ TEST(Parameters, DeclareThemselvesInGlsl) {
     EXPECT_EQ(ParameterSet{}.glsl(), "");
 }
 
+TEST(Parameters, DeclareVariablesThatAreCopiesOfTheirBlock) {
+    EXPECT_EQ(Demo{}.params.glsl_with_copies(),
+              "layout(constant_id = 0) const uint max_steps = uint(64);\n"
+              "layout(constant_id = 1) const bool refine = bool(false);\n"
+              "layout(constant_id = 2) const uint filter = uint(1);\n"
+              "layout(std140) uniform Params {\n    float thickness;\n    int offset;\n} params_block;\n"
+              "    float thickness;\n    int offset;\n"
+              "void copy_params() {\n    thickness = params_block.thickness;\n    offset = params_block.offset;\n}\n");
+    EXPECT_EQ(ParameterSet{}.glsl_with_copies(), "void copy_params() {\n}\n");
+}
+
 /// Of parts that techniques share: GLSL's names have no dots.
 TEST(Parameters, OfAPartBeginWithItsName) {
     ParameterSet params;

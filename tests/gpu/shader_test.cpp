@@ -1,10 +1,14 @@
 #include "core/gpu/shader.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "core/parameters.h"
 #include "tests/error_message.h"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <filesystem>
+#include <regex>
+#include <sstream>
 
 namespace {
 
@@ -32,6 +36,26 @@ TEST(Shader, WebGl2RefusesWhatItDoesNotHave) {
     EXPECT_EQ(error_of("plain_webgl2.frag", ShaderLanguage::webgl2), "no error");
     EXPECT_EQ(error_of("image_store.frag"), "no error");
     EXPECT_NE(error_of("image_store.frag", ShaderLanguage::webgl2).find("image_store.frag:"), std::string::npos);
+}
+
+/// A member that the copy forgot would be undefined on lavapipe alone.
+TEST(Shader, CopiesEveryMemberOfTheCamera) {
+    const std::filesystem::path root = SSRLAB_SOURCE_DIR;
+    const std::string copy = read_text(root / "core/shaders/copy_camera.glsl"),
+                      declared = read_text(root / "core/shared/camera.h");
+    const std::regex member("[ ,](\\w+)[,;]");
+    const std::string block = declared.substr(declared.find("struct CameraData"));
+    std::istringstream lines(block);
+    unsigned members = 0;
+    for (std::string line; std::getline(lines, line) && line.find("};") == std::string::npos;) {
+        line = line.substr(0, line.find("//"));
+        for (std::sregex_iterator i(line.begin(), line.end(), member), end; i != end; ++i, ++members) {
+            const std::string name = (*i)[1];
+            EXPECT_NE(copy.find("    camera." + name + " = camera_block.camera." + name + ";\n"), std::string::npos)
+                << name;
+        }
+    }
+    EXPECT_EQ(members, std::count(copy.begin(), copy.end(), ';'));
 }
 
 /// Constructs that Vulkan's GLSL has and GLSL ES 3.00 has not, and what stands for push constants.
