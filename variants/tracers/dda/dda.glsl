@@ -127,39 +127,57 @@ bool dda_meets_second_layer(ivec2 pixel, float z_min, float z_max) {
 #endif
 }
 
+const uint dda_goes_on = 0xffffffffu;  // no outcome yet
+const uint dda_batch = 4u;             // steps
+
+// The step that tests `pixel`, which shows `device_depth` if it is on the screen. Its outcome, or dda_goes_on.
+uint dda_step(DdaLine line, float t, ivec2 pixel, float device_depth, inout float z_before) {
+    if (t > line.pixels) return line.end_outcome;
+    if (!is_on_screen(pixel)) return outcome_off_screen;
+    count_fetch();
+    float z_after = dda_z_at(line, t + 0.5 * line.stride);
+    float z_min = min(z_before, z_after), z_max = max(z_before, z_after);
+    z_before = z_after;
+    if (dda_meets(device_depth, z_min, z_max)) return outcome_hit;
+    return dda_meets_second_layer(pixel, z_min, z_max) ? outcome_hidden : dda_goes_on;
+}
+
+// Of the nearest pixel on the screen; not counted.
+float dda_depth_at(ivec2 pixel) {
+    return texelFetch(depth, clamp(pixel, ivec2(0), ivec2(camera.extent.xy) - 1), 0).r;
+}
+
 TraceEnd dda_trace(TraceRay ray) {
     DdaLine line = dda_line(ray);
     float start = dda_start(ray.pixel);
     // Deviation, unless `interval_from_origin`: the first tested pixel is a voxel of half a step to both sides, as all.
     float z_before = dda_interval_from_origin ? ray.origin.z : dda_z_at(line, max(start - 0.5, 0.0) * line.stride);
-    uint outcome = outcome_unfinished;
+    // Steps in batches, which wait for their depths together. What only a hit needs comes after the loop: where both sides
+    // of a branch are run, each step would pay for it.
+    uint outcome = dda_goes_on;
     float t = 0.0;
-    for (uint i = 0u; i < dda_max_steps; ++i) {
-        t = line.stride * (start + float(i));
-        if (t > line.pixels) {
-            outcome = line.end_outcome;
-            break;
+    for (uint i = 0u; i < dda_max_steps && outcome == dda_goes_on; i += dda_batch) {
+        float t_of[dda_batch], depth_of[dda_batch];
+        ivec2 pixel_of[dda_batch];
+        for (uint k = 0u; k < dda_batch; ++k) {
+            t_of[k] = line.stride * (start + float(i + k));
+            // Deviation: floor and a bounds test; truncation would let rays up to a pixel off the screen hit its border.
+            pixel_of[k] = pixel_from_screen(dda_position_at(line, t_of[k]));
+            depth_of[k] = dda_depth_at(pixel_of[k]);
         }
-        // Deviation: floor and a bounds test; truncation would let rays up to a pixel off the screen hit its border.
-        ivec2 pixel = pixel_from_screen(dda_position_at(line, t));
-        if (!is_on_screen(pixel)) {
-            outcome = outcome_off_screen;
-            break;
-        }
-        float z_after = dda_z_at(line, t + 0.5 * line.stride);
-        float z_min = min(z_before, z_after), z_max = max(z_before, z_after);
-        if (dda_meets(fetch_depth(pixel), z_min, z_max)) {
-            // Deviation: the hit is at the pixel tested. The loop as printed has moved one stride further by then.
-            if (dda_refine && line.stride > 1.0) t = dda_refined(line, t);
-            vec2 position = dda_position_at(line, t);
-            return TraceEnd(pixel_from_screen(position), position, dda_distance_at(line, t, ray), 1.0, outcome_hit);
-        }
-        if (dda_meets_second_layer(pixel, z_min, z_max)) {
-            outcome = outcome_hidden;
-            break;
-        }
-        z_before = z_after;
+        for (uint k = 0u; k < dda_batch; ++k)
+            if (outcome == dda_goes_on && i + k < dda_max_steps) {
+                t = t_of[k];
+                outcome = dda_step(line, t, pixel_of[k], depth_of[k], z_before);
+            }
     }
-    return missed(outcome, dda_position_at(line, t), dda_distance_at(line, t, ray));
+    if (outcome == dda_goes_on) outcome = outcome_unfinished;
+    bool is_hit = outcome == outcome_hit;
+    // Deviation: the hit is at the pixel tested. The loop as printed has moved one stride further by then.
+    if (is_hit && dda_refine && line.stride > 1.0) t = dda_refined(line, t);
+    vec2 position = dda_position_at(line, t);
+    float ray_length = dda_distance_at(line, t, ray);
+    if (!is_hit) return missed(outcome, position, ray_length);
+    return TraceEnd(pixel_from_screen(position), position, ray_length, 1.0, outcome_hit);
 }
 #endif
