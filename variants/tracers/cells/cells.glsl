@@ -42,8 +42,12 @@ TraceEnd cells_trace(TraceRay ray) {
     int coarsest = depth_pyramid_coarsest(cells_pyramid_mips), level = 0;
     uint safe_steps = 0u;
     CellExit here = exit_of_cell(line, line.pixel, 0);  // not its own pixel
+    // What only a hit needs comes after the loop: where both sides of a branch are run, each step would pay for it.
+    float t_hit = 0.0;
+    bool is_hit = false, is_at_end = false;
     for (uint i = 0u; i < cells_max_steps; ++i) {
-        if (here.t >= line.end) return missed_on_line(line, line.end < t_border);
+        is_at_end = here.t >= line.end;
+        if (is_at_end) break;
         level = existing_level(here.pixel, level);
         CellExit ahead = exit_of_cell(line, here.pixel, level);
         float t_out = cells_interval ? min(ahead.t, line.end) : here.t;  // the flaw: only where it enters
@@ -62,13 +66,15 @@ TraceEnd cells_trace(TraceRay ray) {
             --level;
             continue;
         }
-        float t = closest_t(line, surface, here.t, t_out);
+        t_hit = closest_t(line, surface, here.t, t_out);
         bool is_met = !is_sky(surface, cells_sky_depth) &&
                       !cells_is_behind_solid(nearer_of(depth_in, depth_out), surface);
-        if (is_met && !(cells_leave_own_plane && is_own_plane_at(line, here.pixel, surface, t)))
-            return cells_hit(line, ray, here.pixel, t);
+        is_hit = is_met && !(cells_leave_own_plane && is_own_plane_at(line, here.pixel, surface, t_hit));
+        if (is_hit) break;
         here = ahead;
     }
+    if (is_hit) return cells_hit(line, ray, here.pixel, t_hit);
+    if (is_at_end) return missed_on_line(line, line.end < t_border);
     line.end = min(line.end, here.t);
     return missed_on_line(line, true);
 }

@@ -83,24 +83,32 @@ TraceEnd fixed_stride_trace(TraceRay ray) {
     // A ray along the view is a point on the screen, whose slope is none.
     float stride = stride_at(ray.origin.z, fixed_stride_stride, fixed_stride_stride_z_cutoff);
     float step = stride / clamp(length(line.slope.xy), 0.5, 2.0);
-    float t_before = 0.0;
-    bool was_behind = false;
-    for (uint i = 0u; i < fixed_stride_max_steps; ++i) {
+    // What only a hit needs comes after the loop: where both sides of a branch are run, each step would pay for it.
+    float t_before = 0.0, t_hit = 0.0;
+    ivec2 pixel_hit = ivec2(0);
+    bool was_behind = false, is_hit = false, is_at_end = false;
+    for (uint i = 0u; i < fixed_stride_max_steps && !is_hit; ++i) {
         float t = (float(i) + 1.0 - fixed_stride_jitter * ray.random) * step;
-        if (t >= line.end) return missed_on_line(line, line.end < t_border);
+        is_at_end = t >= line.end;
+        if (is_at_end) break;
         FixedStrideSample found = fixed_stride_sample(line, t);
         // Thickness counts where the ray fell behind: a ray that runs steeply into depth is far behind a step later.
         if (fixed_stride_refine && found.is_behind && !was_behind) {
-            float t_refined = fixed_stride_refined(line, t_before, t);
-            FixedStrideSample refined = fixed_stride_sample(line, t_refined);
-            if (fixed_stride_is_thin(depth_at(line, t_refined), refined.surface))
-                return fixed_stride_hit(line, ray, refined.pixel, t_refined);
+            t_hit = fixed_stride_refined(line, t_before, t);
+            FixedStrideSample refined = fixed_stride_sample(line, t_hit);
+            pixel_hit = refined.pixel;
+            is_hit = fixed_stride_is_thin(depth_at(line, t_hit), refined.surface);
         }
-        if (found.is_behind && fixed_stride_is_thin(depth_at(line, t), found.surface))
-            return fixed_stride_hit(line, ray, found.pixel, t);
+        if (!is_hit && found.is_behind) {
+            t_hit = t;
+            pixel_hit = found.pixel;
+            is_hit = fixed_stride_is_thin(depth_at(line, t), found.surface);
+        }
         was_behind = found.is_behind;
         t_before = t;
     }
+    if (is_hit) return fixed_stride_hit(line, ray, pixel_hit, t_hit);
+    if (is_at_end) return missed_on_line(line, line.end < t_border);
     line.end = min(line.end, t_before);
     return missed_on_line(line, true);
 }

@@ -29,6 +29,7 @@ TraceEnd frostbite_hierarchical_trace(TraceRay ray) {
     ScreenLine line = screen_line(ray);
     int coarsest = depth_pyramid_coarsest(frostbite_pyramid_mips), level = 0;
     CellExit here = exit_of_cell(line, line.pixel, 0);  // not its own pixel
+    FrostbiteEnd end = frostbite_no_hit;
     for (uint passed = 0u, most = frostbite_most_cells(); passed < most && here.t < line.end;) {
         level = existing_level(here.pixel, level);
         ivec2 cell = here.pixel >> level;
@@ -44,13 +45,13 @@ TraceEnd frostbite_hierarchical_trace(TraceRay ray) {
             continue;
         }
         if (!is_passed) {
-            FrostbiteEnd end = frostbite_meet(line, here.pixel, surface, here.t, t_out, farthest);
-            if (end.is_hit) return frostbite_end(line, end, ray, false);
+            end = frostbite_meet(line, here.pixel, surface, here.t, t_out, farthest);
+            if (end.is_hit) break;
         }
         here = ahead;
         ++passed;
         if (is_passed) level = min(level + 1, coarsest);
     }
-    return frostbite_end(line, frostbite_no_hit, ray, here.t < line.end);
+    return frostbite_end(line, end, ray, here.t < line.end);
 }
 #endif

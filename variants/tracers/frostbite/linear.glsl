@@ -32,17 +32,19 @@ FrostbiteEnd frostbite_refine(ScreenLine line, FrostbiteEnd end, float t_in, flo
 TraceEnd frostbite_linear_trace(TraceRay ray) {
     ScreenLine line = screen_line(ray);
     float stride = max(line.end / float(frostbite_linear_steps), 1.0);
-    float t_in = 0.5;  // where it leaves its own pixel
+    float t_in = 0.5, t_out = t_in;  // where it leaves its own pixel
+    FrostbiteEnd end = frostbite_no_hit;
     bool is_last = false;
-    for (uint step = 0u; !is_last; ++step) {
-        float t_out = (float(step) + ray.random) * stride;
+    // What only a hit needs comes after the loop: where both sides of a branch are run, each step would pay for it.
+    for (uint step = 0u; !is_last && !end.is_hit; ++step) {
+        t_out = (float(step) + ray.random) * stride;
         is_last = step == frostbite_linear_steps || t_out >= line.end;
         if (is_last) t_out = line.end;
         if (pixel_at(line, t_out) == line.pixel) continue;
-        FrostbiteEnd end = frostbite_meet_at_end(line, t_in, t_out);
-        if (end.is_hit) return frostbite_end(line, frostbite_refine(line, end, t_in, t_out), ray, false);
-        t_in = t_out;
+        end = frostbite_meet_at_end(line, t_in, t_out);
+        if (!end.is_hit) t_in = t_out;
     }
-    return frostbite_end(line, frostbite_no_hit, ray, false);
+    if (end.is_hit) end = frostbite_refine(line, end, t_in, t_out);
+    return frostbite_end(line, end, ray, false);
 }
 #endif

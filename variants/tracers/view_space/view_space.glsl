@@ -67,22 +67,23 @@ TraceEnd view_space_trace(TraceRay ray) {
     ViewSpaceSample found;
     found.position = screen_from_pixel(ray.pixel);
     found.distance = 0.0;
-    for (uint i = 1u; i <= view_space_steps; ++i) {
-        float before = found.distance;
+    // What only a hit needs comes after the loop: where both sides of a branch are run, each step would pay for it.
+    float before = 0.0;
+    bool is_over = false;
+    for (uint i = 1u; i <= view_space_steps && !is_over; ++i) {
+        before = found.distance;
         found = view_space_sample(ray, way * float(i) / float(view_space_steps));
         // What has left the screen comes back only from behind the camera.
-        if (!found.is_on_screen && view_space_clip_to_near_plane)
-            return missed(outcome_off_screen, found.position, found.distance);
-        if (!found.is_met) continue;
-        found = view_space_refined(ray, found, before);
-        if (!found.is_on_screen) return missed(outcome_off_screen, found.position, found.distance);
-        if (!found.is_met) return missed(outcome_too_thick, found.position, found.distance);
-        if (view_space_front_faces_only && comes_from_behind(ray.direction, found.pixel))
-            return missed(outcome_from_behind, found.position, found.distance);
-        TraceEnd end = TraceEnd(found.pixel, found.position, found.distance, 1.0, outcome_hit);
-        if (!view_space_visibility_fade) return end;
-        return faded(end, view_space_visibility(ray, found, reach), outcome_too_thick);
+        is_over = found.is_met || (!found.is_on_screen && view_space_clip_to_near_plane);
     }
-    return missed(outcome, found.position, found.distance);
+    if (!is_over) return missed(outcome, found.position, found.distance);
+    if (found.is_met) found = view_space_refined(ray, found, before);
+    if (!found.is_on_screen) return missed(outcome_off_screen, found.position, found.distance);
+    if (!found.is_met) return missed(outcome_too_thick, found.position, found.distance);
+    if (view_space_front_faces_only && comes_from_behind(ray.direction, found.pixel))
+        return missed(outcome_from_behind, found.position, found.distance);
+    TraceEnd end = TraceEnd(found.pixel, found.position, found.distance, 1.0, outcome_hit);
+    if (!view_space_visibility_fade) return end;
+    return faded(end, view_space_visibility(ray, found, reach), outcome_too_thick);
 }
 #endif
