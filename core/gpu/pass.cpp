@@ -150,8 +150,12 @@ void PassGraph::Impl::run(Pass& pass, std::optional<glm::uvec3> groups, const Bu
         for (const Image& image : attachments) state.attachments.push_back(image.format);
     }
     check_limits(pass, shader, attachments);
-    if (pipeline_observer)
-        pipeline_observer(pass.label_, PipelineCache::recipe(shader, pass.shader_, *params, constants, state));
+    if (pipeline_observer) {
+        ShaderChanges for_gpu = changed;
+        for_gpu.is_for_gpu = true;
+        const Shader& seen = pipelines.shader(pass.shader_, pass.vertex_shader_, *params, pass.includes_, for_gpu);
+        pipeline_observer(pass.label_, PipelineCache::recipe(seen, pass.shader_, *params, constants, state));
+    }
     changed.is_counted = is_counting;
     if (is_counting) make_counters(pass);
     const Pipeline& pipeline =

@@ -120,6 +120,7 @@ std::string key_of(const ShaderIncludes& includes) {
 std::string key_of(const ShaderChanges& changes) {
     std::string key = changes.is_double ? "in double\n" : "";
     if (changes.is_counted) key += "counted\n";
+    if (changes.is_for_gpu) key += "for a GPU\n";
     for (const auto& [image, format] : changes.image_formats) key += image + ' ' + name_of(format) + '\n';
     return key;
 }
@@ -129,7 +130,7 @@ std::string key_of(const ShaderChanges& changes) {
 const Shader& PipelineCache::shader(const std::string& file, const std::string& vertex_file, const ParameterSet& params,
                                     const ShaderIncludes& includes, const ShaderChanges& asked) {
     ShaderChanges changes = asked;
-    changes.is_for_cpu = gpu_.info.is_cpu() && !changes.is_double && !changes.is_counted;
+    changes.is_for_cpu = gpu_.info.is_cpu() && !changes.is_double && !changes.is_counted && !changes.is_for_gpu;
     const std::string prelude = changes.is_for_cpu ? shader_prelude_for_cpu(params) : shader_prelude(params);
     const auto [entry, is_new] =
         shaders_.try_emplace(file + '\n' + vertex_file + '\n' + key_of(changes) + key_of(includes) + prelude);
