@@ -197,7 +197,8 @@ std::string glsl_of_scene_constants(bool is_webgl2) {
     return constants;
 }
 
-const std::string camera_block = "#include \"core/shared/camera.h\"\nlayout(std140) uniform Camera { CameraData camera; }";
+const std::string camera_block =
+    "#include \"core/shared/camera.h\"\nlayout(std140) uniform Camera { CameraData camera; }";
 
 }  // namespace
 
@@ -233,14 +234,14 @@ Shader compile(const std::string& file, const std::string& vertex_file, const st
             sources.emplace_back(EShLangVertex, fullscreen_triangle("gl_VertexIndex"));
         } else {
             files.push_back({vertex_file});
-            sources.emplace_back(EShLangVertex, complete_source(prelude, files.size() - 1, includes, files,
-                                                                changes.is_for_cpu));
+            sources.emplace_back(EShLangVertex,
+                                 complete_source(prelude, files.size() - 1, includes, files, changes.is_for_cpu));
         }
     }
     sources.emplace_back(is_compute ? EShLangCompute : EShLangFragment,
-                         webgl2 ? webgl2_fragment(prelude, includes, files)
-                                : with_changes(complete_source(prelude, 1, includes, files, changes.is_for_cpu),
-                                               changes));
+                         webgl2
+                             ? webgl2_fragment(prelude, includes, files)
+                             : with_changes(complete_source(prelude, 1, includes, files, changes.is_for_cpu), changes));
 
     Shader result;
     const auto rules = webgl2 ? EShMsgDefault : EShMessages(EShMsgSpvRules | EShMsgVulkanRules);
