@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/gpu/device.h"
+#include "core/path_inside.h"
 #include "core/scene/load_scene.h"
 #include "core/shown_text.h"
 #include "experiments/commands/commands.h"
@@ -112,7 +113,7 @@ void write_assembly(const fs::path& folder, const std::vector<CompiledRow>& rows
         if (!row.refusal.empty()) continue;
         std::string name = row.stage + "." + std::to_string(row.pipeline) + "." + row.shader + "." + row.chip + ".s";
         std::ranges::replace(name, '/', '.');
-        write_text(folder / name, texts[next++]);
+        write_text(path_inside(folder, name), texts[next++]);
     }
     std::printf("Assembly: %s\n", folder.string().c_str());
 }
