@@ -30,26 +30,31 @@ Values names_of_masks() {
 
 Keys reference_keys() {
     const ReferenceSettings plain;
-    return {{"samples", whole(16, 1 << 24),
-             otherwise(std::to_string(ReferenceSettings::default_samples) +
-                       "; no limit if `seconds` or `target_relative_error` is set"),
-             "per pixel, rounded up to 16 x 2^k"},
-            {"lit_samples", whole(16, 1 << 24),
-             otherwise("`samples`; where nothing else is rendered and `target_relative_error` is set " +
-                       std::to_string(ReferenceSettings::default_samples) + " at most"),
-             "the same of the lit colour alone, which techniques read: the rest of `samples` is of the specular light. "
-             "In frames that no result is compared with nothing else is rendered"},
-            {"lit_noise", flag(), true,
-             "false leaves out the two further plays of each point that measure what the noise of the lit colour adds "
-             "to its error, two thirds of the rendering with one seed: the error's interval then lacks it"},
-            {"guide_samples", whole(16, 4096), plain.guide_samples,
-             "per pixel of the guide, which weighs relative errors and tells roulette what to expect, rounded up to "
-             "16 x 2^k: 16 serve where `mse` alone is judged"},
-            {"seconds", number(0, 1e7), Default(0, "no limit"), "for each frame, beside those of its guide"},
-            {"target_relative_error", number(0, 1), Default(0, "none"),
-             "the relative standard error of the specular light at a pixel"},
-            {"max_depth", whole(1, 1024), plain.max_depth, "reflections of a path, the camera ray not counted"},
-            {"seed", whole(0, 1 << 30), plain.seed, "the reference's own"}};
+    return {
+        {"samples", whole(16, 1 << 24),
+         otherwise(std::to_string(ReferenceSettings::default_samples) +
+                   "; no limit if `seconds` or `target_relative_error` is set"),
+         "per pixel, rounded up to 16 x 2^k"},
+        {"lit_samples", whole(16, 1 << 24),
+         otherwise("`samples`; where nothing else is rendered and `target_relative_error` is set " +
+                   std::to_string(ReferenceSettings::default_samples) + " at most"),
+         "the same of the lit colour alone, which techniques read: the rest of `samples` is of the specular light. "
+         "In frames that no result is compared with nothing else is rendered"},
+        {"lit_noise", flag(), true,
+         "false leaves out the two further plays of each point that measure what the noise of the lit colour adds "
+         "to its error, two thirds of the rendering with one seed: the error's interval then lacks it"},
+        {"lit_filter", flag(), false,
+         "true gives techniques the lit colour without most of its noise, as an engine has it: non-local means of the "
+         "light on the surfaces, so that few `lit_samples` serve. What is compared with the truth is not filtered, nor "
+         "are captures"},
+        {"guide_samples", whole(16, 4096), plain.guide_samples,
+         "per pixel of the guide, which weighs relative errors and tells roulette what to expect, rounded up to "
+         "16 x 2^k: 16 serve where `mse` alone is judged"},
+        {"seconds", number(0, 1e7), Default(0, "no limit"), "for each frame, beside those of its guide"},
+        {"target_relative_error", number(0, 1), Default(0, "none"),
+         "the relative standard error of the specular light at a pixel"},
+        {"max_depth", whole(1, 1024), plain.max_depth, "reflections of a path, the camera ray not counted"},
+        {"seed", whole(0, 1 << 30), plain.seed, "the reference's own"}};
 }
 
 Keys timing_keys() {
@@ -168,6 +173,7 @@ void read_reference(ConfigObject& study, Config& config) {
     if (object.has("samples")) settings.max_samples = object.get<unsigned>("samples");
     if (object.has("lit_samples")) settings.lit_samples = object.get<unsigned>("lit_samples");
     config.measures_lit_noise = object.get<bool>("lit_noise");
+    config.filters_lit = object.get<bool>("lit_filter");
     settings.guide_samples = object.get<unsigned>("guide_samples");
     settings.max_seconds = object.get<float>("seconds");
     settings.target_relative_error = object.get<float>("target_relative_error");

@@ -110,6 +110,7 @@ struct Config {
     std::vector<VariantConfig> variants;
     ReferenceSettings reference;
     bool measures_lit_noise = true;  ///< see LitNoise
+    bool filters_lit = false;        ///< what variants read, see filter_lit()
     bool has_reference = true;       ///< else no error is measured: frames are timed and rays judged
     CompositeFormula composite = CompositeFormula::split_sum;
     TimingConfig timing;

@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/gbuffer/gbuffer_transfer.h"
+#include "experiments/measuring/frames/lit_filter.h"
 
 #include <algorithm>
 #include <utility>
@@ -30,6 +31,14 @@ void check_change(const Shot& shot, const std::map<unsigned, std::string>& looks
         if (is_after_change(shot, step) && looks.at(step.frame) != looks.at(*shot.config.change))
             fail("shot ", shot.name(), ": 'change' = ", *shot.config.change, ", but frame ", step.frame,
                  " looks different from it; ghosting can only be measured where nothing moves after the change");
+}
+
+/// Replaces what variants read.
+void filter(PoseTruth& pose, const ReferenceOutput& lit, const Shot& shot, unsigned frame) {
+    const ShotFrame now = shot_frame(shot, frame);
+    FilteredLit filtered = filter_lit(lit, lit_surfaces(shot.scene, now.scene, now.camera, shot.config.extent));
+    pose.diffuse = std::move(filtered.mean);
+    pose.lit_halves = {.a = std::move(filtered.half_a), .b = std::move(filtered.half_b)};
 }
 
 }  // namespace
@@ -106,10 +115,14 @@ ShotTruth shot_truth(const Shot& shot, const Config& config, FrameStore& store, 
             .is_of_measured = std::ranges::any_of(
                 shot.steps, [&](const FrameStep& s) { return s.is_measured && looks[s.frame] == look; }),
             .is_compared = compared.contains(look)};
-        if (!pose)
-            pose = std::make_shared<PoseTruth>(
-                pose_truth(obtain(step.frame, use), config, shot.camera.exposure_ev,
-                           {.has_targets = use.is_of_last, .has_frame_reference = has_several && use.is_compared}));
+        if (!pose) {
+            const Reference reference = obtain(step.frame, use);
+            PoseTruth made =
+                pose_truth(reference, config, shot.camera.exposure_ev,
+                           {.has_targets = use.is_of_last, .has_frame_reference = has_several && use.is_compared});
+            if (config.filters_lit && !is_capture(shot)) filter(made, reference.diffuse, shot, step.frame);
+            pose = std::make_shared<PoseTruth>(std::move(made));
+        }
         truth.poses[step.frame] = pose;
     }
     for (const FrameStep& step : shot.steps) {

@@ -183,5 +183,7 @@ nlohmann::json shot_entry(const Shot& shot, const Config& config, bool keep_all)
     if (!shot.config.label.empty()) entry["label"] = shot.config.label;
     if (!shot.config.group.empty()) entry["group"] = shot.config.group;
     entry.update(shot_settings(shot.config));
+    if (config.filters_lit && config.has_reference && shot.config.gbuffer.empty() && !shot.config.direct_lit)
+        entry["lit"] = "filtered";
     return entry;
 }

