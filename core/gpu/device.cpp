@@ -177,6 +177,16 @@ std::vector<std::string> missing_features(const vk::PhysicalDeviceFeatures& v10,
     return missing;
 }
 
+NeededFeatures needed_features() {
+    return {
+        .v13 = {.robustImageAccess = true, .synchronization2 = true, .dynamicRendering = true, .maintenance4 = true},
+        .v10 = {.robustBufferAccess = true,
+                .independentBlend = true,
+                .fragmentStoresAndAtomics = true,
+                .shaderStorageImageExtendedFormats = true,
+                .shaderStorageImageWriteWithoutFormat = true}};
+}
+
 bool validation_requested() {
     const char* value = std::getenv("SSRLAB_VALIDATE");
     return value && std::string(value) == "1";
@@ -242,24 +252,17 @@ Device::Device(const std::string& choice, bool validate) : impl_(translated([] {
         const vk::DeviceQueueCreateInfo queue{
             .queueFamilyIndex = d.queue_family, .queueCount = 1, .pQueuePriorities = &priority};
         const char* const extensions[] = {VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
-        // Reads beyond an image give zeros, as the Direct3D originals of several techniques expect.
-        vk::PhysicalDeviceVulkan13Features v13{
-            .robustImageAccess = true, .synchronization2 = true, .dynamicRendering = true, .maintenance4 = true};
         d.has_doubles = has.get<vk::PhysicalDeviceFeatures2>().features.shaderFloat64;
         d.has_statistics = has.get<vk::PhysicalDeviceFeatures2>().features.pipelineStatisticsQuery;
-        const vk::PhysicalDeviceFeatures v10{.robustBufferAccess = true,
-                                             .independentBlend = true,
-                                             .pipelineStatisticsQuery = d.has_statistics,
-                                             .fragmentStoresAndAtomics = true,
-                                             .shaderStorageImageExtendedFormats = true,
-                                             .shaderStorageImageWriteWithoutFormat = true,
-                                             .shaderFloat64 = d.has_doubles};
-        d.device = {d.gpu, vk::DeviceCreateInfo{.pNext = &v13,
+        NeededFeatures needed = needed_features();
+        needed.v10.pipelineStatisticsQuery = d.has_statistics;
+        needed.v10.shaderFloat64 = d.has_doubles;
+        d.device = {d.gpu, vk::DeviceCreateInfo{.pNext = &needed.v13,
                                                 .queueCreateInfoCount = 1,
                                                 .pQueueCreateInfos = &queue,
                                                 .enabledExtensionCount = 1,
                                                 .ppEnabledExtensionNames = extensions,
-                                                .pEnabledFeatures = &v10}};
+                                                .pEnabledFeatures = &needed.v10}};
         d.queue = d.device.getQueue(d.queue_family, 0);
         d.pool = {d.device, vk::CommandPoolCreateInfo{.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer,
                                                       .queueFamilyIndex = d.queue_family}};

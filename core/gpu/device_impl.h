@@ -16,6 +16,14 @@ std::vector<std::string> missing_features(const vk::PhysicalDeviceFeatures& v10,
                                           const vk::PhysicalDeviceVulkan13Features& v13,
                                           const std::vector<vk::ExtensionProperties>& extensions);
 
+/// What is switched on of them on every device. Reads beyond an image give zeros, as the Direct3D originals of several
+/// techniques expect.
+struct NeededFeatures {
+    vk::PhysicalDeviceVulkan13Features v13;
+    vk::PhysicalDeviceFeatures v10;
+};
+NeededFeatures needed_features();
+
 /// What the debug callback fills; its address must not change.
 struct ValidationLog {
     std::mutex mutex;

@@ -21,7 +21,7 @@ struct ShaderChanges {
     std::map<std::string, Format> image_formats;  ///< in place of those that it declares, by the images' names
     bool is_counted = false;                      ///< see counted_shader.h
     bool is_for_gpu = false;                      ///< as a GPU gets it, on whatever device
-    bool is_for_cpu = false;                      ///< the form of shader_prelude_for_cpu(); with none of the others
+    bool is_for_cpu = false;  ///< the form of shader_prelude_for_cpu(); not in double, counted or for a GPU
 };
 
 /// Formats of as many channels in 32 bits and in 16, of any that holds fractions; depth, stencil and whole numbers

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 #include <cstdlib>
+#include <filesystem>
 
 namespace {
 
@@ -41,10 +42,14 @@ TEST(NoDeviceDeathTest, IsAFaultOfTheMachine) {
 /// radv, which mesa-vulkan-drivers has, compiles for a chip that is not there, and crashes where it is asked to render.
 TEST(NullHardwareDeathTest, IsRefused) {
     GTEST_FLAG_SET(death_test_style, "threadsafe");
-    const auto exit_saying = [](const std::string& choice) {
+    std::filesystem::path radv;
+    for (const auto& entry : std::filesystem::directory_iterator("/usr/share/vulkan/icd.d"))
+        if (entry.path().filename().string().starts_with("radeon_icd")) radv = entry.path();
+    if (radv.empty()) GTEST_SKIP() << "no radv in /usr/share/vulkan/icd.d";
+    const auto exit_saying = [&](const std::string& choice, bool is_alone) {
         setenv("RADV_FORCE_FAMILY", "navi21", 1);
-        const std::vector<DeviceInfo> devices = list_devices();
-        if (std::ranges::all_of(devices, &DeviceInfo::has_hardware)) std::exit(2);  // without radv
+        for (const char* name : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"})
+            if (is_alone) setenv(name, radv.c_str(), 1);
         try {
             const Device device(choice, false);
             std::fprintf(stderr, "hardware: %d\n", device.info().has_hardware());
@@ -53,21 +58,10 @@ TEST(NullHardwareDeathTest, IsRefused) {
         }
         std::exit(0);
     };
-    EXPECT_EXIT(exit_saying(""), testing::ExitedWithCode(0), "hardware: 1");
-    EXPECT_EXIT(exit_saying("null"), testing::ExitedWithCode(0),
+    EXPECT_EXIT(exit_saying("", false), testing::ExitedWithCode(0), "hardware: 1");
+    EXPECT_EXIT(exit_saying("null", false), testing::ExitedWithCode(0),
                 "'Null hardware .* runs none: to render, take RADV_FORCE_FAMILY");
-    const auto alone = [&] {
-        for (const char* name : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"})
-            setenv(name, "/usr/share/vulkan/icd.d/radeon_icd.x86_64.json", 1);
-        setenv("RADV_FORCE_FAMILY", "navi21", 1);
-        try {
-            const Device device("", false);
-        } catch (const MachineError& error) {
-            std::fprintf(stderr, "%s\n", error.what());
-        }
-        std::exit(0);
-    };
-    EXPECT_EXIT(alone(), testing::ExitedWithCode(0), "there is no other Vulkan device");
+    EXPECT_EXIT(exit_saying("", true), testing::ExitedWithCode(0), "there is no other Vulkan device");
 }
 
 TEST(Device, DescribesItself) {

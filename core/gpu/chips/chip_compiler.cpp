@@ -5,11 +5,16 @@
 #include "core/files.h"
 #include "core/near_miss.h"
 
+#include <sys/mman.h>
+#include <unistd.h>
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <fstream>
 #include <future>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <thread>
 
 namespace fs = std::filesystem;
@@ -30,57 +35,64 @@ const std::vector<std::string> candidates = {
     "gfx1100",  "gfx1101",  "gfx1102", "gfx1103_r1", "gfx1103_r2", "navi31",    "navi32",    "navi33",    "phoenix",
     "phoenix2", "gfx1150",  "gfx1151", "gfx1152",    "gfx1153",    "gfx1200",   "gfx1201"};
 
-/// A folder of this process's own, gone with it.
-struct ScratchFolder {
-    fs::path path;
-    ScratchFolder() {
-        std::string name = (fs::temp_directory_path() / "ssrlab_chip_XXXXXX").string();
-        if (!mkdtemp(name.data())) fail_machine("cannot make a folder in ", fs::temp_directory_path().string());
-        path = name;
+/// A file in memory, gone with this process however it ends.
+class MemoryFile {
+public:
+    MemoryFile() : file_(memfd_create("ssrlab", MFD_CLOEXEC)) {
+        if (file_ < 0) fail_machine("cannot make a file in memory: ", std::strerror(errno));
     }
-    ~ScratchFolder() {
-        std::error_code ignored;
-        fs::remove_all(path, ignored);
-    }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
+    ~MemoryFile() { close(file_); }
+    MemoryFile(const MemoryFile&) = delete;
+    MemoryFile& operator=(const MemoryFile&) = delete;
+    /// By which other processes of the user open it, too.
+    std::string path() const { return "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(file_); }
+
+private:
+    int file_;
 };
 
 struct Answer {
     std::vector<json> lines;  ///< as far as the compiler got
     std::string end;          ///< how it ended, if not well
+    bool was_aborted = false;
 };
 
 /// The lines that the program in main.cpp writes.
 Answer ask(const std::string& chip, const std::string& recipes, bool has_assembly) {
-    const ScratchFolder folder;
-    const fs::path in = folder.path / "recipes", out = folder.path / "results";
-    write_text(in, recipes);
-    std::vector<std::string> command = {CHIP_COMPILER, chip, in.string(), out.string()};
+    const MemoryFile in, out;
+    std::ofstream(in.path(), std::ios::binary) << recipes;
+    std::vector<std::string> command = {CHIP_COMPILER, chip, in.path(), out.path()};
     if (has_assembly) command.push_back("--assembly");
     Answer answer;
     try {
         if (const int code = run_program(command); code != 0) answer.end = "exit code " + std::to_string(code);
     } catch (const MachineError& e) {
         answer.end = e.what();
+        answer.was_aborted = answer.end.ends_with("signal " + std::to_string(SIGABRT));
     }
-    if (!fs::exists(out)) fail_machine("cannot compile for ", chip, ": ", answer.end);
-    std::istringstream lines(read_text(out));
-    for (std::string line; std::getline(lines, line);)
-        if (json value = json::parse(line, nullptr, false); !value.is_discarded()) answer.lines.push_back(value);
+    std::ifstream lines(out.path());
+    for (std::string line; std::getline(lines, line);) {
+        const json value = json::parse(line, nullptr, false);
+        if (value.is_discarded()) continue;  // the compiler ended while it was written
+        if (value.contains("error")) fail_machine("cannot compile for ", chip, ": ", value["error"].get<std::string>());
+        answer.lines.push_back(value);
+    }
     return answer;
 }
 
 /// The chip, if there is one of that name; MachineError without radv.
 std::optional<Chip> ask_for_chip(const std::string& name) {
     const Answer answer = ask(name, bytes_of({}), false);
-    if (answer.lines.empty()) return {};
+    if (answer.lines.empty()) {
+        if (answer.was_aborted) return {};  // as radv does on a name that it does not know
+        fail_machine("cannot compile for ", name, ": ", answer.end);
+    }
     const json& about = answer.lines.front();
     if (about.contains("refusal")) fail_machine(no_radv);
     return Chip{.name = name, .device = about.at("device"), .driver = about.at("driver")};
 }
 
-CompiledShader shader_of(const json& j, const PipelineRecipe& recipe) {
+CompiledShader shader_of(const json& j) {
     const json& statistics = j.at("statistics");
     const auto find = [&](std::initializer_list<const char*> names) -> std::optional<uint64_t> {
         for (const char* name : names)
@@ -95,7 +107,6 @@ CompiledShader shader_of(const json& j, const PipelineRecipe& recipe) {
                                    : stages & 0x10 ? "fragment"
                                                    : "vertex",
                           .lanes = j.at("lanes"),
-                          .group_waves = 1,
                           .vgprs = find({"VGPRs"}),
                           .sgprs = find({"SGPRs"}),
                           .spilled_vgprs = find({"Spilled VGPRs"}),
@@ -108,9 +119,6 @@ CompiledShader shader_of(const json& j, const PipelineRecipe& recipe) {
                           .branches = find({"Branches"}),
                           .latency = find({"Latency"}),
                           .inverse_throughput = find({"Inverse Throughput"})};
-    if (is_compute && shader.lanes > 0)
-        shader.group_waves =
-            (recipe.local_size[0] * recipe.local_size[1] * recipe.local_size[2] + shader.lanes - 1) / shader.lanes;
     if (const auto hash = find({"Hash"})) {
         char text[17];
         std::snprintf(text, sizeof text, "%08llx", static_cast<unsigned long long>(*hash));
@@ -121,10 +129,10 @@ CompiledShader shader_of(const json& j, const PipelineRecipe& recipe) {
     return shader;
 }
 
-CompiledPipeline pipeline_of(const json& j, const PipelineRecipe& recipe) {
+CompiledPipeline pipeline_of(const json& j) {
     if (j.contains("refusal")) return {.shaders = {}, .refusal = j.at("refusal")};
     CompiledPipeline pipeline;
-    for (const json& shader : j.at("shaders")) pipeline.shaders.push_back(shader_of(shader, recipe));
+    for (const json& shader : j.at("shaders")) pipeline.shaders.push_back(shader_of(shader));
     return pipeline;
 }
 
@@ -145,17 +153,19 @@ void compile_some(const Chip& chip, const std::vector<PipelineRecipe>& recipes, 
 }
 
 fs::path cached_file(const fs::path& cache, const Chip& chip, const PipelineRecipe& recipe) {
+    constexpr unsigned version =
+        1;  // to be raised when make_pipeline(), the chip's device or numbers of a recipe change
     ContentHash hash;
-    hash.add(bytes_of({recipe})), hash.add(chip.name), hash.add(chip.driver);
+    hash.add(version), hash.add(bytes_of({recipe})), hash.add(chip.name), hash.add(chip.driver);
     return cache / "chips" / (hash.hex() + ".json");
 }
 
 /// Null if there is none, or one that was not written whole.
-json read_cached(const fs::path& file, const PipelineRecipe& recipe) {
+json read_cached(const fs::path& file) {
     if (!fs::exists(file)) return {};
     json value = json::parse(read_text(file), nullptr, false);
     try {
-        return pipeline_of(value, recipe).shaders.empty() ? json() : value;
+        return pipeline_of(value).shaders.empty() ? json() : value;
     } catch (const json::exception&) {
         return {};
     }
@@ -163,7 +173,9 @@ json read_cached(const fs::path& file, const PipelineRecipe& recipe) {
 
 }  // namespace
 
-Chip find_chip(const std::string& name) {
+Chip find_chip(const std::string& asked) {
+    std::string name = asked;
+    std::ranges::transform(name, name.begin(), [](unsigned char c) { return char(std::tolower(c)); });
     if (const std::optional<Chip> chip = ask_for_chip(name)) return *chip;
     fail("the installed radv knows no chip '", name, "'", suggestion(name, candidates),
          "; `ssrlab list chips` shows those that it knows");
@@ -194,7 +206,7 @@ std::vector<CompiledPipeline> compile_for_chip(const Chip& chip, const std::vect
     std::vector<std::vector<size_t>> shares(most);
     size_t missing = 0;
     for (size_t i = 0; i < recipes.size(); ++i) {
-        if (uses_cache) results[i] = read_cached(cached_file(how.cache, chip, recipes[i]), recipes[i]);
+        if (uses_cache) results[i] = read_cached(cached_file(how.cache, chip, recipes[i]));
         if (results[i].is_null()) shares[missing++ % most].push_back(i);
     }
     std::vector<std::future<void>> workers;
@@ -213,6 +225,6 @@ std::vector<CompiledPipeline> compile_for_chip(const Chip& chip, const std::vect
             if (how.notice) how.notice(std::string("what was compiled for ") + chip.name + " is not kept: " + e.what());
         }
     std::vector<CompiledPipeline> pipelines;
-    for (size_t i = 0; i < recipes.size(); ++i) pipelines.push_back(pipeline_of(results[i], recipes[i]));
+    for (size_t i = 0; i < recipes.size(); ++i) pipelines.push_back(pipeline_of(results[i]));
     return pipelines;
 }

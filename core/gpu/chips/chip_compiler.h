@@ -18,7 +18,8 @@ struct Chip {
 /// RDNA 2, RDNA 3 and GCN 5.
 inline constexpr std::array default_chips = {"navi21", "gfx1100", "vega10"};
 
-/// Fails with Error if the installed radv does not know the name, with MachineError where there is no radv.
+/// `name`: in any case. Fails with Error if the installed radv does not know it, with MachineError where there is no
+/// radv.
 Chip find_chip(const std::string& name);
 
 /// All chips that the installed radv knows, of those that any of its versions up to Mesa 25 does; some seconds. Fails
@@ -27,9 +28,8 @@ std::vector<Chip> known_chips();
 
 /// What the compiler states of one shader. What it does not state, or a newer Mesa under another name, is empty.
 struct CompiledShader {
-    std::string stage;         ///< "compute", "vertex" or "fragment"
-    unsigned lanes = 0;        ///< of a wave: 32 or 64
-    unsigned group_waves = 0;  ///< of a workgroup; 1 of vertices and fragments
+    std::string stage;                                                   ///< "compute", "vertex" or "fragment"
+    unsigned lanes = 0;                                                  ///< of a wave: 32 or 64
     std::optional<uint64_t> vgprs, sgprs, spilled_vgprs, spilled_sgprs;  ///< registers of a lane and of a wave
     std::optional<uint64_t> scratch_bytes;                               ///< of a wave in memory, spills included
     std::optional<uint64_t> lds_bytes;                                   ///< of a workgroup

@@ -2,7 +2,8 @@
 //
 // A program of its own: radv reads the chip's name from the environment when it is loaded, once, and ends the process
 // on a name that it does not know. RECIPES holds bytes_of(), RESULTS gets a JSON object a line, each as soon as it is
-// known: the device, then what became of each recipe. A line is missing where the compiler ended the process.
+// known: the device, then what became of each recipe, or `error` of all. Lines are missing where the compiler ended the
+// process.
 #include "core/error.h"
 #include "core/files.h"
 #include "core/gpu/pipeline.h"
@@ -36,25 +37,17 @@ vk::raii::Device make_device(const vk::raii::PhysicalDevice& chip) {
     const float priority = 1;
     const vk::DeviceQueueCreateInfo queue{.queueFamilyIndex = 0, .queueCount = 1, .pQueuePriorities = &priority};
     vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR executables{.pipelineExecutableInfo = true};
-    const vk::PhysicalDeviceVulkan13Features v13{.pNext = &executables,
-                                                 .robustImageAccess = true,
-                                                 .synchronization2 = true,
-                                                 .dynamicRendering = true,
-                                                 .maintenance4 = true};
-    const vk::PhysicalDeviceFeatures v10{.robustBufferAccess = true,
-                                         .independentBlend = true,
-                                         .fragmentStoresAndAtomics = true,
-                                         .shaderStorageImageExtendedFormats = true,
-                                         .shaderStorageImageWriteWithoutFormat = true,
-                                         .shaderFloat64 = true};
+    NeededFeatures needed = needed_features();
+    needed.v13.pNext = &executables;
+    needed.v10.shaderFloat64 = true;
     const char* const extensions[] = {VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME,
                                       VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME};
-    return {chip, vk::DeviceCreateInfo{.pNext = &v13,
+    return {chip, vk::DeviceCreateInfo{.pNext = &needed.v13,
                                        .queueCreateInfoCount = 1,
                                        .pQueueCreateInfos = &queue,
                                        .enabledExtensionCount = 2,
                                        .ppEnabledExtensionNames = extensions,
-                                       .pEnabledFeatures = &v10}};
+                                       .pEnabledFeatures = &needed.v10}};
 }
 
 json value_of(const vk::PipelineExecutableStatisticKHR& statistic) {
@@ -112,6 +105,7 @@ json compile(const vk::raii::Device& device, const PipelineRecipe& recipe, bool 
 
 void compile_all(const std::string& chip_name, const std::string& recipes, std::ostream& results, bool has_assembly) {
     setenv("RADV_FORCE_FAMILY", chip_name.c_str(), 1);
+    for (const char* changes_code : {"RADV_PERFTEST", "RADV_DEBUG", "ACO_DEBUG"}) unsetenv(changes_code);
     if (!std::freopen("/dev/null", "w", stderr)) std::cerr << '\n';  // where radv names what it does not know
     const auto put = [&](const json& line) { results << line.dump() << std::endl; };
     const vk::raii::Context context;
@@ -135,12 +129,11 @@ int main(int count, char** arguments) {
         std::cerr << "usage: chip_compiler CHIP RECIPES RESULTS [--assembly], as ssrlab starts it\n";
         return 2;
     }
+    std::ofstream results(arguments[3]);
     try {
-        std::ofstream results(arguments[3]);
         compile_all(arguments[1], read_text(arguments[2]), results, count > 4);
-        return results ? 0 : 3;
     } catch (const std::exception& e) {
-        std::cerr << "error: " << e.what() << '\n';
-        return 3;
+        results << json{{"error", e.what()}}.dump() << std::endl;
     }
+    return results ? 0 : 3;
 }

@@ -4,21 +4,22 @@
 
 namespace {
 
-constexpr SimdLimits gcn_2{.vgprs = 256, .vgpr_step = 4, .sgprs = 512, .sgpr_step = 8, .waves = 10, .stated = 1},
-    gcn_3{.vgprs = 256, .vgpr_step = 4, .sgprs = 800, .sgpr_step = 16, .waves = 10, .stated = 1},
-    polaris{.vgprs = 256, .vgpr_step = 4, .sgprs = 800, .sgpr_step = 16, .waves = 8, .stated = 1},
-    rdna_1{.vgprs = 512, .vgpr_step = 4, .sgprs = 0, .sgpr_step = 0, .waves = 20, .stated = 2},
-    rdna_2{.vgprs = 512, .vgpr_step = 8, .sgprs = 0, .sgpr_step = 0, .waves = 16, .stated = 2},
-    rdna_3{.vgprs = 768, .vgpr_step = 12, .sgprs = 0, .sgpr_step = 0, .waves = 16, .stated = 2};
+constexpr SimdLimits gcn_1_2{.vgprs = 256, .vgpr_step = 4, .sgprs = 512, .sgpr_step = 8, .waves = 10, .is_rdna = false},
+    gcn_3{.vgprs = 256, .vgpr_step = 4, .sgprs = 800, .sgpr_step = 16, .waves = 10, .is_rdna = false},
+    tonga{.vgprs = 256, .vgpr_step = 4, .sgprs = 800, .sgpr_step = 96, .waves = 10, .is_rdna = false},
+    polaris{.vgprs = 256, .vgpr_step = 4, .sgprs = 800, .sgpr_step = 16, .waves = 8, .is_rdna = false},
+    rdna_1{.vgprs = 512, .vgpr_step = 4, .sgprs = 0, .sgpr_step = 0, .waves = 20, .is_rdna = true},
+    rdna_2{.vgprs = 512, .vgpr_step = 8, .sgprs = 0, .sgpr_step = 0, .waves = 16, .is_rdna = true},
+    rdna_3{.vgprs = 768, .vgpr_step = 12, .sgprs = 0, .sgpr_step = 0, .waves = 16, .is_rdna = true};
 
 struct Generation {
     std::vector<std::string> chips;
     SimdLimits limits;
 };
 const std::vector<Generation> generations = {
-    {{"tahiti", "pitcairn", "verde", "oland", "hainan", "bonaire", "kabini", "kaveri", "hawaii"}, gcn_2},
-    {{"tonga", "iceland", "carrizo", "fiji", "stoney", "vega10", "vega12", "vega20", "raven", "raven2", "renoir"},
-     gcn_3},
+    {{"tahiti", "pitcairn", "verde", "oland", "hainan", "bonaire", "kabini", "kaveri", "hawaii"}, gcn_1_2},
+    {{"tonga", "iceland"}, tonga},  // whose waves have 96 scalar registers each, for a defect of the chip
+    {{"carrizo", "fiji", "stoney", "vega10", "vega12", "vega20", "raven", "raven2", "renoir"}, gcn_3},
     {{"polaris10", "polaris11", "polaris12", "vegam"}, polaris},
     {{"navi10", "navi12", "navi14"}, rdna_1},
     // Smaller chips of the third generation have the register files of the second.
@@ -39,11 +40,15 @@ std::optional<SimdLimits> simd_limits(const std::string& chip) {
 
 Occupancy occupancy_of(const std::string& chip, const CompiledShader& shader) {
     const std::optional<SimdLimits> simd = simd_limits(chip);
-    if (!simd || !shader.waves || !shader.vgprs || !shader.sgprs || shader.lanes == 0) return {};
+    if (!simd || !shader.waves || !shader.vgprs || !shader.sgprs || (shader.lanes != 32 && shader.lanes != 64))
+        return {};
     const unsigned halves = 64 / shader.lanes;  // waves of 32 lanes: twice as many registers
     const uint64_t by_vgprs = uint64_t(simd->vgprs) * halves / rounded_up(*shader.vgprs, simd->vgpr_step * halves),
                    by_sgprs = simd->sgprs ? simd->sgprs / rounded_up(*shader.sgprs, simd->sgpr_step) : simd->waves;
-    Occupancy occupancy{.waves = unsigned(*shader.waves / simd->stated), .most = simd->waves, .limit = ""};
+    const uint64_t stated_for_each = simd->is_rdna ? shader.lanes / 32 : 1;
+    Occupancy occupancy{.waves = unsigned(std::min<uint64_t>(*shader.waves / stated_for_each, simd->waves)),
+                        .most = simd->waves,
+                        .limit = ""};
     if (*occupancy.waves >= simd->waves)
         occupancy.limit = "nothing";
     else if (*occupancy.waves == by_vgprs)
