@@ -92,7 +92,7 @@ void print(const std::vector<CompiledRow>& rows, const std::vector<CompiledRow>&
             return row.stage == other.stage && row.pipeline == other.pipeline && row.shader == other.shader;
         });
         if (!is_here && other.shader != "vertex" && other.chip == rows.front().chip)
-            std::printf("  %-44s only in %s\n", place_of(other).c_str(), against.c_str());
+            std::printf("  %-44s only in %s\n", shown_text(place_of(other)).c_str(), shown_text(against).c_str());
     }
 }
 

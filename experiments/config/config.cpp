@@ -299,6 +299,9 @@ Config read_config(const std::filesystem::path& file) {
     }
     config.counts_costs = study.get<bool>("costs");
     config.gpu_compilers = study.get<std::vector<std::string>>("gpu_compilers");
+    for (auto at = config.gpu_compilers.begin(); at != config.gpu_compilers.end(); ++at)
+        if (std::count(config.gpu_compilers.begin(), at, *at) > 0)
+            fail(study.at("gpu_compilers"), ": '", shortened(*at), "' stands there twice");
     config.kept_images = study["images"] == "all"      ? KeptImages::measured
                          : study["images"] == "played" ? KeptImages::played
                                                        : KeptImages::last;

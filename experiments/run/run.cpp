@@ -229,8 +229,9 @@ void run_study(const Config& config, const RunSettings& settings) {
     const nlohmann::json entry = study_entry(config);
     for (const auto& warning : entry["warnings"]) say("warning: " + warning.get<std::string>());
     plan_work(study, selection);
-    if (!config.gpu_compilers.empty()) study.compilers = find_compilers(config.gpu_compilers);
-    if (!study.compilers.refusal.empty()) say("warning: compiled.csv gets no numbers: " + study.compilers.refusal);
+    for (const GpuCompilers::Entry& compiler : study.plan.compilers.entries)
+        if (!compiler.refusal.empty())
+            say("warning: compiled.csv gets no numbers of " + compiler.chip.name + ": " + compiler.refusal);
     const FolderOwner owner(settings.out, config, settings.keep_all, settings.replaces, say);
     Runner(study, selection).run();
 }

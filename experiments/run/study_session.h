@@ -1,7 +1,6 @@
 #pragma once
 #include "core/gpu/clock.h"
 #include "core/gpu/device.h"
-#include "experiments/measuring/times/compiled_shaders.h"
 #include "experiments/run/plan/study_plan.h"
 #include "experiments/run/progress.h"
 #include "experiments/run/run.h"
@@ -33,8 +32,7 @@ struct StudySession {
     Progress progress{1.0};
     Device device;
     CellStore cells;
-    nlohmann::json maker;    ///< of cells, see provenance.h
-    GpuCompilers compilers;  ///< once run_study() has asked for them
+    nlohmann::json maker;  ///< of cells, see provenance.h
     StudyPlan plan;
     Workload work;
     SpentTime spent;

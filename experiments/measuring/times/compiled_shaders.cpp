@@ -79,10 +79,9 @@ std::vector<CompiledRow> compiled_rows(const StagePipelines& pipelines, const st
 GpuCompilers find_compilers(const std::vector<std::string>& names) {
     GpuCompilers compilers;
     for (const std::string& name : names) try {
-            compilers.chips.push_back(find_chip(name));
+            compilers.entries.push_back({.chip = find_chip(name), .refusal = {}});
         } catch (const MachineError& e) {
-            compilers.chips.push_back({.name = name, .device = {}, .driver = {}});
-            compilers.refusal = e.what();
+            compilers.entries.push_back({.chip = {.name = name, .device = {}, .driver = {}}, .refusal = e.what()});
         }
     return compilers;
 }
@@ -91,15 +90,15 @@ std::vector<CompiledRow> compiled_rows(const StagePipelines& pipelines, const st
                                        const VariantConfig& point, const GpuCompilers& compilers,
                                        const ChipCompilation& how) {
     std::vector<CompiledRow> rows;
-    for (const Chip& chip : compilers.chips) {
-        if (compilers.refusal.empty()) {
-            const std::vector<CompiledRow> of_chip = compiled_rows(pipelines, shot, point, chip, how);
+    for (const GpuCompilers::Entry& compiler : compilers.entries) {
+        if (compiler.refusal.empty()) {
+            const std::vector<CompiledRow> of_chip = compiled_rows(pipelines, shot, point, compiler.chip, how);
             rows.insert(rows.end(), of_chip.begin(), of_chip.end());
             continue;
         }
         for (const StagePipelines::Entry& entry : pipelines.entries()) {
-            CompiledRow row = row_of(entry, shot, point, chip);
-            row.refusal = compilers.refusal;
+            CompiledRow row = row_of(entry, shot, point, compiler.chip);
+            row.refusal = compiler.refusal;
             rows.push_back(row);
         }
     }

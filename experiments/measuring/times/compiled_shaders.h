@@ -37,13 +37,16 @@ StagePipelines stage_pipelines(Device& device, const Shot& shot, FrameStore& sto
 
 /// The chips that a study compiles for.
 struct GpuCompilers {
-    std::vector<Chip> chips;
-    std::string refusal;  ///< why nothing can be compiled for them on this machine; the study goes on
+    struct Entry {
+        Chip chip;            ///< without device and driver where there is a refusal
+        std::string refusal;  ///< why nothing can be compiled for it on this machine; the study goes on
+    };
+    std::vector<Entry> entries;
 };
 /// Fails with Error on a chip that radv does not know.
 GpuCompilers find_compilers(const std::vector<std::string>& chips);
 
-/// compiled_rows() of all chips; with a refusal one row for each stage and chip, which has no numbers.
+/// compiled_rows() of all chips; of those with a refusal a row for each stage, which has no numbers.
 std::vector<CompiledRow> compiled_rows(const StagePipelines& pipelines, const std::string& shot,
                                        const VariantConfig& point, const GpuCompilers& compilers,
                                        const ChipCompilation& how);

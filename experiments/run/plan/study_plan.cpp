@@ -42,6 +42,9 @@ public:
         for (const VariantConfig& variant : config.variants) points_.push_back(identity_of(variant));
     }
 
+    /// The chips that costs cells compile for, which their names hold with the compiler's version.
+    const GpuCompilers& compilers() const { return compilers_; }
+
     std::string of_references(const std::string& request) {
         return name({"experiments/run/shots/open_shot.cpp"}, request, with_images({}));
     }
@@ -65,7 +68,8 @@ public:
         std::vector<std::string> what = {v.variant, v.point, point.parameters, std::to_string(v.seeds.front())};
         if (!config_.counts_costs) what.push_back("compiled alone");
         if (!config_.gpu_compilers.empty()) sources.push_back("experiments/measuring/times/compiled_shaders.cpp");
-        what.insert(what.end(), config_.gpu_compilers.begin(), config_.gpu_compilers.end());
+        for (const GpuCompilers::Entry& entry : compilers_.entries)
+            what.push_back(entry.chip.name), what.push_back(entry.chip.driver);
         return name(sources, request, what);
     }
     /// `runs`: by variant, whether it runs on the shot.
@@ -109,6 +113,7 @@ private:
     }
 
     const Config& config_;
+    GpuCompilers compilers_ = find_compilers(config_.gpu_compilers);
     std::string device_;
     bool keep_all_;
     SourceCode code_;
@@ -169,6 +174,7 @@ StudyPlan plan_study(const Config& config, const DeviceInfo& device,
                      std::vector<SourceFile> sources) {
     CellNames names(config, device, keep_all, std::move(sources));
     StudyPlan plan;
+    plan.compilers = names.compilers();
     std::set<std::string> known;
     for (const ShotConfig& of_shot : config.shots) {
         const Shot shot = load(of_shot, search_path);

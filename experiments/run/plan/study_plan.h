@@ -1,6 +1,7 @@
 #pragma once
 #include "core/gpu/device.h"
 #include "experiments/config/config.h"
+#include "experiments/measuring/times/compiled_shaders.h"
 #include "experiments/store/host_info.h"
 
 #include <functional>
@@ -36,6 +37,7 @@ struct PlannedShot {
 struct StudyPlan {
     std::vector<PlannedShot> shots;
     std::vector<nlohmann::json> skipped;  ///< pairs of shot and point that have no cell: the manifest's entries
+    GpuCompilers compilers;               ///< whose versions are part of the names of costs cells
     size_t cell_count() const;
 };
 

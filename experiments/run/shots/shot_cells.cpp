@@ -198,7 +198,7 @@ Cell costs_cell(StudySession& study, OpenShot& open, const PlannedCell& planned,
     const std::string shot = open.shot.name();
     const ChipCompilation how{.cache = study.settings.cache,
                               .notice = [&](const std::string& text) { study.progress.say("warning: " + text); }};
-    cell.compiled = compiled_rows(pipelines, shot, *planned.variant, study.compilers, how);
+    cell.compiled = compiled_rows(pipelines, shot, *planned.variant, study.plan.compilers, how);
     return cell;
 }
 

@@ -23,7 +23,7 @@ struct CompiledShaders : testing::Test {
         return found;
     }
     void SetUp() override {
-        if (!compilers().refusal.empty()) GTEST_SKIP() << compilers().refusal;
+        if (const std::string& why = compilers().entries.front().refusal; !why.empty()) GTEST_SKIP() << why;
     }
     /// As an engine would have the technique: nothing is left out.
     static std::vector<CompiledRow> rows_of(const VariantConfig& point) {
@@ -74,7 +74,9 @@ TEST_F(CompiledShaders, AmdsDenoiserIsTheOriginalsOnGpus) {
         const std::optional<CompiledRow> faithful = find(original, row);
         ASSERT_TRUE(faithful) << row.stage;
         EXPECT_GE(*row.waves, 0.5 * *faithful->waves) << row.stage << ' ' << row.chip;
-        if (row.stage != "amd_sssr/reproject") EXPECT_EQ(row.hash, faithful->hash) << row.stage << ' ' << row.chip;
+        if (row.stage != "amd_sssr/reproject") {  // which has a barrier more
+            EXPECT_EQ(row.hash, faithful->hash) << row.stage << ' ' << row.chip;
+        }
         ++compared;
     }
     for (const CompiledRow& row : on_cpu) spilled += row.spilled_vgprs.value_or(0) > 0;
