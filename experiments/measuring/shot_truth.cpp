@@ -120,7 +120,8 @@ ShotTruth shot_truth(const Shot& shot, const Config& config, FrameStore& store, 
             PoseTruth made =
                 pose_truth(reference, config, shot.camera.exposure_ev,
                            {.has_targets = use.is_of_last, .has_frame_reference = has_several && use.is_compared});
-            if (config.filters_lit && !is_capture(shot)) filter(made, reference.diffuse, shot, step.frame);
+            if (config.filters_lit && !is_capture(shot) && !shot.config.direct_lit)
+                filter(made, reference.diffuse, shot, step.frame);
             pose = std::make_shared<PoseTruth>(std::move(made));
         }
         truth.poses[step.frame] = pose;

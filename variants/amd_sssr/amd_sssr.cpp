@@ -143,7 +143,9 @@ VariantEntry amd_sssr_entry() {
               "the stale sample count is kept, as in version 1.3, the stale averages and the pyramid's are not",
               {{"denoiser_form", "faithful"}}},
              {"repeatable",
-              "as sdk_1_5, but subgroups do not give up their last rays: repeatable for every size of subgroups",
+              "as sdk_1_5, but subgroups do not give up their last rays: repeatable for every size of subgroups; on a "
+              "CPU its "
+              "denoiser is laid out for one (denoiser_form), with the same output within half-float rounding",
               {{"hierarchy.min_traversal_occupancy", 0}}},
              {"corrected",
               "every defect fixed, and no early exit of thinly occupied subgroups; deliberate choices of the original "

@@ -18,8 +18,10 @@ LitSurfaces lit_surfaces(const Scene& scene, const ScenePose& pose, const Camera
 /// The lit colour as an engine has it: without the noise of a path tracer, at the price of details of its light that
 /// are smaller than a few pixels.
 struct FilteredLit {
-    HostImage mean;            ///< RGB: (half_a + half_b) / 2
-    HostImage half_a, half_b;  ///< RGB, each of the samples of its half; their difference is the noise that is left
+    HostImage mean;  ///< RGB: (half_a + half_b) / 2
+    /// RGB, each of the samples of its half, with weights of the other: what both share of noise is not in their
+    /// difference, which is a lower bound of what is left.
+    HostImage half_a, half_b;
 };
 
 /// Non-local means of the light that falls on the surfaces (lit less emitted, over albedo), over 15 x 15 pixels with

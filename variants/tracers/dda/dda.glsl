@@ -142,7 +142,7 @@ uint dda_step(DdaLine line, float t, ivec2 pixel, float device_depth, inout floa
     return dda_meets_second_layer(pixel, z_min, z_max) ? outcome_hidden : dda_goes_on;
 }
 
-// Of the nearest pixel on the screen; not counted.
+// Of the nearest pixel on the screen; not by count_fetch(), since a batch may read beyond the ray's end.
 float dda_depth_at(ivec2 pixel) {
     return texelFetch(depth, clamp(pixel, ivec2(0), ivec2(camera.extent.xy) - 1), 0).r;
 }
