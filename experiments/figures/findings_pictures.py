@@ -255,7 +255,36 @@ def traced_environment():
     return Picture(panels, "error over that of no reflections, 95 % intervals; with and without the environment's reflections in the traced image", columns=4)
 
 
-PICTURES = {p.__name__: p for p in (techniques, budgets, rooms, metrics, causes, limit, third_party, traced_environment, corrections, estimators, march, thickness, temporal, fragments, resolution)}
+def compilers():
+    passes = {  # what takes most registers: (technique, as published, other form, its name, pass)
+        "AMD, march": ("amd_sssr", "sdk_1_5", "best", "best", "amd_sssr/intersect"),
+        **{f"AMD, {name}": ("amd_sssr", "sdk_1_5", "repeatable denoiser_form=fast", "the form for CPUs", f"amd_sssr/{stage}")
+           for name, stage in (("reprojection", "reproject"), ("prefilter", "prefilter"), ("temporal resolve", "resolve_temporal"))},
+        "DiligentFX, march": ("diligent_ssr", "current", "best_2x", "best", "diligent_ssr/intersection"),
+        "DiligentFX, spatial": ("diligent_ssr", "current", "best_2x", "best", "diligent_ssr/spatial_reconstruction"),
+        "DiligentFX, temporal": ("diligent_ssr", "current", "best_2x", "best", "diligent_ssr/temporal_accumulation"),
+        "Frostbite, march": ("frostbite_sssr", "frostbite_2015", "best", "best", "frostbite_sssr/trace_smooth"),
+        "Frostbite, resolve": ("frostbite_sssr", "frostbite_2015", "best", "best", "frostbite_sssr/resolve"),
+        "Frostbite, temporal": ("frostbite_sssr", "frostbite_2015", "best", "best", "frostbite_sssr/accumulate"),
+        "linear tracing": ("mcguire_dda", "published", "best", "best", "mcguire_dda/trace"),
+        "plain rays": ("simple_ssr", "blog", "best_2x", "best", "simple_ssr/trace"),
+        "four-mode": ("four_mode_ssr", "high", "best_1x", "best", "four_mode_ssr/trace"),
+    }  # fmt: skip
+    series = {"best": ("D", True), "the form for CPUs": ("s", True)}
+    panels = []
+    for chip, generation in (("navi21", "RDNA 2"), ("gfx1100", "RDNA 3"), ("vega10", "GCN 5")):
+        cells = grid("gpu_compilers", chip)
+        rows = []
+        for label, (technique, published, other, name, stage) in passes.items():
+            color, _ = look(technique)
+            marks = [Mark("as published", color, "o", cells[f"{technique}, {published}, {stage}", "VGPRs"])]
+            marks += [Mark(name, color, series[name][0], cells[f"{technique}, {other}, {stage}", "VGPRs"], series[name][1])]
+            rows.append((label, marks))
+        panels.append(Panel(f"{chip} ({generation})", rows))
+    return Picture(panels, "vector registers of a lane, of 256", is_log=False, columns=3, extra={"xlim": (0, 265)})
+
+
+PICTURES = {p.__name__: p for p in (techniques, budgets, rooms, metrics, causes, limit, third_party, traced_environment, corrections, estimators, march, thickness, temporal, fragments, resolution, compilers)}
 
 
 def save(name, folder):
