@@ -7,6 +7,7 @@
 #include "variants/registry.h"
 
 #include <gtest/gtest.h>
+#include <filesystem>
 #include <optional>
 
 // What compilers of GPUs make of the techniques: no GPU is needed, but Mesa's radv.
@@ -22,6 +23,14 @@ struct CompiledShaders : testing::Test {
         static GpuCompilers found = find_compilers({default_chips.begin(), default_chips.end()});
         return found;
     }
+    /// Passes that techniques and points share are compiled once.
+    static const std::filesystem::path& cache() {
+        static const std::filesystem::path folder =
+            std::filesystem::path(testing::TempDir()) / "compiled_shaders_cache";
+        return folder;
+    }
+    static void SetUpTestSuite() { std::filesystem::remove_all(cache()); }
+    static void TearDownTestSuite() { std::filesystem::remove_all(cache()); }
     void SetUp() override {
         if (const std::string& why = compilers().entries.front().refusal; !why.empty()) GTEST_SKIP() << why;
     }
@@ -35,7 +44,7 @@ struct CompiledShaders : testing::Test {
         const HostImage unused;
         const StagePipelines pipelines = stage_pipelines(
             device(), shot, store, [&](const FrameStep&) -> const HostImage& { return unused; }, point, true);
-        return compiled_rows(pipelines, shot.name(), point, compilers(), {});
+        return compiled_rows(pipelines, shot.name(), point, compilers(), {.cache = cache()});
     }
     static std::optional<CompiledRow> find(const std::vector<CompiledRow>& rows, const CompiledRow& like) {
         for (const CompiledRow& row : rows)
