@@ -36,7 +36,7 @@ StagePipelines pipelines_of(Device& device, const Shot& shot, const VariantConfi
     StagePipelines pipelines = stage_pipelines(
         device, shot, store, [&](const FrameStep&) -> const HostImage& { return unused; }, point, !leaves_out);
     if (pipelines.entries().empty())
-        fail(point.variant, " ", point.point, " ends its rays by scene data: it has no passes that a GPU could run");
+        fail(point.variant, " ", point.point, " has no passes of its own that a GPU could run");
     return pipelines;
 }
 

@@ -34,7 +34,7 @@ function showAnswers() {
     answerChoice.shot = preferred(shots, addressedView()?.get("shot"));
     const text = report.errors.length ?
         report.overScenes :
-        "This study has no errors: it ran without truth. What it has are pictures and times.";
+        "This study has no errors: it ran without truth. What else it has stands below and in the tables beside this page.";
     const [, verdict, rest] = text.match(/^(.*?\.)( .*)?$/) ?? [, text, ""];
     at("over-scenes").replaceChildren(h("b", {}, verdict), rest ?? "");
     pointListeners.push(drawAnswerCharts);
