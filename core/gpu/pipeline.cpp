@@ -125,6 +125,22 @@ std::string key_of(const ShaderChanges& changes) {
     return key;
 }
 
+/// Values of the specialization constants that the shader uses, by their ids.
+std::map<uint32_t, uint32_t> constants_of(const Shader& shader, const ParameterSet& params,
+                                          const Constants& constants) {
+    std::map<uint32_t, uint32_t> values;
+    const auto specialize = [&](uint32_t id, const std::string& name, uint32_t initial) {
+        if (!shader.interface.constants.contains(id)) return;
+        const auto set = constants.find(name);
+        values[id] = set != constants.end() ? set->second : initial;
+    };
+    uint32_t id = 0;
+    for (const Parameter& p : params)
+        if (p.use == Use::constant) specialize(id++, p.glsl_name(), p.bits());
+    for (const SceneConstant& constant : scene_constants()) specialize(constant.id, constant.name, constant.initial);
+    return values;
+}
+
 }  // namespace
 
 const Shader& PipelineCache::shader(const std::string& file, const std::string& vertex_file, const ParameterSet& params,
@@ -153,42 +169,34 @@ void PipelineCache::require_webgl2(const Shader& shader, const std::string& file
 
 PipelineRecipe PipelineCache::recipe(const Shader& shader, const std::string& file, const ParameterSet& params,
                                      const Constants& constants, const PipelineState& state) {
-    PipelineRecipe recipe{.spirv = shader.spirv,
-                          .is_compute = file.ends_with(".comp"),
-                          .resources = shader.interface.resources,
-                          .push_size = shader.interface.push_size,
-                          .local_size = shader.interface.local_size,
-                          .constants = {},
-                          .state = state};
-    const auto specialize = [&](uint32_t id, const std::string& name, uint32_t initial) {
-        if (!shader.interface.constants.contains(id)) return;
-        const auto set = constants.find(name);
-        recipe.constants[id] = set != constants.end() ? set->second : initial;
-    };
-    uint32_t id = 0;
-    for (const Parameter& p : params)
-        if (p.use == Use::constant) specialize(id++, p.glsl_name(), p.bits());
-    for (const SceneConstant& constant : scene_constants()) specialize(constant.id, constant.name, constant.initial);
-    return recipe;
+    return {.spirv = shader.spirv,
+            .is_compute = file.ends_with(".comp"),
+            .resources = shader.interface.resources,
+            .push_size = shader.interface.push_size,
+            .local_size = shader.interface.local_size,
+            .constants = constants_of(shader, params, constants),
+            .state = state};
 }
 
 Pipeline& PipelineCache::pipeline(const std::string& file, const std::string& vertex_file, const ParameterSet& params,
                                   const ShaderIncludes& includes, const Constants& constants,
                                   const PipelineState& state, const ShaderChanges& changes) {
     const Shader& shader = this->shader(file, vertex_file, params, includes, changes);
-    const PipelineRecipe recipe = this->recipe(shader, file, params, constants, state);
     // Only the constants that this shader uses take part in the key: a new value of another one costs it no new
     // pipeline.
     std::string key = file + '\n' + vertex_file + '\n' + key_of(changes) + key_of(includes) + params.glsl() + '\n' +
                       std::to_string(int(state.stencil)) + ' ' + std::to_string(state.stencil_value);
-    for (const auto& [id, value] : recipe.constants) key += ' ' + std::to_string(value);
+    for (const auto& [id, value] : constants_of(shader, params, constants)) key += ' ' + std::to_string(value);
     key += '\n';
     for (const Format format : state.attachments) key += ' ' + std::to_string(int(format));
     if (state.depth)
         key += " depth " + std::to_string(int(state.depth->compare)) + ' ' + std::to_string(state.depth->is_written) +
                ' ' + std::to_string(int(state.depth->format));
     const auto [entry, is_new] = pipelines_.try_emplace(key);
-    if (is_new) entry->second = make_pipeline(gpu_.device, recipe), entry->second.interface = shader.interface;
+    if (is_new) {
+        entry->second = make_pipeline(gpu_.device, recipe(shader, file, params, constants, state));
+        entry->second.interface = shader.interface;
+    }
     return entry->second;
 }
 
