@@ -1,13 +1,10 @@
 #include "core/gpu/counted_shader.h"
 
 #include "core/error.h"
+#include "core/gpu/spirv_module.h"
 
-#define SPV_ENABLE_UTILITY_CODE
-#include <SPIRV/spirv.hpp>
 #include <algorithm>
 #include <array>
-#include <map>
-#include <optional>
 #include <spirv-tools/optimizer.hpp>
 
 namespace {
@@ -19,158 +16,6 @@ constexpr std::array shader_wide = {What::invocations, What::idle_invocations, W
                                     What::operations,  What::shared_bytes,     What::atomics};
 
 constexpr unsigned place_of(What what) { return unsigned(std::ranges::find(shader_wide, what) - shader_wide.begin()); }
-
-struct Instruction {
-    spv::Op op;
-    std::vector<unsigned> words;  ///< the first holds length and opcode
-
-    unsigned operator[](size_t i) const { return words[i]; }
-    std::string text(size_t from) const {
-        std::string text;
-        for (size_t i = from; i < words.size(); ++i)
-            for (int byte = 0; byte < 4; ++byte) {
-                const char c = char(words[i] >> (8 * byte) & 255);
-                if (!c) return text;
-                text += c;
-            }
-        return text;
-    }
-};
-
-Instruction instruction(spv::Op op, std::vector<unsigned> operands) {
-    operands.insert(operands.begin(), unsigned(operands.size() + 1) << 16 | unsigned(op));
-    return {op, std::move(operands)};
-}
-
-constexpr size_t header_words = 5, bound_word = 3;
-
-std::vector<Instruction> instructions_of(const std::vector<unsigned>& spirv) {
-    std::vector<Instruction> list;
-    for (size_t at = header_words; at < spirv.size(); at += spirv[at] >> 16)
-        list.push_back(
-            {spv::Op(spirv[at] & 0xffff), {spirv.begin() + long(at), spirv.begin() + long(at + (spirv[at] >> 16))}});
-    return list;
-}
-
-/// What the module's ids stand for.
-class Module {
-public:
-    explicit Module(const std::vector<Instruction>& instructions) {
-        for (const Instruction& i : instructions) {
-            if (i.op == spv::OpName) names_[i[1]] = i.text(2);
-            bool has_result = false, has_type = false;
-            spv::HasResultAndType(i.op, &has_result, &has_type);
-            if (has_result) definitions_[i[has_type ? 2 : 1]] = &i;
-        }
-    }
-
-    std::string name(Id id) const {
-        const auto found = names_.find(id);
-        return found == names_.end() ? "" : found->second;
-    }
-    Id named(const std::string& name) const {
-        const auto found = std::ranges::find_if(names_, [&](const auto& entry) { return entry.second == name; });
-        if (found == names_.end()) fail("a counted shader lacks ", name);
-        return found->first;
-    }
-    const Instruction& definition(Id id) const { return *definitions_.at(id); }
-    const Instruction& type_of(Id id) const { return definition(definition(id)[1]); }
-    template <class Test>
-    Id find(const Test& test) const {
-        for (const auto& [id, i] : definitions_)
-            if (test(*i)) return id;
-        fail("a counted shader lacks one of its types");
-    }
-
-    /// The variable behind a pointer, a loaded image, or a part of either; none behind a parameter of a function.
-    std::optional<Id> variable(Id id) const {
-        for (;;) {
-            const Instruction& i = definition(id);
-            switch (i.op) {
-                case spv::OpVariable:
-                    return id;
-                case spv::OpAccessChain:
-                case spv::OpInBoundsAccessChain:
-                case spv::OpCopyObject:
-                case spv::OpImageTexelPointer:
-                case spv::OpLoad:
-                case spv::OpImage:
-                case spv::OpSampledImage:
-                    id = i[3];
-                    break;
-                default:
-                    return {};
-            }
-        }
-    }
-
-    spv::StorageClass storage_of(Id pointer) const { return spv::StorageClass(type_of(pointer)[2]); }
-
-    /// What the shader calls an image's variable or a buffer's block.
-    std::string resource(Id id) const {
-        const std::optional<Id> found = variable(id);
-        if (!found) fail("an image argument of a counted shader cannot be identified");
-        const bool is_buffer = storage_of(*found) == spv::StorageClassStorageBuffer;
-        return name(is_buffer ? type_of(*found)[3] : *found);
-    }
-
-    unsigned components(Id type) const {
-        const Instruction& t = definition(type);
-        return t.op == spv::OpTypeVector ? t[3] : t.op == spv::OpTypeMatrix ? t[3] * components(t[2]) : 1;
-    }
-
-    /// Bytes of a value; those of padding are none.
-    unsigned size(Id type) const {
-        const Instruction& t = definition(type);
-        unsigned sum = 0;
-        switch (t.op) {
-            case spv::OpTypeInt:
-            case spv::OpTypeFloat:
-                return t[2] / 8;
-            case spv::OpTypeVector:
-            case spv::OpTypeMatrix:
-                return t[3] * size(t[2]);
-            case spv::OpTypeArray:
-                return definition(t[3])[3] * size(t[2]);
-            case spv::OpTypeStruct:
-                for (size_t i = 2; i < t.words.size(); ++i) sum += size(t[i]);
-                return sum;
-            default:
-                fail("a counted shader keeps a value of unknown size in a buffer");
-        }
-    }
-
-    /// Scalar operations of an instruction.
-    unsigned operations(const Instruction& i) const {
-        const auto type = [&](size_t operand) { return definition(i[operand])[1]; };
-        const auto product = [](unsigned results, unsigned terms) { return results * (2 * terms - 1); };
-        switch (i.op) {
-            case spv::OpDot:
-                return product(1, components(type(3)));
-            case spv::OpVectorTimesMatrix:
-                return product(components(i[1]), components(type(3)));
-            case spv::OpMatrixTimesVector:
-                return product(components(i[1]), components(type(4)));
-            case spv::OpMatrixTimesMatrix:
-                return product(components(i[1]), definition(type(3))[3]);
-            case spv::OpAny:
-            case spv::OpAll:
-                return components(type(3)) - 1;
-            default:
-                break;
-        }
-        const bool is_arithmetic = (i.op >= spv::OpConvertFToU && i.op <= spv::OpBitcast) ||
-                                   (i.op >= spv::OpSNegate && i.op <= spv::OpSMulExtended) ||
-                                   (i.op >= spv::OpIsNan && i.op <= spv::OpFUnordGreaterThanEqual) ||
-                                   (i.op >= spv::OpShiftRightLogical && i.op <= spv::OpBitCount) ||
-                                   i.op == spv::OpExtInst;
-        return is_arithmetic ? components(i[1]) : 0;
-    }
-
-private:
-    std::map<Id, std::string> names_;
-    std::map<Id, const Instruction*> definitions_;
-};
 
 bool is_sample(spv::Op op) {
     return (op >= spv::OpImageSampleImplicitLod && op <= spv::OpImageSampleProjDrefExplicitLod);
@@ -184,29 +29,31 @@ bool ends_block(spv::Op op) {
 /// Lets each function count. Numbers are known for each run of instructions without branches, and added at its end.
 class Counting {
 public:
-    Counting(const Module& module, unsigned bound)
+    Counting(const SpirvModule& module, unsigned bound)
         : module_(module),
           bound_(bound),
-          uint_(module.find([](const Instruction& i) { return i.op == spv::OpTypeInt && i[2] == 32 && i[3] == 0; })),
+          uint_(
+              module.find([](const SpirvInstruction& i) { return i.op == spv::OpTypeInt && i[2] == 32 && i[3] == 0; })),
           counters_(module.named("shader_counter")),
           add_up_(module.named("shader_counters_add_up(")) {
-        pointer_ = module.find([&](const Instruction& i) {
+        pointer_ = module.find([&](const SpirvInstruction& i) {
             return i.op == spv::OpTypePointer && i[2] == spv::StorageClassPrivate && i[3] == uint_;
         });
         for (const What what : shader_wide) result.push_back({what, ""});
     }
 
-    std::vector<Instruction> counted(const std::vector<Instruction>& instructions) {
-        std::vector<Instruction> before, functions;
+    std::vector<SpirvInstruction> counted(const std::vector<SpirvInstruction>& instructions) {
+        std::vector<SpirvInstruction> before, functions;
         bool is_inside = false, is_counted = false;
-        for (const Instruction& i : instructions) {
+        for (const SpirvInstruction& i : instructions) {
             if (i.op == spv::OpFunction) is_inside = true, is_counted = !is_own(module_.name(i[2]));
-            std::vector<Instruction>& list = is_inside ? functions : before;
+            std::vector<SpirvInstruction>& list = is_inside ? functions : before;
             if (is_counted) count(i, list);
             list.push_back(i);
         }
         leave_out_unused_sums(functions);
-        for (const auto& [value, id] : constants_) before.push_back(instruction(spv::OpConstant, {uint_, id, value}));
+        for (const auto& [value, id] : constants_)
+            before.push_back(spirv_instruction(spv::OpConstant, {uint_, id, value}));
         before.insert(before.end(), functions.begin(), functions.end());
         return before;
     }
@@ -219,8 +66,8 @@ private:
     static bool is_own(const std::string& name) { return name.starts_with("shader_counter") || name == "main"; }
 
     /// The prelude adds all counters that there can be, in their order: each takes the driver time to compile.
-    void leave_out_unused_sums(std::vector<Instruction>& functions) const {
-        const auto is_start = [&](const Instruction& i) { return i.op == spv::OpFunction && i[2] == add_up_; };
+    void leave_out_unused_sums(std::vector<SpirvInstruction>& functions) const {
+        const auto is_start = [&](const SpirvInstruction& i) { return i.op == spv::OpFunction && i[2] == add_up_; };
         auto at = std::ranges::find_if(functions, is_start);
         for (size_t calls = 0; at->op != spv::OpFunctionEnd;)
             at = at->op == spv::OpFunctionCall && ++calls > result.size() ? functions.erase(at) : at + 1;
@@ -252,7 +99,7 @@ private:
             add(in_buffer, module_.size(type), module_.resource(pointer));
     }
 
-    void count(const Instruction& i, std::vector<Instruction>& list) {
+    void count(const SpirvInstruction& i, std::vector<SpirvInstruction>& list) {
         if (i.op == spv::OpImageFetch || i.op == spv::OpImageRead)
             add(What::texel_fetches, 1, module_.resource(i[3]));
         else if (is_sample(i.op))
@@ -272,10 +119,10 @@ private:
         // What is called may discard: the numbers must be added before.
         if (ends_block(i.op) || i.op == spv::OpFunctionCall) add_pending(list);
         if (i.op == spv::OpKill)
-            list.push_back(instruction(spv::OpFunctionCall, {module_.definition(add_up_)[1], bound_++, add_up_}));
+            list.push_back(spirv_instruction(spv::OpFunctionCall, {module_.definition(add_up_)[1], bound_++, add_up_}));
     }
 
-    void count_atomic(const Instruction& i) {
+    void count_atomic(const SpirvInstruction& i) {
         const Id pointer = i.op == spv::OpAtomicStore ? i[1] : i[3];
         add(What::atomics, 1);
         if (module_.storage_of(pointer) == spv::StorageClassImage) {
@@ -287,18 +134,18 @@ private:
         count_memory(pointer, type, What::buffer_bytes_read), count_memory(pointer, type, What::buffer_bytes_written);
     }
 
-    void add_pending(std::vector<Instruction>& list) {
+    void add_pending(std::vector<SpirvInstruction>& list) {
         for (const auto& [place, number] : pending_) {
             const Id pointer = bound_++, before = bound_++, after = bound_++;
-            list.push_back(instruction(spv::OpAccessChain, {pointer_, pointer, counters_, constant(place)}));
-            list.push_back(instruction(spv::OpLoad, {uint_, before, pointer}));
-            list.push_back(instruction(spv::OpIAdd, {uint_, after, before, constant(number)}));
-            list.push_back(instruction(spv::OpStore, {pointer, after}));
+            list.push_back(spirv_instruction(spv::OpAccessChain, {pointer_, pointer, counters_, constant(place)}));
+            list.push_back(spirv_instruction(spv::OpLoad, {uint_, before, pointer}));
+            list.push_back(spirv_instruction(spv::OpIAdd, {uint_, after, before, constant(number)}));
+            list.push_back(spirv_instruction(spv::OpStore, {pointer, after}));
         }
         pending_.clear();
     }
 
-    const Module& module_;
+    const SpirvModule& module_;
     Id bound_;
     Id uint_, counters_, add_up_, pointer_ = 0;
     std::map<unsigned, Id> constants_;      ///< by value
@@ -306,9 +153,9 @@ private:
 };
 
 /// Images that are arguments of functions are identified only after inlining.
-void inline_functions_of_images(std::vector<unsigned>& spirv, const std::vector<Instruction>& instructions) {
-    const Module module(instructions);
-    const auto is_image = [&](const Instruction& i) {
+void inline_functions_of_images(std::vector<unsigned>& spirv, const std::vector<SpirvInstruction>& instructions) {
+    const SpirvModule module(instructions);
+    const auto is_image = [&](const SpirvInstruction& i) {
         return i.op == spv::OpFunctionParameter && module.definition(i[1]).op == spv::OpTypePointer &&
                module.definition(i[1])[2] == spv::StorageClassUniformConstant;
     };
@@ -317,17 +164,6 @@ void inline_functions_of_images(std::vector<unsigned>& spirv, const std::vector<
     optimizer.RegisterPass(spvtools::CreateMergeReturnPass()).RegisterPass(spvtools::CreateInlineOpaquePass());
     optimizer.RegisterPass(spvtools::CreateEliminateDeadFunctionsPass());
     if (!optimizer.Run(spirv.data(), spirv.size(), &spirv)) fail("a shader to be counted cannot be simplified");
-}
-
-/// Whether the module is a fragment shader whose tests can come first.
-bool is_tested_early(const std::vector<Instruction>& instructions) {
-    bool is_fragment = false, has_own_depth = false, discards = false;
-    for (const Instruction& i : instructions) {
-        is_fragment |= i.op == spv::OpEntryPoint && i[1] == spv::ExecutionModelFragment;
-        has_own_depth |= i.op == spv::OpExecutionMode && i[2] == spv::ExecutionModeDepthReplacing;
-        discards |= i.op == spv::OpKill;
-    }
-    return is_fragment && !has_own_depth && !discards;
 }
 
 }  // namespace
@@ -357,21 +193,22 @@ void shader_counters_add_up() {
 }
 
 std::vector<ShaderCounter> count_in(std::vector<unsigned>& spirv) {
-    inline_functions_of_images(spirv, instructions_of(spirv));
-    const std::vector<Instruction> instructions = instructions_of(spirv);
-    const Module module(instructions);
-    Counting counting(module, spirv[bound_word]);
-    const std::vector<Instruction> counted = counting.counted(instructions);
+    inline_functions_of_images(spirv, spirv_instructions(spirv));
+    const std::vector<SpirvInstruction> instructions = spirv_instructions(spirv);
+    const SpirvModule module(instructions);
+    Counting counting(module, spirv[spirv_bound_word]);
+    const std::vector<SpirvInstruction> counted = counting.counted(instructions);
     if (counting.result.size() > most_shader_counters)
         fail("a counted shader has ", counting.result.size(), " numbers to count, and ", most_shader_counters,
              " at most");
     const bool is_early = is_tested_early(instructions);
-    spirv.resize(header_words);
-    spirv[bound_word] = counting.bound();
-    for (const Instruction& i : counted) {
+    spirv.resize(spirv_header_words);
+    spirv[spirv_bound_word] = counting.bound();
+    for (const SpirvInstruction& i : counted) {
         spirv.insert(spirv.end(), i.words.begin(), i.words.end());
         if (i.op == spv::OpEntryPoint && is_early) {
-            const Instruction mode = instruction(spv::OpExecutionMode, {i[2], spv::ExecutionModeEarlyFragmentTests});
+            const SpirvInstruction mode =
+                spirv_instruction(spv::OpExecutionMode, {i[2], spv::ExecutionModeEarlyFragmentTests});
             spirv.insert(spirv.end(), mode.words.begin(), mode.words.end());
         }
     }

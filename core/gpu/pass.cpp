@@ -69,12 +69,16 @@ void PassGraph::Pass::run(glm::uvec2 extent) {
 void PassGraph::Pass::dispatch_groups(glm::uvec3 groups) { graph_.run(*this, groups, nullptr, 0); }
 void PassGraph::Pass::dispatch(const Buffer& arguments, size_t offset) { graph_.run(*this, {}, &arguments, offset); }
 
+glm::uvec2 PassGraph::Impl::area_of(const Pass& pass, const std::vector<Image>& attachments) {
+    return !attachments.empty()        ? attachments.front().extent
+           : pass.depth_.image.storage ? pass.depth_.image.extent
+                                       : pass.stencil_.image.extent;
+}
+
 void PassGraph::Impl::draw(const vk::raii::CommandBuffer& commands, const Pass& pass, const Pipeline& pipeline,
                            const std::vector<Image>& attachments) {
     const bool has_depth = bool(pass.depth_.image.storage), has_stencil = pass.stencil_.mode != Stencil::Mode::off;
-    const glm::uvec2 area = !attachments.empty() ? attachments.front().extent
-                            : has_depth          ? pass.depth_.image.extent
-                                                 : pass.stencil_.image.extent;
+    const glm::uvec2 area = area_of(pass, attachments);
     const auto attachment = [](vk::ImageView view) {
         return vk::RenderingAttachmentInfo{.imageView = view,
                                            .imageLayout = vk::ImageLayout::eGeneral,
@@ -150,17 +154,7 @@ void PassGraph::Impl::run(Pass& pass, std::optional<glm::uvec3> groups, const Bu
         for (const Image& image : attachments) state.attachments.push_back(image.format);
     }
     check_limits(pass, shader, attachments);
-    if (pipeline_observer) {
-        ShaderChanges for_gpu = changed;
-        for_gpu.is_for_gpu = true;
-        const Shader& seen = pipelines.shader(pass.shader_, pass.vertex_shader_, *params, pass.includes_, for_gpu);
-        pipeline_observer(pass.label_, PipelineCache::recipe(seen, pass.shader_, *params, constants, state));
-    }
-    changed.is_counted = is_counting;
-    if (is_counting) make_counters(pass);
-    const Pipeline& pipeline =
-        pipelines.pipeline(pass.shader_, pass.vertex_shader_, *params, pass.includes_, constants, state, changed);
-    const auto record = [&](const vk::raii::CommandBuffer& commands) {
+    const auto record = [&](const vk::raii::CommandBuffer& commands, const Pipeline& pipeline) {
         commands.bindPipeline(pass.is_compute_ ? vk::PipelineBindPoint::eCompute : vk::PipelineBindPoint::eGraphics,
                               *pipeline.pipeline);
         if (pipeline.interface.push_size) {
@@ -179,15 +173,30 @@ void PassGraph::Impl::run(Pass& pass, std::optional<glm::uvec3> groups, const Bu
         else
             commands.dispatch(groups->x, groups->y, groups->z);
     };
-    execute(pass.label_, [&](const vk::raii::CommandBuffer& commands) {
-        if (is_counting) begin_counting(commands);
-        record(commands);
-        if (is_counting && *device_counts) commands.endQuery(*device_counts, 0);
-    });
+    if (pipeline_observer || trace_observer) {
+        ShaderChanges for_gpu = changed;
+        for_gpu.is_for_gpu = true;
+        const Shader& seen = pipelines.shader(pass.shader_, pass.vertex_shader_, *params, pass.includes_, for_gpu);
+        const PipelineRecipe recipe = PipelineCache::recipe(seen, pass.shader_, *params, constants, state);
+        if (pipeline_observer) pipeline_observer(pass.label_, recipe);
+        if (trace_observer)
+            run_traced(pass, seen, recipe, attachments, groups_of(groups, arguments, arguments_offset), record);
+    }
+    if (!trace_observer) {
+        changed.is_counted = is_counting;
+        if (is_counting) make_counters(pass);
+        const Pipeline& pipeline =
+            pipelines.pipeline(pass.shader_, pass.vertex_shader_, *params, pass.includes_, constants, state, changed);
+        execute(pass.label_, [&](const vk::raii::CommandBuffer& commands) {
+            if (is_counting) begin_counting(commands);
+            record(commands, pipeline);
+            if (is_counting && *device_counts) commands.endQuery(*device_counts, 0);
+        });
+    }
     for (const Image& image : pass.writes_) image.storage->is_written = true;
     for (const Image* image : {&pass.depth_.image, &pass.stencil_.image})
         if (image->storage) image->storage->is_written = true;
-    if (is_counting)
+    if (is_counting && !trace_observer)
         finish_counting(pass,
                         pipelines.shader(pass.shader_, pass.vertex_shader_, *params, pass.includes_, changed).counters,
                         attachments);

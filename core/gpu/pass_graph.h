@@ -14,6 +14,7 @@
 #include <span>
 
 class Device;
+struct PassTrace;
 struct PipelineRecipe;
 
 /// The time of one stage: the label of its pass, by default the shader's path without extension.
@@ -75,6 +76,9 @@ using PassObserver = std::function<void(const std::string& stage, std::span<cons
 
 /// Called for each added pass with its stage and what its pipeline is made of.
 using PipelineObserver = std::function<void(const std::string& stage, const PipelineRecipe& recipe)>;
+
+/// Called for each run of a pass with what lanes of it decided.
+using TraceObserver = std::function<void(const PassTrace& trace)>;
 
 /// A list of GPU passes, executed in the order in which they are added. Images, buffers and shader resources meet by
 /// name; the graph creates the images, compiles the shaders, binds, separates the passes by barriers and times each of
@@ -171,6 +175,10 @@ public:
     void count_costs(bool is_counting);
     /// Of the stages since begin_frame(), in order; those of a stage that ran several times are added.
     std::vector<PassCost> costs() const;
+
+    /// From now on every pass runs as GPUs get it, and `observer` hears what lanes of it decided ({}: none); images are
+    /// the same bits either way, times are not. Passes take the forms that use_gpu_forms() says.
+    void trace(TraceObserver observer);
 
     Clock clock() const;
     glm::uvec2 extent() const;

@@ -40,6 +40,9 @@ struct PassGraph::Impl {
     Buffer shader_counts;                        ///< once something was counted
     vk::raii::QueryPool device_counts{nullptr};  ///< the same, where the device counts invocations
 
+    TraceObserver trace_observer;
+    std::map<std::string, Pipeline> traced_pipelines;  ///< by the bytes of their simplified recipes
+
     std::vector<PassTime> times;
     double frame_milliseconds = 0;
     // On a GPU only: what has been recorded since begin_frame() or the last flush.
@@ -63,7 +66,16 @@ struct PassGraph::Impl {
     void finish_counting(Pass& pass, const std::vector<ShaderCounter>& counters, const std::vector<Image>& targets);
     PassCost cost_of(const Pass& pass, const std::vector<ShaderCounter>& counters, const std::vector<Image>& targets);
 
+    /// Runs the pass, whose pipeline that of `recipe` would be, and lets the observer hear what it did.
+    void run_traced(Pass& pass, const Shader& shader, const PipelineRecipe& recipe,
+                    const std::vector<Image>& attachments, glm::uvec3 groups,
+                    const std::function<void(const vk::raii::CommandBuffer&, const Pipeline&)>& record);
+
     ShaderChanges changes_of(const Pass& pass) const;
+    /// Workgroups of a compute pass, read back where the device decides them.
+    glm::uvec3 groups_of(std::optional<glm::uvec3> groups, const Buffer* arguments, size_t arguments_offset);
+    /// Pixels of a fragment pass or of drawn meshes.
+    static glm::uvec2 area_of(const Pass& pass, const std::vector<Image>& attachments);
     const vk::raii::Sampler& sampler(const Sampling& sampling);
     void run(Pass& pass, std::optional<glm::uvec3> groups, const Buffer* arguments, size_t arguments_offset);
     void check(const Pass& pass, const ShaderInterface& interface);

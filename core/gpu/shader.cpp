@@ -3,12 +3,12 @@
 #include "core/error.h"
 #include "core/gpu/double_shader.h"
 #include "core/gpu/shader_error.h"
+#include "core/gpu/spirv_module.h"
 #include "core/parameters.h"
 
 #include <SPIRV/GlslangToSpv.h>
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
-#include <SPIRV/spirv.hpp>
 #include <algorithm>
 #include <fstream>
 #include <spirv-tools/optimizer.hpp>

@@ -131,6 +131,26 @@ const std::map<std::string, Meaning>& meanings() {
         {"inverse_throughput", {"cycle", "the compiler's estimate of how long a wave keeps the busiest unit"}},
         {"hash", {"", "of the machine code: the same code has the same"}},
         {"refusal", {"", "why there are no numbers"}},
+        {"product", {"", "whose published rates stand for the chip"}},
+        {"microseconds", {"us", "estimate of how long the chip takes for the stage: of the part that takes longest"}},
+        {"estimates.low",
+         {"us",
+          "of the 95 % interval of that, without blocks of which it is only known that they ran "
+          "so often at most"}},
+        {"estimates.high", {"us", "of the 95 % interval of that"}},
+        {"bound", {"", "the part of the chip that takes longest"}},
+        {"vector", {"us", "arithmetic of vectors, if nothing else held it up"}},
+        {"scalar", {"us", "scalar instructions, likewise"}},
+        {"shared_memory", {"us", "the workgroups' memory, likewise"}},
+        {"textures", {"us", "the texture units: loads, samples and stores of images, words of buffers, likewise"}},
+        {"targets", {"us", "writes to colour targets, likewise"}},
+        {"memory", {"us", "each byte once between memory and chip, likewise"}},
+        {"estimates.latency", {"us", "waves that wait, as many at a time as registers let be, likewise"}},
+        {"caches", {"us", "each byte that is asked for through the last cache that is fast: if no other held any"}},
+        {"estimates.waves", {"", "waves of the stage"}},
+        {"active_lanes", {"", "share of the lanes that run, weighted by vector instructions"}},
+        {"unmatched", {"", "share of the estimate in blocks of which it is only known that they ran so often at most"}},
+        {"cut_lanes", {"", "share of the traced lanes that decided more than their traces hold"}},
         {"rays", {"ray", "rays of one seed, on average; of the stage error pixels"}},
         {"against", {"", "baseline, or the value in which the point differs from what it is compared with"}},
         {"against_variant", {"", "variant of what the point is compared with"}},
@@ -223,7 +243,8 @@ nlohmann::json results_schema(const std::vector<VariantConfig>& variants) {
              {table<ResultRow>("results"), table<SplitRow>("splits"), table<EffectRow>("effects"),
               table<TimeEffectRow>("time_effects"), table<TimeRow>("times"), table<MetricSummary>("summary"),
               table<OverScenesRow>("over_scenes"), table<TimeSummary>("time_summary"), table<HitRow>("hits"),
-              table<CostRow>("costs"), table<CompiledRow>("compiled"), parameters_table(variants)}}};
+              table<CostRow>("costs"), table<CompiledRow>("compiled"), table<EstimateRow>("estimates"),
+              parameters_table(variants)}}};
 }
 
 void write_parameters(const std::filesystem::path& folder, const std::vector<VariantConfig>& variants) {

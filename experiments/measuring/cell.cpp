@@ -54,6 +54,7 @@ void to_json(nlohmann::json& json, const Cell& cell) {
             {"hits", rows_json(cell.hits)},
             {"costs", rows_json(cell.costs)},
             {"compiled", rows_json(cell.compiled)},
+            {"estimates", rows_json(cell.estimates)},
             {"images", cell.images},
             {"timing", cell.timing},
             {"notes", cell.notes},
@@ -70,6 +71,7 @@ void from_json(const nlohmann::json& json, Cell& cell) {
     cell.hits = rows_from_json<HitRow>(json.at("hits"));
     cell.costs = rows_from_json<CostRow>(json.at("costs"));
     cell.compiled = rows_from_json<CompiledRow>(json.at("compiled"));
+    cell.estimates = rows_from_json<EstimateRow>(json.at("estimates"));
     json.at("reference_noise").get_to(cell.reference_noise);
     cell.images = json.at("images"), cell.timing = json.at("timing");
     json.at("notes").get_to(cell.notes), json.at("truth").get_to(cell.truth);

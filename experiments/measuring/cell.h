@@ -154,6 +154,34 @@ struct CompiledRow {
     }
 };
 
+/// One row of estimates.csv: how long a chip would take for a stage, see gpu_estimates.h. Microseconds; numbers are
+/// missing where there is a refusal.
+struct EstimateRow {
+    std::string shot, variant, point, stage;  ///< stage: also `total`
+    std::string chip, product;
+    std::optional<double> microseconds, low, high;
+    std::string bound;  ///< the part that takes longest, see ChipTime
+    std::optional<double> vector, scalar, shared_memory, textures, targets, memory, latency, caches;
+    std::optional<double> waves, active_lanes, unmatched, cut_lanes;
+    std::string refusal;  ///< why there are no numbers
+
+    static constexpr auto columns() {
+        return std::tuple(
+            Column{"shot", &EstimateRow::shot}, Column{"variant", &EstimateRow::variant},
+            Column{"point", &EstimateRow::point}, Column{"stage", &EstimateRow::stage},
+            Column{"chip", &EstimateRow::chip}, Column{"product", &EstimateRow::product},
+            Column{"microseconds", &EstimateRow::microseconds}, Column{"low", &EstimateRow::low},
+            Column{"high", &EstimateRow::high}, Column{"bound", &EstimateRow::bound},
+            Column{"vector", &EstimateRow::vector}, Column{"scalar", &EstimateRow::scalar},
+            Column{"shared_memory", &EstimateRow::shared_memory}, Column{"textures", &EstimateRow::textures},
+            Column{"targets", &EstimateRow::targets}, Column{"memory", &EstimateRow::memory},
+            Column{"latency", &EstimateRow::latency}, Column{"caches", &EstimateRow::caches},
+            Column{"waves", &EstimateRow::waves}, Column{"active_lanes", &EstimateRow::active_lanes},
+            Column{"unmatched", &EstimateRow::unmatched}, Column{"cut_lanes", &EstimateRow::cut_lanes},
+            Column{"refusal", &EstimateRow::refusal});
+    }
+};
+
 /// The results of one shot and variant point with all its seeds, of the times of a shot, or of its references: the
 /// unit of work that is done once and kept.
 struct Cell {
@@ -164,6 +192,7 @@ struct Cell {
     std::vector<HitRow> hits;
     std::vector<CostRow> costs;
     std::vector<CompiledRow> compiled;
+    std::vector<EstimateRow> estimates;
     nlohmann::json images = nlohmann::json::array();  ///< entries of manifest.json's `images`
     nlohmann::json timing;                            ///< as timing_entry() gives it; null where nothing was timed
     std::vector<std::string> notes;                   ///< sentences for the manifest: what is unknown, and why

@@ -75,6 +75,7 @@ json cell_types() {
     types["rows"] = json::array({row_types<ResultRow>()}), types["times"] = json::array({row_types<TimeRow>()});
     types["hits"] = json::array({row_types<HitRow>()}), types["costs"] = json::array({row_types<CostRow>()});
     types["compiled"] = json::array({row_types<CompiledRow>()});
+    types["estimates"] = json::array({row_types<EstimateRow>()});
     return types;
 }
 

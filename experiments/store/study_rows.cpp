@@ -36,7 +36,7 @@ StudyRows rows_of(const std::vector<Cell>& cells) {
     for (const Cell& cell : cells) {
         append(rows.results, cell.rows), append(rows.splits, cell.splits), append(rows.times, cell.times);
         append(rows.hits, cell.hits), append(rows.costs, cell.costs);
-        append(rows.compiled, cell.compiled);
+        append(rows.compiled, cell.compiled), append(rows.estimates, cell.estimates);
         append(rows.reference_noise, cell.reference_noise);
     }
     mark_representative_rows(rows.results);
@@ -54,5 +54,5 @@ void write_tables(const std::filesystem::path& folder, const StudyRows& rows) {
             write_rows(path_inside(folder, file), some);
     };
     write_if_any("hits.csv", rows.hits), write_if_any("costs.csv", rows.costs);
-    write_if_any("compiled.csv", rows.compiled);
+    write_if_any("compiled.csv", rows.compiled), write_if_any("estimates.csv", rows.estimates);
 }

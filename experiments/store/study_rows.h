@@ -13,6 +13,7 @@ struct StudyRows {
     std::vector<HitRow> hits;
     std::vector<CostRow> costs;
     std::vector<CompiledRow> compiled;
+    std::vector<EstimateRow> estimates;
     std::vector<ReferenceNoise> reference_noise;
 };
 /// With mark_representative_rows() done.
@@ -23,5 +24,5 @@ StudyRows rows_of(const std::vector<Cell>& cells);
 void mark_representative_rows(std::span<ResultRow> rows);
 
 /// Writes results.csv, splits.csv and times.csv, hits.csv if rays were judged, costs.csv if costs were counted, and
-/// compiled.csv if compilers were asked; the columns are explained in experiments/RESULTS.md.
+/// compiled.csv if compilers were asked, estimates.csv if both; the columns are explained in experiments/RESULTS.md.
 void write_tables(const std::filesystem::path& folder, const StudyRows& rows);

@@ -152,11 +152,12 @@ void compile_some(const Chip& chip, const std::vector<PipelineRecipe>& recipes, 
     }
 }
 
-fs::path cached_file(const fs::path& cache, const Chip& chip, const PipelineRecipe& recipe) {
+fs::path cached_file(const fs::path& cache, const Chip& chip, const PipelineRecipe& recipe, bool has_assembly) {
     constexpr unsigned version =
         1;  // to be raised when make_pipeline(), the chip's device or numbers of a recipe change
     ContentHash hash;
     hash.add(version), hash.add(bytes_of({recipe})), hash.add(chip.name), hash.add(chip.driver);
+    hash.add(int(has_assembly));
     return cache / "chips" / (hash.hex() + ".json");
 }
 
@@ -200,13 +201,14 @@ std::vector<Chip> known_chips() {
 
 std::vector<CompiledPipeline> compile_for_chip(const Chip& chip, const std::vector<PipelineRecipe>& recipes,
                                                const ChipCompilation& how) {
-    const bool uses_cache = !how.cache.empty() && !how.has_assembly;
+    const bool uses_cache = !how.cache.empty();
+    const auto file_of = [&](size_t i) { return cached_file(how.cache, chip, recipes[i], how.has_assembly); };
     std::vector<json> results(recipes.size());
     const size_t most = std::max(1u, std::thread::hardware_concurrency());
     std::vector<std::vector<size_t>> shares(most);
     size_t missing = 0;
     for (size_t i = 0; i < recipes.size(); ++i) {
-        if (uses_cache) results[i] = read_cached(cached_file(how.cache, chip, recipes[i]));
+        if (uses_cache) results[i] = read_cached(file_of(i));
         if (results[i].is_null()) shares[missing++ % most].push_back(i);
     }
     std::vector<std::future<void>> workers;
@@ -219,8 +221,7 @@ std::vector<CompiledPipeline> compile_for_chip(const Chip& chip, const std::vect
     if (uses_cache) try {
             for (const auto& share : shares)
                 for (const size_t i : share)
-                    if (results[i].contains("shaders"))
-                        write_text(cached_file(how.cache, chip, recipes[i]), results[i].dump());
+                    if (results[i].contains("shaders")) write_text(file_of(i), results[i].dump());
         } catch (const MachineError& e) {
             if (how.notice) how.notice(std::string("what was compiled for ") + chip.name + " is not kept: " + e.what());
         }

@@ -68,6 +68,8 @@ public:
         std::vector<std::string> what = {v.variant, v.point, point.parameters, std::to_string(v.seeds.front())};
         if (!config_.counts_costs) what.push_back("compiled alone");
         if (!config_.gpu_compilers.empty()) sources.push_back("experiments/measuring/times/compiled_shaders.cpp");
+        if (config_.counts_costs && !config_.gpu_compilers.empty())
+            sources.push_back("experiments/measuring/costs/gpu_estimates.cpp");
         for (const GpuCompilers::Entry& entry : compilers_.entries)
             what.push_back(entry.chip.name), what.push_back(entry.chip.driver);
         return name(sources, request, what);

@@ -2,9 +2,9 @@
 #include "core/elapsed.h"
 #include "core/error.h"
 #include "experiments/config/conditions.h"
+#include "experiments/measuring/costs/gpu_estimates.h"
 #include "experiments/measuring/rehearsal.h"
 #include "experiments/measuring/times/clock_proofs.h"
-#include "experiments/measuring/times/compiled_shaders.h"
 #include "experiments/measuring/times/costs.h"
 #include "experiments/measuring/times/timing.h"
 #include "experiments/measuring/times/timing_lock.h"
@@ -199,6 +199,11 @@ Cell costs_cell(StudySession& study, OpenShot& open, const PlannedCell& planned,
     const ChipCompilation how{.cache = study.settings.cache,
                               .notice = [&](const std::string& text) { study.progress.say("warning: " + text); }};
     cell.compiled = compiled_rows(pipelines, shot, *planned.variant, study.plan.compilers, how);
+    if (study.config.counts_costs) {
+        const TracedFrame frame = trace_last_frame(study.device, open.shot, *open.store, lit, *planned.variant,
+                                                   study.settings.keep_all, report);
+        cell.estimates = estimate_rows(frame, shot, *planned.variant, study.plan.compilers, how);
+    }
     return cell;
 }
 

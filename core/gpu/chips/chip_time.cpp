@@ -1,0 +1,39 @@
+#include "core/gpu/chips/chip_time.h"
+
+#include <algorithm>
+
+double ChipTime::most() const {
+    double longest = 0;
+    for (const ChipTimePart& part : chip_time_parts) longest = std::max(longest, this->*part.member);
+    return longest;
+}
+
+double ChipTime::at_most() const { return std::max(most(), caches); }
+
+ChipTime chip_time(const StageWork& stage, const PassCost& cost, const ChipRates& rates) {
+    const double clocks_per_microsecond = rates.gigahertz * 1e3, simds = double(rates.units) * rates.simds;
+    const double texel = cost.texels ? double(cost.bytes_read) / double(cost.texels) : 0;  // bytes, of the mean one
+    const double units = rates.units, bytes = double(cost.bytes_read + cost.bytes_written);
+    const ChipWork& work = stage.work;
+    const double load = std::max(1 / rates.loaded_lanes, texel / rates.loaded_bytes);
+    const double sample = std::max(1.0, texel / rates.filtered_bytes) / rates.filtered_lanes;
+
+    ChipTime clocks;
+    clocks.vector = work.vector / simds;
+    clocks.scalar = work.scalar / (units * rates.scalar);
+    clocks.shared_memory = work.shared / units;
+    clocks.textures = (work.loads * load + work.samples * sample + work.stores / rates.stored_lanes +
+                       work.buffers / rates.buffer_lanes) /
+                      units;
+    clocks.targets = work.exports / rates.pixels;
+    clocks.latency = std::max(stage.resident_latency / simds, stage.longest_wave);
+    clocks.caches = bytes / rates.cache_bytes;
+    ChipTime time;
+    for (const ChipTimePart& part : chip_time_parts) time.*part.member = clocks.*part.member / clocks_per_microsecond;
+    time.caches = clocks.caches / clocks_per_microsecond;
+    // What the cache in front of the memory holds is taken to be there.
+    const double cached = std::min(double(cost.unique_bytes), rates.last_megabytes * 1e6);
+    if (cached > 0) time.memory = cached / (rates.last_gigabytes * 1e3);
+    time.memory += (double(cost.unique_bytes) - cached) / (rates.memory_gigabytes * 1e3);
+    return time;
+}

@@ -1,0 +1,19 @@
+#pragma once
+#include "core/gpu/chips/chip_compiler.h"
+#include "core/gpu/chips/machine_code.h"
+
+/// What a chip's code for a shader asks of it, by the blocks of the shader.
+struct ShaderWork {
+    struct Block {
+        ChipWork work;       ///< of a wave for each run
+        ChipWork uncertain;  ///< the part of it of which runs are known at most
+    };
+    std::vector<Block> blocks;  ///< as ShaderFlow::blocks
+    unsigned lanes = 64;        ///< of a wave
+    double resident_waves = 1;  ///< that a SIMD holds at a time; 1 of a chip whose registers are not known
+};
+
+/// Of the shader as it is (`plain`) and with marks, both compiled with their assembly. Fails with Error on assembly
+/// that cannot be read.
+ShaderWork shader_work(const MarkedShader& marks, const CompiledShader& plain, const CompiledShader& marked,
+                       const std::string& chip, const ChipRates& rates);

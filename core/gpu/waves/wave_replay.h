@@ -1,0 +1,27 @@
+#pragma once
+#include "core/gpu/waves/shader_flow.h"
+
+#include <span>
+
+/// What the waves of one group of invocations did: a workgroup, or the fragments of a tile.
+struct WaveCounts {
+    std::vector<uint64_t> waves;  ///< by block: how often a wave ran it, with one or more of its lanes
+    std::vector<uint64_t> lanes;  ///< the same, of lanes
+    uint64_t started = 0;         ///< waves with one or more lanes that ran
+    uint64_t cut = 0;             ///< lanes that decided more than their trace holds; nothing is counted after it
+
+    void add(const WaveCounts& other);
+};
+
+/// The trace of one lane: the decisions that it made, from the lowest bit of the first word on.
+struct LaneTrace {
+    bool has_run = false;
+    uint64_t decisions = 0;  ///< that it made; `words` hold those that there was room for
+    std::span<const uint32_t> words;
+};
+
+/// Runs the lanes of a group again as waves of `width` lanes, in their order. All lanes of a wave go the same way
+/// together; where their decisions differ the wave goes each way with the lanes that take it, and they meet again at
+/// the reconvergence of the block, as chips do it that mask lanes out (Fung et al. 2007, "Dynamic Warp Formation and
+/// Scheduling for Efficient GPU Control Flow", section 3: reconvergence at the immediate post-dominator).
+WaveCounts replay(const ShaderFlow& flow, std::span<const LaneTrace> group, unsigned width);

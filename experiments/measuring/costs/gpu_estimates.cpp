@@ -1,0 +1,232 @@
+#include "experiments/measuring/costs/gpu_estimates.h"
+
+#include "core/error.h"
+#include "core/gpu/chips/chip_time.h"
+#include "core/gpu/chips/shader_work.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace {
+
+/// A stage on a chip, with what is not known of it.
+struct StageEstimate {
+    StageWork all, uncertain;
+    std::vector<std::pair<double, std::vector<StageWork>>>
+        by_group;                     ///< of each pass: groups for each traced, and they
+    double active = 0, possible = 0;  ///< vector clocks x lanes
+    double cut = 0, lanes = 0;        ///< lanes whose trace is not whole, of all that were traced
+    std::string refusal;
+};
+
+void add_pass(StageEstimate& stage, const TracedFrame::Pass& pass, const ShaderWork& code) {
+    const std::vector<WaveCounts>& groups = pass.traced.at(code.lanes);
+    if (groups.empty()) return;
+    const double scale = double(pass.groups) / double(groups.size());
+    std::vector<StageWork> by_group;
+    ChipWork of_pass;
+    double waves = 0;
+    for (const WaveCounts& group : groups) {
+        StageWork work;
+        ChipWork uncertain;
+        for (size_t b = 0; b < group.waves.size(); ++b) {
+            const double runs = double(group.waves[b]);
+            if (runs == 0) continue;
+            work.work.add(code.blocks[b].work, runs);
+            uncertain.add(code.blocks[b].uncertain, runs);
+            const double clocks = code.blocks[b].work.vector;
+            stage.active += clocks * double(group.lanes[b]) * scale;
+            stage.possible += clocks * runs * code.lanes * scale;
+        }
+        work.waves = double(group.started);
+        work.resident_latency = work.work.latency / code.resident_waves;
+        stage.all.work.add(work.work, scale), stage.uncertain.work.add(uncertain, scale);
+        stage.all.waves += work.waves * scale;
+        stage.all.resident_latency += work.resident_latency * scale;
+        stage.uncertain.resident_latency += uncertain.latency / code.resident_waves * scale;
+        stage.cut += double(group.cut), stage.lanes += double(group.lanes.empty() ? 0 : group.lanes[0]);
+        of_pass.add(work.work, 1), waves += work.waves;
+        by_group.push_back(work);
+    }
+    if (waves > 0) stage.all.longest_wave += of_pass.latency / waves;
+    stage.by_group.emplace_back(scale, std::move(by_group));
+}
+
+/// Of the time that a part takes for a stage: the square of its standard error, from groups that stand for all. `cost`:
+/// without traffic, which is counted and not sampled.
+double sampling_variance(const StageEstimate& stage, const ChipTimePart& part, const PassCost& cost,
+                         const ChipRates& rates) {
+    double variance = 0;
+    for (const auto& [scale, groups] : stage.by_group) {
+        const double count = double(groups.size());
+        if (groups.size() < 2 || scale <= 1) continue;
+        double sum = 0, squares = 0;
+        for (const StageWork& group : groups) {
+            const double time = chip_time(group, cost, rates).*part.member;
+            sum += time, squares += time * time;
+        }
+        const double of_group = std::max(0.0, (squares - sum * sum / count) / (count - 1));
+        const double all = count * scale;
+        variance += all * all * of_group / count * (1 - 1 / scale);
+    }
+    return variance;
+}
+
+/// Of a stage or a frame; microseconds.
+struct Estimate {
+    ChipTime parts;
+    double time = 0;
+    std::map<std::string, double> by_bound;  ///< time of the stages that a part bounds
+    double variance = 0;                     ///< of sampling
+    double uncertain = 0;                    ///< of blocks of which runs are known at most
+    double active = 0, possible = 0;
+    double cut = 0, lanes = 0, waves = 0;
+    std::string refusal;
+
+    void add(const Estimate& other) {
+        for (const ChipTimePart& part : chip_time_parts) parts.*part.member += other.parts.*part.member;
+        parts.caches += other.parts.caches;
+        for (const auto& [bound, of_bound] : other.by_bound) by_bound[bound] += of_bound;
+        time += other.time, variance += other.variance, uncertain += other.uncertain;
+        active += other.active, possible += other.possible;
+        cut += other.cut, lanes += other.lanes, waves += other.waves;
+    }
+};
+
+Estimate estimate_of(const StageEstimate& stage, const PassCost& cost, const ChipRates& rates) {
+    Estimate estimate{.parts = chip_time(stage.all, cost, rates)};
+    const ChipTimePart& part =
+        *std::ranges::max_element(chip_time_parts, {}, [&](const ChipTimePart& p) { return estimate.parts.*p.member; });
+    PassCost no_traffic = cost;
+    no_traffic.unique_bytes = 0;
+    estimate.time = estimate.parts.*part.member;
+    estimate.by_bound[part.name] = estimate.time;
+    estimate.variance = sampling_variance(stage, part, no_traffic, rates);
+    estimate.uncertain = chip_time(stage.uncertain, no_traffic, rates).*part.member;
+    estimate.active = stage.active, estimate.possible = stage.possible;
+    estimate.cut = stage.cut, estimate.lanes = stage.lanes, estimate.waves = stage.all.waves;
+    return estimate;
+}
+
+EstimateRow row_of(const std::string& shot, const VariantConfig& point, const std::string& stage,
+                   const std::string& chip) {
+    EstimateRow row;
+    row.shot = shot, row.variant = point.variant, row.point = point.point, row.stage = stage, row.chip = chip;
+    return row;
+}
+
+void set_numbers(EstimateRow& row, const Estimate& estimate) {
+    constexpr double normal_95 = 1.96;
+    const double half = normal_95 * std::sqrt(estimate.variance);
+    row.microseconds = estimate.time;
+    row.low = std::max(0.0, estimate.time - estimate.uncertain - half), row.high = estimate.time + half;
+    row.bound = std::ranges::max_element(estimate.by_bound, {}, [](const auto& entry) { return entry.second; })->first;
+    row.vector = estimate.parts.vector, row.scalar = estimate.parts.scalar;
+    row.shared_memory = estimate.parts.shared_memory, row.textures = estimate.parts.textures;
+    row.targets = estimate.parts.targets, row.memory = estimate.parts.memory;
+    row.latency = estimate.parts.latency, row.caches = estimate.parts.caches;
+    row.waves = estimate.waves;
+    if (estimate.possible > 0) row.active_lanes = estimate.active / estimate.possible;
+    row.unmatched = estimate.time > 0 ? estimate.uncertain / estimate.time : 0;
+    row.cut_lanes = estimate.lanes > 0 ? estimate.cut / estimate.lanes : 0;
+}
+
+/// The codes of the frame's passes, of each recipe once; refusals in place of those that there are not.
+struct FrameCode {
+    std::map<std::string, ShaderWork> by_recipe;
+    std::map<std::string, std::string> refusals;
+};
+
+FrameCode compile_frame(const TracedFrame& frame, const Chip& chip, const ChipRates& rates, ChipCompilation how) {
+    struct Pipeline {
+        std::string key;
+        MarkedShader marks;
+    };
+    FrameCode code;
+    std::vector<Pipeline> pipelines;
+    std::vector<PipelineRecipe> recipes;
+    std::set<std::string> seen;
+    for (const TracedFrame::Pass& pass : frame.passes) {
+        const std::string key = bytes_of({pass.recipe});
+        if (!seen.insert(key).second) continue;
+        try {
+            pipelines.push_back({.key = key, .marks = marked(pass.recipe, pass.flow)});
+            recipes.push_back(pass.recipe), recipes.push_back(pipelines.back().marks.recipe);
+        } catch (const Error& e) {
+            code.refusals[key] = e.what();
+        }
+    }
+    how.has_assembly = true;
+    const std::vector<CompiledPipeline> compiled = compile_for_chip(chip, recipes, how);
+    for (size_t i = 0; i < pipelines.size(); ++i) {
+        const CompiledPipeline &plain = compiled[2 * i], &marked = compiled[2 * i + 1];
+        const Pipeline& p = pipelines[i];
+        if (!plain.refusal.empty() || !marked.refusal.empty())
+            code.refusals[p.key] = plain.refusal.empty() ? marked.refusal : plain.refusal;
+        else
+            try {
+                code.by_recipe.emplace(
+                    p.key, shader_work(p.marks, plain.shaders.back(), marked.shaders.back(), chip.name, rates));
+            } catch (const Error& e) {
+                code.refusals[p.key] = e.what();
+            }
+    }
+    return code;
+}
+
+std::vector<EstimateRow> rows_of_chip(const TracedFrame& frame, const std::string& shot, const VariantConfig& point,
+                                      const Chip& chip, const ChipRates& rates, const ChipCompilation& how) {
+    const FrameCode code = compile_frame(frame, chip, rates, how);
+    std::map<std::string, StageEstimate> traced;
+    for (const TracedFrame::Pass& pass : frame.passes) {
+        StageEstimate& stage = traced[pass.stage];
+        const std::string key = bytes_of({pass.recipe});
+        if (const auto found = code.by_recipe.find(key); found != code.by_recipe.end())
+            add_pass(stage, pass, found->second);
+        else
+            stage.refusal = code.refusals.at(key);
+    }
+
+    std::vector<EstimateRow> rows;
+    EstimateRow total = row_of(shot, point, "total", chip.name);
+    Estimate of_frame;
+    for (const PassCost& cost : frame.costs) {
+        EstimateRow row = row_of(shot, point, cost.stage, chip.name);
+        row.product = rates.product;
+        if (const StageEstimate& stage = traced[cost.stage]; stage.refusal.empty()) {
+            const Estimate estimate = estimate_of(stage, cost, rates);
+            set_numbers(row, estimate);
+            of_frame.add(estimate);
+        } else {
+            row.refusal = stage.refusal;
+            total.refusal = cost.stage + ": " + stage.refusal;
+        }
+        rows.push_back(row);
+    }
+    total.product = rates.product;
+    if (total.refusal.empty()) set_numbers(total, of_frame);
+    rows.push_back(total);
+    return rows;
+}
+
+}  // namespace
+
+std::vector<EstimateRow> estimate_rows(const TracedFrame& frame, const std::string& shot, const VariantConfig& point,
+                                       const GpuCompilers& compilers, const ChipCompilation& how) {
+    std::vector<EstimateRow> rows;
+    if (frame.passes.empty()) return rows;
+    for (const GpuCompilers::Entry& compiler : compilers.entries) {
+        const std::optional<ChipRates> rates = chip_rates(compiler.chip.name);
+        if (compiler.refusal.empty() && rates) {
+            const std::vector<EstimateRow> of_chip = rows_of_chip(frame, shot, point, compiler.chip, *rates, how);
+            rows.insert(rows.end(), of_chip.begin(), of_chip.end());
+            continue;
+        }
+        EstimateRow row = row_of(shot, point, "total", compiler.chip.name);
+        row.refusal =
+            compiler.refusal.empty() ? "ssrlab has no published rates of " + compiler.chip.name : compiler.refusal;
+        rows.push_back(row);
+    }
+    return rows;
+}

@@ -1,0 +1,52 @@
+#include "experiments/measuring/costs/traced_frame.h"
+
+#include "core/gpu/device.h"
+#include "core/gpu/waves/traced_shader.h"
+#include "experiments/measuring/render_variant.h"
+#include "variants/registry.h"
+
+namespace {
+
+constexpr std::array wave_widths = {32u, 64u};
+
+TracedFrame::Pass traced_pass(const PassTrace& trace) {
+    TracedFrame::Pass pass{.stage = trace.stage,
+                           .recipe = trace.recipe,
+                           .flow = flow_of(trace.recipe),
+                           .groups = trace.layout.groups,
+                           .traced = {}};
+    for (const unsigned width : wave_widths) {
+        std::vector<WaveCounts>& groups = pass.traced[width];
+        for (unsigned place = 0; place < trace.layout.chosen; ++place)
+            groups.push_back(replay(pass.flow, lanes_of(trace.layout, trace.content, place), width));
+    }
+    return pass;
+}
+
+}  // namespace
+
+TracedFrame trace_last_frame(Device& device, const Shot& shot, FrameStore& store,
+                             const std::function<const HostImage&(const FrameStep&)>& lit, const VariantConfig& point,
+                             bool keep_all, const std::function<void(double)>& report) {
+    TracedFrame result;
+    for (const bool is_traced : {false, true}) {
+        const std::unique_ptr<Variant> variant = make_variant(point.variant, point.parameters, point.preset);
+        if (variant->uses_scene_data()) return {};
+        if (!keep_all) variant->leave_out(shot.facts);
+        PassGraph graph(device, shot.config.extent);
+        graph.use_gpu_forms(true);
+        for (const FrameStep& step : shot.steps) {
+            const size_t number = size_t(&step - shot.steps.data()) + 1;
+            const bool is_last = number == shot.steps.size();
+            graph.count_costs(is_last && !is_traced);
+            if (is_last && is_traced)
+                graph.trace([&](const PassTrace& trace) { result.passes.push_back(traced_pass(trace)); });
+            const FrameStore::Frame frame = store.frame(step, lit(step));
+            render_variant(graph, *variant, frame.camera, point.seeds.front(), frame.gbuffer);
+            graph.times();  // waits: the frame's images are gone with the next one
+            report((double(is_traced) + double(number) / double(shot.steps.size())) / 2);
+        }
+        if (!is_traced) result.costs = graph.costs();
+    }
+    return result;
+}

@@ -1,0 +1,113 @@
+#include "experiments/measuring/costs/gpu_estimates.h"
+#include "core/error.h"
+#include "core/gpu/device.h"
+#include "core/gpu/waves/traced_shader.h"
+#include "core/scene/load_scene.h"
+#include "experiments/config/all_points.h"
+#include "experiments/measuring/render_variant.h"
+#include "experiments/run/needs.h"
+
+#include <gtest/gtest.h>
+#include <filesystem>
+
+namespace {
+
+struct GpuEstimates : testing::Test {
+    static Device& device() {
+        static Device shared;
+        return shared;
+    }
+    const Shot shot =
+        load_shot({.scene = "mirror_pillars", .extent = {48, 32}, .frames = {0}, .warm_up = 1, .direct_lit = true},
+                  scene_search_path({}));
+    const HostImage unused;
+    const std::function<const HostImage&(const FrameStep&)> lit = [this](const FrameStep&) -> const HostImage& {
+        return unused;
+    };
+    std::unique_ptr<FrameSource> source;
+    std::unique_ptr<FrameStore> store;
+
+    TracedFrame trace(const VariantConfig& point) {
+        open(point);
+        return trace_last_frame(device(), shot, *store, lit, point, true, [](double) {});
+    }
+    void open(const VariantConfig& point) {
+        source = scene_source(device(), shot, timed_config({point}, 0), true);
+        store = std::make_unique<FrameStore>(*source, shot.config.depth_format, 0);
+    }
+    /// What the technique shows in the last frame.
+    std::vector<float> radiance(const VariantConfig& point, bool is_traced) {
+        open(point);
+        const Renderer renderer(device(), shot.config.extent, point);
+        renderer.graph->use_gpu_forms(true);
+        if (is_traced) renderer.graph->trace([](const PassTrace&) {});
+        std::vector<float> values;
+        for (const FrameStep& step : shot.steps) {
+            const FrameStore::Frame frame = store->frame(step, lit(step));
+            const Reflections result = renderer.render(frame.camera, 1, frame.gbuffer);
+            values = renderer.graph->download(result.radiance).values;
+        }
+        return values;
+    }
+};
+
+}  // namespace
+
+/// Passes that write down their ways compute what they compute without.
+TEST_F(GpuEstimates, TracingChangesNoBit) {
+    for (const std::string technique : {"mcguire_dda", "diligent_ssr"}) {
+        const VariantConfig point = single_point(technique);
+        EXPECT_EQ(radiance(point, true), radiance(point, false)) << technique;
+    }
+}
+
+/// Two ways to count invocations agree: the counters of the shaders, and the lanes that left a record.
+void expect_all_invocations(const TracedFrame& frame) {
+    std::map<std::string, uint64_t> lanes;
+    for (const TracedFrame::Pass& pass : frame.passes)
+        for (const WaveCounts& group : pass.traced.at(64)) {
+            lanes[pass.stage] += group.lanes.at(0);
+            EXPECT_EQ(group.cut, 0u) << pass.stage;
+        }
+    for (const PassCost& cost : frame.costs) {
+        if (cost.stage == "clear") continue;
+        EXPECT_EQ(lanes[cost.stage], cost.invocations) << cost.stage;
+    }
+}
+
+TEST_F(GpuEstimates, EveryStageHasAnEstimateWithItsInterval) {
+    const GpuCompilers compilers = find_compilers({"navi21", "navi10"});
+    if (const std::string& why = compilers.entries.front().refusal; !why.empty()) GTEST_SKIP() << why;
+    const std::filesystem::path cache = std::filesystem::path(testing::TempDir()) / "gpu_estimates_cache";
+    std::filesystem::remove_all(cache);
+    for (const std::string technique : {"amd_sssr", "diligent_ssr"}) {
+        const VariantConfig point = single_point(technique);
+        const TracedFrame frame = trace(point);
+        expect_all_invocations(frame);
+        const std::vector<EstimateRow> rows = estimate_rows(frame, shot.name(), point, compilers, {.cache = cache});
+        ASSERT_GT(rows.size(), 5u) << technique;
+        double sum = 0;
+        for (const EstimateRow& row : rows) {
+            if (row.chip == "navi10") {
+                EXPECT_EQ(row.refusal, "ssrlab has no published rates of navi10");
+                continue;
+            }
+            const std::string where = technique + ' ' + row.stage;
+            ASSERT_EQ(row.refusal, "") << where;
+            EXPECT_GT(row.microseconds, 0) << where;
+            EXPECT_LE(row.low, row.microseconds) << where;
+            EXPECT_GE(row.high, row.microseconds) << where;
+            EXPECT_LT(row.unmatched, 0.3) << where;
+            if (row.stage != "clear") {
+                EXPECT_GT(row.active_lanes, 0) << where;
+                EXPECT_LE(row.active_lanes, 1) << where;
+                EXPECT_GE(row.waves, 1) << where;
+            }
+            if (row.stage == "total")
+                EXPECT_NEAR(*row.microseconds, sum, 1e-9 * sum) << technique;
+            else
+                sum += *row.microseconds;
+        }
+    }
+    std::filesystem::remove_all(cache);
+}
