@@ -111,6 +111,7 @@ ReportTables read_report_tables(const std::filesystem::path& folder, const json&
                         .splits = {},
                         .hits = {},
                         .costs = {},
+                        .compiled = {},
                         .effects = {},
                         .time_effects = {},
                         .times = read_rows<TimeSummary>(file("time_summary.csv")),
@@ -120,6 +121,7 @@ ReportTables read_report_tables(const std::filesystem::path& folder, const json&
     if (has("splits.csv")) tables.splits = read_rows<SplitRow>(file("splits.csv"));
     if (has("hits.csv")) tables.hits = read_rows<HitRow>(file("hits.csv"));
     if (has("costs.csv")) tables.costs = read_rows<CostRow>(file("costs.csv"));
+    if (has("compiled.csv")) tables.compiled = read_rows<CompiledRow>(file("compiled.csv"));
     if (has("effects.csv")) tables.effects = read_rows<EffectRow>(file("effects.csv"));
     if (has("time_effects.csv")) tables.time_effects = read_rows<TimeEffectRow>(file("time_effects.csv"));
     return tables;
@@ -143,6 +145,7 @@ json report_data(const ReportTables& tables, const PointSet& single_changes) {
                  {"splits", table<SplitRow>(tables.splits, code)},
                  {"hits", table<HitRow>(tables.hits, code)},
                  {"costs", cost_table(tables.costs, code)},
+                 {"compiled", table<CompiledRow>(tables.compiled, code)},
                  {"effects", table<EffectRow>(tables.effects, code)},
                  {"time_effects", table<TimeEffectRow>(tables.time_effects, code)},
                  {"times", table<TimeSummary>(tables.times, code)},

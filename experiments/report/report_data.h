@@ -14,6 +14,7 @@ struct ReportTables {
     std::vector<SplitRow> splits;
     std::vector<HitRow> hits;
     std::vector<CostRow> costs;
+    std::vector<CompiledRow> compiled;
     std::vector<EffectRow> effects;
     std::vector<TimeEffectRow> time_effects;
     std::vector<TimeSummary> times;

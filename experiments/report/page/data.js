@@ -53,6 +53,7 @@ function readData() {
         splits: rows(raw.splits).map(split),
         hits: rows(raw.hits),
         costs: rows(raw.costs),  // a row for each stage, with a column for each quantity
+        compiled: rows(raw.compiled),
         effects: rows(raw.effects).map(effect),
         timeEffects: rows(raw.time_effects).map(timeEffect),
         times: rows(raw.times).map(time)

@@ -26,6 +26,7 @@ async function showStudy() {
         leaveOut("results");
     showHits();
     showStages();
+    showCompiled();
     showRoughness();
     showSplits();
     showEffects();

@@ -76,7 +76,7 @@ def check_table(page, folder, target, metric, mask):
 
 
 def test_sections(page):
-    """A study without classes of roughness, seeds to split over, baselines and frames has no sections of them."""
+    """A study without classes of roughness, seeds to split over, baselines, frames and compilers has no sections of them."""
     ids = page.execute_script("return [...document.querySelectorAll('main > section')].map(s => s.id)")
     wanted = "answers results viewer stages references needs parameters how provenance".split()
     equal(ids, wanted, "sections")

@@ -163,6 +163,31 @@ void add_costs(const StudyShot& shot, const StudyPoint& point, Cell& cell) {
             cell.costs.push_back({shot.name, "sssr", point.point, stage, quantity, size_t(value)});
 }
 
+/// Two passes, by two chips; a compiler of one ended at the second pass of `fixed`. The first pass is the same machine
+/// code in both points. All shots need the same passes but the step.
+void add_compiled(const StudyShot& shot, const StudyPoint& point, Cell& cell) {
+    const auto add = [&](const char* chip, const char* stage, double vgprs, double waves, const std::string& hash) {
+        CompiledRow row;
+        row.shot = shot.name, row.variant = point.variant, row.point = point.point, row.stage = stage;
+        row.chip = chip, row.driver = "radv of a test";
+        cell.compiled.push_back(row);
+        if (chip[0] == 'g' && point.point == "fixed" && stage == std::string("sssr/stage_1")) {
+            cell.compiled.back().refusal = "its compiler ended: <b>signal 9</b>";
+            return;
+        }
+        CompiledRow& whole = cell.compiled.back();
+        whole.shader = "compute", whole.lanes = 64, whole.vgprs = vgprs, whole.spilled_vgprs = 3, whole.waves = waves;
+        whole.most_waves = 16, whole.limit = waves < 16 ? "registers" : "nothing", whole.inverse_throughput = 1234;
+        whole.hash = hash;
+    };
+    for (const char* chip : {"navi21", "gfx1100"}) {
+        add(chip, "sssr/stage_0", 24, 16, std::string(chip) + "0");
+        add(chip, "sssr/stage_1", point.point == "first" ? 84 : 128, point.point == "first" ? 6 : 4,
+            chip + point.point);
+    }
+    if (shot.name == study_step_shot) cell.compiled.front().vgprs = 32;
+}
+
 /// Two passes, one of which traced rough surfaces only; two masks. The moving shot has two frames.
 void add_hits(const StudyShot& shot, const StudyPoint& point, Cell& cell) {
     const auto add = [&](const std::string& frame, const char* stage, const char* mask, double right) {
@@ -325,6 +350,7 @@ void write_study_fixture(const std::filesystem::path& folder) {
             add_split(shot, point, cell);
             if (point.point == "first" || point.point == "fixed") add_hits(shot, point, cell);
             if (point.point == "first" || point.point == "fixed") add_costs(shot, point, cell);
+            if (point.point == "first" || point.point == "fixed") add_compiled(shot, point, cell);
             if (point.point == "first") add_times(shot, point, 1, cell);
             if (point.point == "fixed") add_times(shot, point, 2, cell);
             cells.push_back(std::move(cell));

@@ -235,6 +235,36 @@ def test_stages(page):
     check(labels and all("MB read and written" in label for label in labels), f"charts against bytes: {labels}")
 
 
+def test_compiled(page, folder):
+    """Each pass of a chip as compiled.csv has it; what is the same machine code, and what was refused, is said."""
+
+    def shown():
+        return [[c[0] for c in row] for row in table_of(page, "#compiled")]
+
+    def wanted(chip, shot):
+        rows = rows_of(folder, "compiled.csv", chip=chip, shot=shot, refusal="")
+        return [[r["point"], r["stage"], r["vgprs"], r["spilled_vgprs"], f"{r['waves']} of 16", r["limit"], r["inverse_throughput"]] for r in rows]
+
+    def equals_file(chip, shot):
+        found = [[r[0].split(" · ")[1], *r[1:6], r[9]] for r in shown()]
+        equal(found, wanted(chip, shot), f"the passes of {chip} in {shot}")
+
+    still = "still_a.main.160x90.w8.r8"
+    equals_file("navi21", still)
+    equal([r[10] for r in shown()], ["navi210", "navi21first", "same machine code as sssr · first", "navi21fixed"], "machine code")
+    widths = page.execute_script("return [...document.querySelectorAll('#compiled .share span')].map(s => s.style.width)")
+    equal(widths, ["100%", "37.5%", "100%", "25%"], "bars of waves")
+    equal(page.find_elements(By.CSS_SELECTOR, "#compiled .refusals"), [], "nothing refused")
+    shots = page.execute_script("return [...document.querySelectorAll('#compiled label')].find(l => l.innerText.startsWith('Shot')).innerText.split('\\n').slice(-2)")
+    check(any(s.endswith(f"{still} and 5 alike") for s in shots) and any(s.endswith(STEP) for s in shots), f"shots of the same passes are one choice: {shots}")
+    choose_in(page, "compiled", "Shot", STEP)
+    equals_file("navi21", STEP)
+    choose_in(page, "compiled", "Chip", "gfx1100")
+    equals_file("gfx1100", STEP)
+    said = page.find_element(By.CSS_SELECTOR, "#compiled .refusals").text
+    equal(said, "sssr/stage_1 of sssr · fixed: its compiler ended: <b>signal 9</b>.", "what was refused")
+
+
 def test_temporal(page, folder):
     text = page.find_element(By.ID, "temporal-tables").text
     check("not within the first half of 15 frames" in text, f"why a value is missing: {text}")
@@ -322,6 +352,7 @@ def main():
             test_error_shares(page, folder, MOVING)
             test_held_heads(page)
             test_stages(page)
+            test_compiled(page, folder)
             test_effects(page, folder, STEP)
             test_temporal(page, folder)
             test_stability(page, folder)
