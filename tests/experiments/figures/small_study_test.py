@@ -10,6 +10,7 @@ import sys
 import tempfile
 
 from figures_start import check
+from ssrlab import read as read_results
 
 SSRLAB = os.path.abspath(sys.argv[1])
 EXPERIMENTS = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../experiments"))
@@ -22,6 +23,7 @@ STUDY = {
     "seeds": 1,
     "reference": {"samples": 16},
     "timing": {"frames": 15, "warm_up": 1, "copies": False},
+    "gpu_compilers": ["navi21"],
 }
 TABLE = {"name": "errors", "caption": "Errors", "of": "results", "where": {"metric": ["mse", "flip"], "target": "specular", "mask": "reflective"}, "rows": "point", "columns": "metric", "over": "shot"}
 FIGURES = [
@@ -73,6 +75,15 @@ def test_figures_warn_of_nothing():
     check(done.returncode == 0 and not done.stderr, done.stderr)
 
 
+def test_pandas_reads_what_compilers_say():
+    results = read_results("out")
+    table = results["compiled"]
+    check(len(table) == 20, f"two passes of ten points: {len(table)}")
+    numbers = table[table["refusal"].isna()]  # none on a machine without radv
+    check((numbers["vgprs"] > 0).all() and (numbers["waves"] <= numbers["most_waves"]).all(), numbers.to_string())
+    check(results.units("compiled")["inverse_throughput"] == "cycle", results.units("compiled"))
+
+
 def test_the_notebook_runs():
     with open(os.path.join(EXPERIMENTS, "examples", "read_results.ipynb"), encoding="utf-8") as stream:
         notebook = json.load(stream)
@@ -92,4 +103,5 @@ with tempfile.TemporaryDirectory(prefix="ssrlab_small_study_") as temporary:
     test_mistakes_in_tables_are_found_first()
     test_changed_tables_redo_no_cell()
     test_figures_warn_of_nothing()
+    test_pandas_reads_what_compilers_say()
     test_the_notebook_runs()
