@@ -82,6 +82,10 @@ TEST(LitFilter, LeavesLittleOfTheNoiseOfAnEvenlyLitTexture) {
     EXPECT_NEAR(mean_of(filtered.mean) / (3 * mean_of(s.albedo)), 1, 5 * 0.0045);
 }
 
+/// An edge that is one pixel too soft leaves more than an eighth of the error. If the pixels beside it took half of the
+/// other side's light, they would be off by 1.75: a squared error of 2 * 1.75^2 = 6.1 in each row, beside
+/// 44 * 0.3^2 / 2 * 4^2 = 32 of the noise of its lit pixels, 44 on average: 0.19. What the filter leaves is 1/32; with
+/// six other seeds it was 1/59 to 1/37.
 TEST(LitFilter, KeepsTheEdgesOfShadows) {
     const LitSurfaces surfaces = wall();
     const auto shadow = [](unsigned x, unsigned y) { return x + y / 2 < 60 ? 4.0f : 0.5f; };
