@@ -6,18 +6,46 @@
 #include <sys/wait.h>
 #include <unistd.h>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
+#include <thread>
 
-int run_program(const std::vector<std::string>& arguments) {
+namespace {
+
+/// Whether the child hangs; as soon as it has ended it does not. It stays to be waited for.
+bool hangs(pid_t child, const Patience& patience) {
+    using Clock = std::chrono::steady_clock;
+    size_t progress = patience.progress();
+    auto since = Clock::now();
+    const auto has_ended = [&] {
+        siginfo_t info{};
+        return waitid(P_PID, id_t(child), &info, WEXITED | WNOHANG | WNOWAIT) != 0 || info.si_pid != 0;
+    };
+    while (!has_ended()) {
+        if (const size_t now = patience.progress(); now != progress) progress = now, since = Clock::now();
+        if (Clock::now() - since > patience.limit) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+}
+
+}  // namespace
+
+int run_program(const std::vector<std::string>& arguments, const Patience* patience) {
     std::vector<char*> list;
     for (const std::string& argument : arguments) list.push_back(const_cast<char*>(argument.c_str()));
     list.push_back(nullptr);
     pid_t child = 0;
     if (const int error = posix_spawn(&child, list.front(), nullptr, nullptr, list.data(), environ))
         fail_machine("cannot start ", arguments.front(), ": ", std::strerror(error));
+    const bool is_killed = patience && hangs(child, *patience);
+    if (is_killed) kill(child, SIGKILL);
     int status = 0;
     while (waitpid(child, &status, 0) < 0)
         if (errno != EINTR) fail_machine("cannot wait for ", arguments.front(), ": ", std::strerror(errno));
+    if (is_killed)
+        fail_machine(arguments.front(), " got no further for ", std::chrono::duration<double>(patience->limit).count(),
+                     " s and was ended");
     if (WIFSIGNALED(status)) fail_machine(arguments.front(), " was ended by signal ", WTERMSIG(status));
     return WEXITSTATUS(status);
 }

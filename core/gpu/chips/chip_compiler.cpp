@@ -35,6 +35,9 @@ const std::vector<std::string> candidates = {
     "gfx1100",  "gfx1101",  "gfx1102", "gfx1103_r1", "gfx1103_r2", "navi31",    "navi32",    "navi33",    "phoenix",
     "phoenix2", "gfx1150",  "gfx1151", "gfx1152",    "gfx1153",    "gfx1200",   "gfx1201"};
 
+/// Without a new result. Passes take seconds at most, on a machine at rest.
+constexpr std::chrono::seconds patience_with_compiler(120);
+
 /// A file in memory, gone with this process however it ends.
 class MemoryFile {
 public:
@@ -64,8 +67,10 @@ Answer ask(const std::string& chip, const std::string& recipes, bool has_assembl
     std::vector<std::string> command = {CHIP_COMPILER, chip, in.path(), out.path()};
     if (has_assembly) command.push_back("--assembly");
     Answer answer;
+    const Patience patience{patience_with_compiler, [&] { return size_t(fs::file_size(out.path())); }};
     try {
-        if (const int code = run_program(command); code != 0) answer.end = "exit code " + std::to_string(code);
+        if (const int code = run_program(command, &patience); code != 0)
+            answer.end = "exit code " + std::to_string(code);
     } catch (const MachineError& e) {
         answer.end = e.what();
         answer.was_aborted = answer.end.ends_with("signal " + std::to_string(SIGABRT));

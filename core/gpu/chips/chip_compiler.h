@@ -54,7 +54,7 @@ struct ChipCompilation {
     std::function<void(const std::string&)> notice;  ///< gets a sentence for the user
 };
 
-/// One result for each recipe, in as many processes as there are cores. A pipeline that ends the compiler has a
-/// refusal, and the others their results. Fails with MachineError if a process cannot be started.
+/// One result for each recipe, in as many processes as there are cores. A pipeline that ends the compiler, or on
+/// which it hangs, has a refusal, and the others their results. Fails with MachineError if a process cannot be started.
 std::vector<CompiledPipeline> compile_for_chip(const Chip& chip, const std::vector<PipelineRecipe>& recipes,
                                                const ChipCompilation& how);

@@ -3,8 +3,10 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "experiments/commands/commands.h"
+#include "tests/error_message.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 #include <filesystem>
 
 namespace fs = std::filesystem;
@@ -14,6 +16,23 @@ TEST(ChildProcess, GivesTheExitCode) {
     EXPECT_EQ(run_program({"/bin/sh", "-c", "exit 7"}), 7);
     EXPECT_THROW(run_program({"/nonexistent/program"}), MachineError);
     EXPECT_THROW(run_program({"/bin/sh", "-c", "kill -9 $$"}), MachineError);
+}
+
+/// A program that gets further may take longer than the limit; one that gets no further is ended, and its end is no
+/// news of its own making.
+TEST(ChildProcess, EndsOneThatHangs) {
+    const fs::path file = fs::temp_directory_path() / ("ssrlab_hanging_" + std::to_string(getpid()));
+    write_text(file, "");
+    const Patience patience{std::chrono::seconds(1), [&] { return size_t(fs::file_size(file)); }};
+    const auto run = [&](const std::string& script) {
+        return run_program({"/bin/sh", "-c", script, file.string()}, &patience);
+    };
+    EXPECT_EQ(run("for i in 1 2 3 4 5 6; do sleep 0.3; echo $i >> \"$0\"; done; exit 5"), 5);
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_NE(error_message([&] { run("echo more >> \"$0\"; exec sleep 60"); }).find("got no further for 1 s"),
+              std::string::npos);
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
+    fs::remove(file);
 }
 
 TEST(ChildProcess, HandsArgumentsOnAsTheyAre) {
