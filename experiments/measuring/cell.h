@@ -1,4 +1,5 @@
 #pragma once
+#include "core/gpu/chips/compiled_shader.h"
 #include "experiments/measuring/reference_noise.h"
 #include "experiments/tables/columns.h"
 #include "metrics/seed_pairs.h"
@@ -122,35 +123,30 @@ struct CostRow {
     }
 };
 
-/// One row of compiled.csv: what a GPU's compiler made of one shader of a stage. Numbers that it did not state are
-/// missing. See CompiledShader in core/gpu/chips/chip_compiler.h for what they mean.
-struct CompiledRow {
+/// One row of compiled.csv: what a GPU's compiler made of one shader of a stage.
+struct CompiledRow : CompilerNumbers {
     std::string shot, variant, point, stage;
     unsigned pipeline = 0;  ///< a stage may run several, for its mips or materials
     std::string shader;     ///< "compute", "vertex" or "fragment"; "": refused
     std::string chip, driver;
-    unsigned lanes = 0;
-    std::optional<double> vgprs, sgprs, spilled_vgprs, spilled_sgprs, scratch_bytes, lds_bytes, waves, most_waves;
-    std::string limit;  ///< of the waves, see Occupancy
-    std::optional<double> code_bytes, instructions, branches, latency, inverse_throughput;
-    std::string hash;     ///< of the machine code
-    std::string refusal;  ///< why there are no numbers
+    std::optional<double> waves, most_waves;  ///< see Occupancy, ...
+    std::string limit;                        ///< ... of the waves
+    std::string refusal;                      ///< why there are no numbers
 
     static constexpr auto columns() {
-        return std::tuple(
-            Column{"shot", &CompiledRow::shot}, Column{"variant", &CompiledRow::variant},
-            Column{"point", &CompiledRow::point}, Column{"stage", &CompiledRow::stage},
-            Column{"pipeline", &CompiledRow::pipeline}, Column{"shader", &CompiledRow::shader},
-            Column{"chip", &CompiledRow::chip}, Column{"driver", &CompiledRow::driver},
-            Column{"lanes", &CompiledRow::lanes}, Column{"vgprs", &CompiledRow::vgprs},
-            Column{"sgprs", &CompiledRow::sgprs}, Column{"spilled_vgprs", &CompiledRow::spilled_vgprs},
-            Column{"spilled_sgprs", &CompiledRow::spilled_sgprs}, Column{"scratch_bytes", &CompiledRow::scratch_bytes},
-            Column{"lds_bytes", &CompiledRow::lds_bytes}, Column{"waves", &CompiledRow::waves},
-            Column{"most_waves", &CompiledRow::most_waves}, Column{"limit", &CompiledRow::limit},
-            Column{"code_bytes", &CompiledRow::code_bytes}, Column{"instructions", &CompiledRow::instructions},
-            Column{"branches", &CompiledRow::branches}, Column{"latency", &CompiledRow::latency},
-            Column{"inverse_throughput", &CompiledRow::inverse_throughput}, Column{"hash", &CompiledRow::hash},
-            Column{"refusal", &CompiledRow::refusal});
+        const auto numbers = std::apply(
+            [](const auto&... number) {
+                return std::tuple(Column{number.name, number.member}...);
+            },
+            compiler_numbers);
+        return std::tuple_cat(
+            std::tuple(Column{"shot", &CompiledRow::shot}, Column{"variant", &CompiledRow::variant},
+                       Column{"point", &CompiledRow::point}, Column{"stage", &CompiledRow::stage},
+                       Column{"pipeline", &CompiledRow::pipeline}, Column{"shader", &CompiledRow::shader},
+                       Column{"chip", &CompiledRow::chip}, Column{"driver", &CompiledRow::driver},
+                       Column{"lanes", &CompiledRow::lanes}, Column{"waves", &CompiledRow::waves},
+                       Column{"most_waves", &CompiledRow::most_waves}, Column{"limit", &CompiledRow::limit}),
+            numbers, std::tuple(Column{"hash", &CompiledRow::hash}, Column{"refusal", &CompiledRow::refusal}));
     }
 };
 

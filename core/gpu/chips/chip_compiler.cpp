@@ -99,34 +99,20 @@ std::optional<Chip> ask_for_chip(const std::string& name) {
 
 CompiledShader shader_of(const json& j) {
     const json& statistics = j.at("statistics");
-    const auto find = [&](std::initializer_list<const char*> names) -> std::optional<uint64_t> {
-        for (const char* name : names)
-            if (const auto found = statistics.find(name); found != statistics.end() && found->is_number())
-                return found->get<uint64_t>();
-        return {};
+    const auto find = [&](const char* name) -> std::optional<double> {
+        const auto found = statistics.find(name);
+        return found != statistics.end() && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
     };
+    CompiledShader shader;
     // VkShaderStageFlagBits
     const auto stages = j.at("stages").get<unsigned>();
-    const bool is_compute = stages & 0x20;
-    CompiledShader shader{.stage = is_compute      ? "compute"
-                                   : stages & 0x10 ? "fragment"
-                                                   : "vertex",
-                          .lanes = j.at("lanes"),
-                          .vgprs = find({"VGPRs"}),
-                          .sgprs = find({"SGPRs"}),
-                          .spilled_vgprs = find({"Spilled VGPRs"}),
-                          .spilled_sgprs = find({"Spilled SGPRs"}),
-                          .scratch_bytes = find({"Scratch size"}),
-                          .lds_bytes = find({"LDS size"}),
-                          .waves = find({"Subgroups per SIMD"}),
-                          .code_bytes = find({"Code size"}),
-                          .instructions = find({"Instructions"}),
-                          .branches = find({"Branches"}),
-                          .latency = find({"Latency"}),
-                          .inverse_throughput = find({"Inverse Throughput"})};
-    if (const auto hash = find({"Hash"})) {
+    shader.stage = stages & 0x20 ? "compute" : stages & 0x10 ? "fragment" : "vertex";
+    shader.lanes = j.at("lanes");
+    for (const CompilerNumber& number : compiler_numbers) shader.*number.member = find(number.statistic);
+    shader.waves = find("Subgroups per SIMD");
+    if (const auto hash = statistics.find("Hash"); hash != statistics.end() && hash->is_number()) {
         char text[17];
-        std::snprintf(text, sizeof text, "%08llx", static_cast<unsigned long long>(*hash));
+        std::snprintf(text, sizeof text, "%08llx", hash->get<unsigned long long>());  // no double holds all 64 bits
         shader.hash = text;
     }
     if (const auto assembly = j.at("texts").find("Assembly"); assembly != j.at("texts").end())

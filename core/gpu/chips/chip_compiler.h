@@ -1,4 +1,5 @@
 #pragma once
+#include "core/gpu/chips/compiled_shader.h"
 #include "core/gpu/pipeline_recipe.h"
 
 #include <array>
@@ -26,20 +27,10 @@ Chip find_chip(const std::string& name);
 /// with MachineError where there is no radv.
 std::vector<Chip> known_chips();
 
-/// What the compiler states of one shader. What it does not state, or a newer Mesa under another name, is empty.
-struct CompiledShader {
-    std::string stage;                                                   ///< "compute", "vertex" or "fragment"
-    unsigned lanes = 0;                                                  ///< of a wave: 32 or 64
-    std::optional<uint64_t> vgprs, sgprs, spilled_vgprs, spilled_sgprs;  ///< registers of a lane and of a wave
-    std::optional<uint64_t> scratch_bytes;                               ///< of a wave in memory, spills included
-    std::optional<uint64_t> lds_bytes;                                   ///< of a workgroup
-    std::optional<uint64_t> waves;  ///< "Subgroups per SIMD" as stated; occupancy_of() says what a SIMD holds
-    std::optional<uint64_t> code_bytes, instructions, branches;
-    /// The compiler's own estimate for a wave, in cycles: until it has ended, and how long it keeps the busiest unit.
-    /// Loops are taken to run 8, then 4, then 2 times by their depth, divergent branches to be taken in 3 of 4 cases.
-    std::optional<uint64_t> latency, inverse_throughput;
-    std::string hash;      ///< of the machine code, as the driver states it
-    std::string assembly;  ///< where it was asked for
+struct CompiledShader : CompilerNumbers {
+    std::string stage;            ///< "compute", "vertex" or "fragment"
+    std::optional<double> waves;  ///< "Subgroups per SIMD" as stated; occupancy_of() says what a SIMD holds
+    std::string assembly;         ///< where it was asked for
 };
 
 struct CompiledPipeline {

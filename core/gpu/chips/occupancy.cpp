@@ -42,13 +42,13 @@ Occupancy occupancy_of(const std::string& chip, const CompiledShader& shader) {
     const std::optional<SimdLimits> simd = simd_limits(chip);
     if (!simd || !shader.waves || !shader.vgprs || !shader.sgprs || (shader.lanes != 32 && shader.lanes != 64))
         return {};
+    const auto vgprs = uint64_t(*shader.vgprs), sgprs = uint64_t(*shader.sgprs), stated = uint64_t(*shader.waves);
     const unsigned halves = 64 / shader.lanes;  // waves of 32 lanes: twice as many registers
-    const uint64_t by_vgprs = uint64_t(simd->vgprs) * halves / rounded_up(*shader.vgprs, simd->vgpr_step * halves),
-                   by_sgprs = simd->sgprs ? simd->sgprs / rounded_up(*shader.sgprs, simd->sgpr_step) : simd->waves;
+    const uint64_t by_vgprs = uint64_t(simd->vgprs) * halves / rounded_up(vgprs, simd->vgpr_step * halves),
+                   by_sgprs = simd->sgprs ? simd->sgprs / rounded_up(sgprs, simd->sgpr_step) : simd->waves;
     const uint64_t stated_for_each = simd->is_rdna ? shader.lanes / 32 : 1;
-    Occupancy occupancy{.waves = unsigned(std::min<uint64_t>(*shader.waves / stated_for_each, simd->waves)),
-                        .most = simd->waves,
-                        .limit = ""};
+    Occupancy occupancy{
+        .waves = unsigned(std::min<uint64_t>(stated / stated_for_each, simd->waves)), .most = simd->waves, .limit = ""};
     if (*occupancy.waves >= simd->waves)
         occupancy.limit = "nothing";
     else if (*occupancy.waves == by_vgprs)

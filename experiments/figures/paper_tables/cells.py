@@ -60,16 +60,15 @@ def _split_rows(rows):
             }
 
 
-COMPILED = ("vgprs", "sgprs", "spilled_vgprs", "spilled_sgprs", "scratch_bytes", "lds_bytes", "waves", "most_waves", "code_bytes", "instructions",
-            "branches", "latency", "inverse_throughput")  # fmt: skip
+COMPILED_TEXTS = ("driver", "limit", "hash", "refusal")  # of compiled.csv, beside what names its rows
 
 
 def _compiled_rows(rows):
     """A row for each number that compiled.csv has, named by `quantity`."""
     for row in rows:
-        for quantity in COMPILED:
-            if row[quantity]:
-                yield row | {"quantity": quantity, "value": row[quantity]}
+        for quantity, value in row.items():
+            if value and not row["refusal"] and quantity not in NAMING + COMPILED_TEXTS:
+                yield row | {"quantity": quantity, "value": value}
 
 
 class Table:

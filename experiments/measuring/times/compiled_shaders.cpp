@@ -8,11 +8,6 @@
 
 namespace {
 
-template <class Count>
-std::optional<double> number(const std::optional<Count>& value) {
-    return value ? std::optional(double(*value)) : std::nullopt;
-}
-
 CompiledRow row_of(const StagePipelines::Entry& entry, const std::string& shot, const VariantConfig& point,
                    const Chip& chip) {
     CompiledRow row;
@@ -61,14 +56,9 @@ std::vector<CompiledRow> compiled_rows(const StagePipelines& pipelines, const st
         if (!row.refusal.empty()) rows.push_back(row);
         for (const CompiledShader& shader : compiled[i].shaders) {
             const Occupancy occupancy = occupancy_of(chip.name, shader);
-            row.shader = shader.stage, row.lanes = shader.lanes, row.hash = shader.hash, row.limit = occupancy.limit;
-            row.vgprs = number(shader.vgprs), row.sgprs = number(shader.sgprs);
-            row.spilled_vgprs = number(shader.spilled_vgprs), row.spilled_sgprs = number(shader.spilled_sgprs);
-            row.scratch_bytes = number(shader.scratch_bytes), row.lds_bytes = number(shader.lds_bytes);
-            row.waves = number(occupancy.waves), row.most_waves = number(occupancy.most);
-            row.code_bytes = number(shader.code_bytes);
-            row.instructions = number(shader.instructions), row.branches = number(shader.branches);
-            row.latency = number(shader.latency), row.inverse_throughput = number(shader.inverse_throughput);
+            static_cast<CompilerNumbers&>(row) = shader;
+            row.shader = shader.stage, row.limit = occupancy.limit;
+            row.waves = occupancy.waves, row.most_waves = occupancy.most;
             rows.push_back(row);
             if (assembly) assembly->push_back(shader.assembly);
         }

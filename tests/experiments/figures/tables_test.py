@@ -351,22 +351,22 @@ HEADS = ("navi21, vgprs", "navi21, waves", "vega10, vgprs")
 def test_compiled(temporary):
     """Numbers of compiled.csv are rows by quantity; what a compiler did not state has no cell."""
     folder = os.path.join(temporary, "compiled")
-    table = {"name": "chips", "caption": "Registers", "of": "compiled", "where": {"quantity": ["vgprs", "waves"]},
+    table = {"name": "chips", "caption": "Registers", "of": "compiled", "where": {"shot": SHOTS[0]},
              "rows": "stage", "columns": ["chip", "quantity"]}  # fmt: skip
     write_results(folder, [table])
-    columns = ("shot", "variant", "point", "stage", "pipeline", "shader", "chip", "driver", "vgprs", "sgprs", "spilled_vgprs", "spilled_sgprs",
-               "scratch_bytes", "lds_bytes", "waves", "most_waves", "code_bytes", "instructions", "branches", "latency", "inverse_throughput")  # fmt: skip
+    columns = ("shot", "variant", "point", "stage", "chip", "vgprs", "waves", "hash", "refusal")
     empty = dict.fromkeys(columns, "") | {"shot": SHOTS[0], "variant": "sssr", "point": "default"}
     rows = [
-        empty | {"stage": "trace", "chip": "navi21", "vgprs": "48", "waves": "10"},
+        empty | {"stage": "trace", "chip": "navi21", "vgprs": "48", "waves": "10", "hash": "12345678"},
         empty | {"stage": "trace", "chip": "vega10", "vgprs": "52", "waves": ""},
         empty | {"stage": "blur", "chip": "navi21", "vgprs": "16", "waves": "16"},
-        empty | {"stage": "blur", "chip": "vega10"},  # refused
+        empty | {"stage": "blur", "chip": "vega10", "vgprs": "0", "refusal": "no radv"},
     ]
     write_rows(os.path.join(folder, "compiled.csv"), rows)
     result = tables(folder)
     check(result.returncode == 0, result.stderr)
     grid = list(csv.reader(open(os.path.join(folder, "tables", "chips.csv"))))
+    check({head.removesuffix(" low").removesuffix(" high") for head in grid[0][1:]} == set(HEADS), f"only numbers are quantities: {grid[0]}")
     values = {(row[0], head): value for row in grid[1:] for head, value in zip(grid[0], row, strict=True) if value and head in HEADS}
     check(values == {("trace", HEADS[0]): "48", ("trace", HEADS[1]): "10", ("trace", HEADS[2]): "52", ("blur", HEADS[0]): "16", ("blur", HEADS[1]): "16"}, grid)
 
