@@ -141,12 +141,13 @@ private:
         return find_finished_run(settings.out, key_of_run(study_));
     }
 
-    /// Not with times of another machine, of which every run says so.
+    /// Not with times of another machine, of which every run says so, nor where every run asks a compiler again.
     void keep_finished(const std::vector<std::string>& lines) const {
-        const bool has_others_times = std::ranges::any_of(study_.finished, [&](const Cell& cell) {
-            return !cell.timing.is_null() && cell.provenance.at("host") != study_.maker.at("host");
+        const bool has_more_to_say = std::ranges::any_of(study_.finished, [&](const Cell& cell) {
+            return (!cell.timing.is_null() && cell.provenance.at("host") != study_.maker.at("host")) ||
+                   !refusal_in(cell.compiled).empty();
         });
-        if (!has_others_times) keep_finished_run(study_.settings.out, key_of_run(study_), lines);
+        if (!has_more_to_say) keep_finished_run(study_.settings.out, key_of_run(study_), lines);
     }
 
     StudyAnswers write(bool is_complete) {

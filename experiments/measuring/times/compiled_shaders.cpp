@@ -76,6 +76,12 @@ GpuCompilers find_compilers(const std::vector<std::string>& names) {
     return compilers;
 }
 
+std::string refusal_in(const std::vector<CompiledRow>& rows) {
+    for (const CompiledRow& row : rows)
+        if (!row.refusal.empty() && !row.driver.empty()) return row.stage + " for " + row.chip + ": " + row.refusal;
+    return "";
+}
+
 std::vector<CompiledRow> compiled_rows(const StagePipelines& pipelines, const std::string& shot,
                                        const VariantConfig& point, const GpuCompilers& compilers,
                                        const ChipCompilation& how) {

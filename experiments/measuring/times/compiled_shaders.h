@@ -46,6 +46,10 @@ struct GpuCompilers {
 /// Fails with Error on a chip that radv does not know.
 GpuCompilers find_compilers(const std::vector<std::string>& chips);
 
+/// Why a compiler that is there gave no numbers of a shader; "" if there is no such. It may have been killed, or lacked
+/// memory: another try may succeed.
+std::string refusal_in(const std::vector<CompiledRow>& rows);
+
 /// compiled_rows() of all chips; of those with a refusal a row for each stage, which has no numbers.
 std::vector<CompiledRow> compiled_rows(const StagePipelines& pipelines, const std::string& shot,
                                        const VariantConfig& point, const GpuCompilers& compilers,

@@ -24,8 +24,7 @@ namespace {
 struct CellTask {
     const PlannedCell& planned;
     std::function<Cell(const std::function<void(double)>& report)> make;
-    /// Why a cell that is there is tried once more; "" if it is not. The better of both is kept.
-    std::function<std::string(const Cell&)> why_again = [](const Cell&) { return ""; };
+    /// Of a cell that was there and was tried once more.
     std::function<bool(const Cell& again, const Cell& before)> is_better = [](const Cell&, const Cell&) {
         return true;
     };
@@ -67,6 +66,13 @@ std::string why_timed_again(const StudySession& study, const Cell& cell) {
                : "";
 }
 
+/// Why a cell that is there is tried once more; "" if it is not. The better of both is kept.
+std::string why_again(const StudySession& study, CellKind kind, const Cell& cell) {
+    if (kind == CellKind::times) return why_timed_again(study, cell);
+    const std::string refusal = refusal_in(cell.compiled);
+    return refusal.empty() ? "" : "a compiler is asked again that gave no numbers (" + refusal + ")";
+}
+
 /// Times are kept whatever machine took them, which nobody is to overlook.
 void say_whose_times(StudySession& study, const PlannedCell& planned, const Cell& cell) {
     if (planned.kind == CellKind::times && is_of_another_machine(study, cell))
@@ -93,7 +99,7 @@ std::optional<Cell> do_cell(StudySession& study, const CellTask& task, const std
                      planned.kind == CellKind::references ? 0 : planned.units);
     study.report(0, planned.what);
     std::optional<Cell> found = load_cell(study, planned, truth);
-    const bool is_tried_again = found && !task.why_again(*found).empty();
+    const bool is_tried_again = found && !why_again(study, planned.kind, *found).empty();
     if (found && !is_tried_again) {
         study.work.found(found->seconds);
         say_whose_times(study, planned, *found);
@@ -102,7 +108,7 @@ std::optional<Cell> do_cell(StudySession& study, const CellTask& task, const std
     const auto claim = study.cells.claim(planned.name, waits);
     if (!claim) return {};
     found = load_cell(study, planned, truth);  // another may have made it since
-    const std::string why = found ? task.why_again(*found) : "";
+    const std::string why = found ? why_again(study, planned.kind, *found) : "";
     if (found && why.empty()) {
         study.work.found(found->seconds);
         return found;
@@ -232,7 +238,6 @@ CellTask task_of(StudySession& study, OpenShot& open, const PlannedShot& shot, c
     };
     task.make = make;
     if (planned.kind != CellKind::times) return task;
-    task.why_again = [&study](const Cell& cell) { return why_timed_again(study, cell); };
     task.is_better = [&study](const Cell& again, const Cell& before) {
         return disturbed_share(again.timing) < disturbed_share(before.timing) ||
                (study.settings.takes_times_here && is_of_another_machine(study, before));
@@ -246,7 +251,7 @@ std::optional<std::vector<Cell>> load_finished(StudySession& study, const std::v
     std::vector<Cell> cells;
     for (const PlannedCell* p : planned) {
         std::optional<Cell> cell = study.cells.load(p->name);
-        if (!cell || (p->kind == CellKind::times && !why_timed_again(study, *cell).empty())) return {};
+        if (!cell || !why_again(study, p->kind, *cell).empty()) return {};
         if (!cells.empty() && cell->truth != cells.front().truth) return {};
         cells.push_back(std::move(*cell));
     }

@@ -1,7 +1,7 @@
 // What GPUs' compilers make of a study's passes: compiled.csv.
 #include "core/files.h"
 #include "core/gpu/chips/chip_compiler.h"
-#include "experiments/measuring/cell.h"
+#include "experiments/store/cell_store.h"
 #include "tests/experiments/run/study_fixture.h"
 
 namespace {
@@ -47,6 +47,18 @@ TEST_F(StudyTest, CompilesForChips) {
     ASSERT_EQ(run("\"navi21\"", ""), 0) << read_text(folder / "log");
     ASSERT_EQ(rows().size(), 2u);
     EXPECT_EQ(rows()[0].refusal, "");
+    // Nor is that of a compiler that was killed.
+    const CellStore cells(folder / "compiled", [](const std::string& notice) { ADD_FAILURE() << notice; });
+    for (const std::string& name : cells.names())
+        if (Cell cell = *cells.load(name); !cell.compiled.empty() && cell.compiled[0].refusal.empty()) {
+            cell.compiled[0].refusal = "radv's compiler ended: signal 9";
+            cells.save(name, cell);
+        }
+    ASSERT_EQ(run("\"navi21\"", ""), 0) << read_text(folder / "log");
+    EXPECT_NE(read_text(folder / "log").find("is asked again"), std::string::npos) << read_text(folder / "log");
+    EXPECT_EQ(rows()[0].refusal, "");
+    ASSERT_EQ(run("\"navi21\"", ""), 0);
+    EXPECT_EQ(read_text(folder / "log").find("is asked again"), std::string::npos) << read_text(folder / "log");
     EXPECT_EQ(run("\"navi21\", \"navi2\"", ""), 2);
     EXPECT_NE(read_text(folder / "log").find("knows no chip 'navi2'; did you mean"), std::string::npos)
         << read_text(folder / "log");
