@@ -8,7 +8,7 @@
 #include "core/shown_text.h"
 #include "experiments/commands/commands.h"
 #include "experiments/config/all_points.h"
-#include "experiments/measuring/times/compiled_shaders.h"
+#include "experiments/measuring/costs/compiled_shaders.h"
 #include "experiments/run/needs.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
 #include "experiments/measuring/costs/traced_frame.h"
-#include "experiments/measuring/times/compiled_shaders.h"
+#include "experiments/measuring/costs/compiled_shaders.h"
 
 // How long a GPU that is not there would take: what its compiler makes of each pass, as often as waves of the chip's
 // width would run each block of it, against the chip's published rates. core/gpu/chips/README.md says what is assumed.

@@ -62,12 +62,12 @@ public:
     std::string of_costs(const std::string& request, size_t variant) {
         const PointIdentity& point = points_[variant];
         std::vector<std::string> sources = point.sources;
-        sources.push_back("experiments/measuring/times/costs.cpp"),
+        sources.push_back("experiments/measuring/costs/costs.cpp"),
             sources.push_back("experiments/run/shots/open_shot.cpp");
         const VariantConfig& v = config_.variants[variant];
         std::vector<std::string> what = {v.variant, v.point, point.parameters, std::to_string(v.seeds.front())};
         if (!config_.counts_costs) what.push_back("compiled alone");
-        if (!config_.gpu_compilers.empty()) sources.push_back("experiments/measuring/times/compiled_shaders.cpp");
+        if (!config_.gpu_compilers.empty()) sources.push_back("experiments/measuring/costs/compiled_shaders.cpp");
         if (config_.counts_costs && !config_.gpu_compilers.empty())
             sources.push_back("experiments/measuring/costs/gpu_estimates.cpp");
         for (const GpuCompilers::Entry& entry : compilers_.entries)

@@ -1,7 +1,7 @@
 #pragma once
 #include "core/gpu/device.h"
 #include "experiments/config/config.h"
-#include "experiments/measuring/times/compiled_shaders.h"
+#include "experiments/measuring/costs/compiled_shaders.h"
 #include "experiments/store/host_info.h"
 
 #include <functional>

@@ -1,4 +1,4 @@
-#include "experiments/measuring/times/compiled_shaders.h"
+#include "experiments/measuring/costs/compiled_shaders.h"
 #include "core/error.h"
 #include "core/gpu/device.h"
 #include "core/scene/load_scene.h"

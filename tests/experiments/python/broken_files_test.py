@@ -14,7 +14,7 @@ import unittest
 sys.dont_write_bytecode = True
 HERE = os.path.dirname(os.path.abspath(__file__))
 EXPERIMENTS = os.path.join(HERE, "../../../experiments")
-sys.path[:0] = [HERE, os.path.join(HERE, "../figures"), *(os.path.join(EXPERIMENTS, room) for room in ("figures", "python", "tradeoff", "tune", "examples", "measuring/times"))]
+sys.path[:0] = [HERE, os.path.join(HERE, "../figures"), *(os.path.join(EXPERIMENTS, room) for room in ("figures", "python", "tradeoff", "tune", "examples", "measuring/costs"))]
 os.environ["MPLBACKEND"] = "Agg"
 
 import broken_files  # noqa: E402

@@ -1,4 +1,4 @@
-#include "experiments/measuring/times/costs.h"
+#include "experiments/measuring/costs/costs.h"
 
 #include "core/gpu/device.h"
 #include "experiments/measuring/render_variant.h"
