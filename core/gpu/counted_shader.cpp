@@ -17,11 +17,6 @@ constexpr std::array shader_wide = {What::invocations, What::idle_invocations, W
 
 constexpr unsigned place_of(What what) { return unsigned(std::ranges::find(shader_wide, what) - shader_wide.begin()); }
 
-bool is_sample(spv::Op op) {
-    return (op >= spv::OpImageSampleImplicitLod && op <= spv::OpImageSampleProjDrefExplicitLod);
-}
-bool is_gather(spv::Op op) { return op == spv::OpImageGather || op == spv::OpImageDrefGather; }
-bool is_atomic(spv::Op op) { return op >= spv::OpAtomicLoad && op <= spv::OpAtomicXor; }
 bool ends_block(spv::Op op) {
     return op == spv::OpSelectionMerge || op == spv::OpLoopMerge || (op >= spv::OpBranch && op <= spv::OpUnreachable);
 }
@@ -100,7 +95,7 @@ private:
     }
 
     void count(const SpirvInstruction& i, std::vector<SpirvInstruction>& list) {
-        if (i.op == spv::OpImageFetch || i.op == spv::OpImageRead)
+        if (is_texel_fetch(i.op))
             add(What::texel_fetches, 1, module_.resource(i[3]));
         else if (is_sample(i.op))
             add(What::samples, 1, module_.resource(i[3]));

@@ -124,6 +124,13 @@ unsigned SpirvModule::operations(const SpirvInstruction& i) const {
     return is_arithmetic ? components(i[1]) : 0;
 }
 
+bool is_sample(spv::Op op) {
+    return op >= spv::OpImageSampleImplicitLod && op <= spv::OpImageSampleProjDrefExplicitLod;
+}
+bool is_gather(spv::Op op) { return op == spv::OpImageGather || op == spv::OpImageDrefGather; }
+bool is_texel_fetch(spv::Op op) { return op == spv::OpImageFetch || op == spv::OpImageRead; }
+bool is_atomic(spv::Op op) { return op >= spv::OpAtomicLoad && op <= spv::OpAtomicXor; }
+
 bool is_tested_early(const std::vector<SpirvInstruction>& instructions) {
     bool is_fragment = false, has_own_depth = false, discards = false;
     for (const SpirvInstruction& i : instructions) {

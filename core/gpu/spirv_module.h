@@ -60,6 +60,12 @@ private:
     std::map<Id, const SpirvInstruction*> definitions_;
 };
 
+/// Whether an instruction reads an image: with the sampler's filter, four texels at a time, or one as it is.
+bool is_sample(spv::Op op);
+bool is_gather(spv::Op op);
+bool is_texel_fetch(spv::Op op);
+bool is_atomic(spv::Op op);
+
 /// Whether the module is a fragment shader whose tests of depth and stencil can come first: one without a discard and
 /// without a depth of its own.
 bool is_tested_early(const std::vector<SpirvInstruction>& instructions);

@@ -2,6 +2,14 @@
 
 #include <algorithm>
 
+StageWork StageWork::times(double factor) const {
+    StageWork result = *this;
+    result.work = {};
+    result.work.add(work, factor);
+    result.resident_latency *= factor;
+    return result;
+}
+
 double ChipTime::most() const {
     double longest = 0;
     for (const ChipTimePart& part : chip_time_parts) longest = std::max(longest, this->*part.member);

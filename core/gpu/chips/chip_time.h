@@ -8,6 +8,9 @@ struct StageWork {
     double waves = 0;
     double resident_latency = 0;  ///< the sum of the latencies of all waves, each divided by the waves of its SIMD
     double longest_wave = 0;      ///< clocks; the sum over passes of the mean wave's latency: they follow each other
+
+    /// As many waves that do `factor` times as much, but for the longest.
+    StageWork times(double factor) const;
 };
 
 /// How long the parts of a chip are busy with a stage if nothing else held them up, microseconds each; README.md says

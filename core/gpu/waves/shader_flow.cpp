@@ -14,7 +14,7 @@ bool reads_or_writes_memory(const SpirvModule& module, const SpirvInstruction& i
         return storage == spv::StorageClassStorageBuffer || storage == spv::StorageClassWorkgroup;
     };
     if (i.op >= spv::OpImageSampleImplicitLod && i.op <= spv::OpImageWrite) return true;
-    if (i.op >= spv::OpAtomicLoad && i.op <= spv::OpAtomicXor) return true;
+    if (is_atomic(i.op)) return true;
     if (i.op == spv::OpLoad) return is_memory(i[3]);
     if (i.op == spv::OpStore) return is_memory(i[1]);
     return i.op == spv::OpControlBarrier ||
@@ -62,6 +62,9 @@ ShaderFlow flow_of(const PipelineRecipe& simplified) {
         if (i.op == spv::OpLabel) block = &flow.blocks[places.at(i[1])];
         if (!block) continue;
         block->operations += module.operations(i);
+        const bool is_image_atomic =
+            is_atomic(i.op) && i.op != spv::OpAtomicStore && module.storage_of(i[3]) == spv::StorageClassImage;
+        block->fetches += is_sample(i.op) || is_gather(i.op) || is_texel_fetch(i.op) || is_image_atomic;
         block->has_memory = block->has_memory || reads_or_writes_memory(module, i);
         block->is_loop_header = block->is_loop_header || i.op == spv::OpLoopMerge;
         if (i.op == spv::OpBranch) block->successors = {places.at(i[1])};

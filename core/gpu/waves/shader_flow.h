@@ -14,6 +14,7 @@ struct ShaderFlow {
         unsigned decisions = 0;
         unsigned reconvergence = 0;  ///< the nearest block that all ways from here meet again; blocks.size(): the end
         unsigned operations = 0;     ///< scalar arithmetic, as the module states it
+        unsigned fetches = 0;        ///< instructions that read images
         bool has_memory = false;     ///< it reads or writes images, buffers or the workgroup's memory
         bool is_loop_header = false;
     };

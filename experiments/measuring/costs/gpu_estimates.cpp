@@ -12,9 +12,17 @@ namespace {
 
 /// A stage on a chip, with what is not known of it.
 struct StageEstimate {
-    StageWork all, uncertain;
-    std::vector<std::pair<double, std::vector<StageWork>>>
-        by_group;                     ///< of each pass: groups for each traced, and they
+    struct Group {
+        StageWork work;
+        double fetches = 0;
+    };
+    struct Sample {
+        double scale;  ///< groups of the pass for each of these
+        std::vector<Group> groups;
+    };
+    StageWork all, uncertain;         ///< of all groups, as the traced ones say it
+    double fetches = 0;               ///< the same, to be held against those that are counted
+    std::vector<Sample> samples;      ///< of each pass
     double active = 0, possible = 0;  ///< vector clocks x lanes
     double cut = 0, lanes = 0;        ///< lanes whose trace is not whole, of all that were traced
     std::string refusal;
@@ -24,17 +32,18 @@ void add_pass(StageEstimate& stage, const TracedFrame::Pass& pass, const ShaderW
     const std::vector<WaveCounts>& groups = pass.traced.at(code.lanes);
     if (groups.empty()) return;
     const double scale = double(pass.groups) / double(groups.size());
-    std::vector<StageWork> by_group;
+    StageEstimate::Sample sample{.scale = scale, .groups = {}};
     ChipWork of_pass;
     double waves = 0;
     for (const WaveCounts& group : groups) {
-        StageWork work;
+        auto& [work, fetches] = sample.groups.emplace_back();
         ChipWork uncertain;
         for (size_t b = 0; b < group.waves.size(); ++b) {
             const double runs = double(group.waves[b]);
             if (runs == 0) continue;
             work.work.add(code.blocks[b].work, runs);
             uncertain.add(code.blocks[b].uncertain, runs);
+            fetches += double(group.lanes[b]) * pass.flow.blocks[b].fetches;
             const double clocks = code.blocks[b].work.vector;
             stage.active += clocks * double(group.lanes[b]) * scale;
             stage.possible += clocks * runs * code.lanes * scale;
@@ -46,25 +55,32 @@ void add_pass(StageEstimate& stage, const TracedFrame::Pass& pass, const ShaderW
         stage.all.resident_latency += work.resident_latency * scale;
         stage.uncertain.resident_latency += uncertain.latency / code.resident_waves * scale;
         stage.cut += double(group.cut), stage.lanes += double(group.lanes.empty() ? 0 : group.lanes[0]);
+        stage.fetches += fetches * scale;
         of_pass.add(work.work, 1), waves += work.waves;
-        by_group.push_back(work);
     }
     if (waves > 0) stage.all.longest_wave += of_pass.latency / waves;
-    stage.by_group.emplace_back(scale, std::move(by_group));
+    stage.samples.push_back(std::move(sample));
 }
 
-/// Of the time that a part takes for a stage: the square of its standard error, from groups that stand for all. `cost`:
-/// without traffic, which is counted and not sampled.
-double sampling_variance(const StageEstimate& stage, const ChipTimePart& part, const PassCost& cost,
+/// The ratio estimator (Cochran 1977, "Sampling Techniques", chapter 6): what is sampled is multiplied by this, since
+/// fetches are known of all invocations, and groups that fetch more do more. 1 where all groups were traced.
+double ratio_to_all(const StageEstimate& stage, const PassCost& cost) {
+    return stage.fetches > 0 && cost.fetches > 0 ? double(cost.fetches) / stage.fetches : 1;
+}
+
+/// The square of the standard error of the time that a part takes for a stage, `time` as the traced groups say it.
+/// `cost`: without traffic, which is counted and not sampled.
+double sampling_variance(const StageEstimate& stage, const ChipTimePart& part, double time, const PassCost& cost,
                          const ChipRates& rates) {
+    const double time_of_fetch = stage.fetches > 0 && cost.fetches > 0 ? time / stage.fetches : 0;
     double variance = 0;
-    for (const auto& [scale, groups] : stage.by_group) {
+    for (const auto& [scale, groups] : stage.samples) {
         const double count = double(groups.size());
         if (groups.size() < 2 || scale <= 1) continue;
         double sum = 0, squares = 0;
-        for (const StageWork& group : groups) {
-            const double time = chip_time(group, cost, rates).*part.member;
-            sum += time, squares += time * time;
+        for (const StageEstimate::Group& group : groups) {
+            const double residual = chip_time(group.work, cost, rates).*part.member - time_of_fetch * group.fetches;
+            sum += residual, squares += residual * residual;
         }
         const double of_group = std::max(0.0, (squares - sum * sum / count) / (count - 1));
         const double all = count * scale;
@@ -95,15 +111,17 @@ struct Estimate {
 };
 
 Estimate estimate_of(const StageEstimate& stage, const PassCost& cost, const ChipRates& rates) {
-    Estimate estimate{.parts = chip_time(stage.all, cost, rates)};
-    const ChipTimePart& part =
-        *std::ranges::max_element(chip_time_parts, {}, [&](const ChipTimePart& p) { return estimate.parts.*p.member; });
+    const double ratio = ratio_to_all(stage, cost);
     PassCost no_traffic = cost;
     no_traffic.unique_bytes = 0;
+    Estimate estimate{.parts = chip_time(stage.all.times(ratio), cost, rates)};
+    const ChipTimePart& part =
+        *std::ranges::max_element(chip_time_parts, {}, [&](const ChipTimePart& p) { return estimate.parts.*p.member; });
+    const double sampled = chip_time(stage.all, no_traffic, rates).*part.member;
     estimate.time = estimate.parts.*part.member;
     estimate.by_bound[part.name] = estimate.time;
-    estimate.variance = sampling_variance(stage, part, no_traffic, rates);
-    estimate.uncertain = chip_time(stage.uncertain, no_traffic, rates).*part.member;
+    estimate.variance = ratio * ratio * sampling_variance(stage, part, sampled, no_traffic, rates);
+    estimate.uncertain = chip_time(stage.uncertain.times(ratio), no_traffic, rates).*part.member;
     estimate.active = stage.active, estimate.possible = stage.possible;
     estimate.cut = stage.cut, estimate.lanes = stage.lanes, estimate.waves = stage.all.waves;
     return estimate;

@@ -61,17 +61,21 @@ TEST_F(GpuEstimates, TracingChangesNoBit) {
     }
 }
 
-/// Two ways to count invocations agree: the counters of the shaders, and the lanes that left a record.
-void expect_all_invocations(const TracedFrame& frame) {
-    std::map<std::string, uint64_t> lanes;
+/// Two ways to count invocations and what they fetch agree: the counters of the shaders, and the lanes that left a
+/// record.
+void expect_all_counts(const TracedFrame& frame) {
+    std::map<std::string, uint64_t> lanes, fetches;
     for (const TracedFrame::Pass& pass : frame.passes)
         for (const WaveCounts& group : pass.traced.at(64)) {
             lanes[pass.stage] += group.lanes.at(0);
+            for (size_t b = 0; b < group.lanes.size(); ++b)
+                fetches[pass.stage] += group.lanes[b] * pass.flow.blocks[b].fetches;
             EXPECT_EQ(group.cut, 0u) << pass.stage;
         }
     for (const PassCost& cost : frame.costs) {
         if (cost.stage == "clear") continue;
         EXPECT_EQ(lanes[cost.stage], cost.invocations) << cost.stage;
+        EXPECT_EQ(fetches[cost.stage], cost.fetches) << cost.stage;
     }
 }
 
@@ -83,7 +87,7 @@ TEST_F(GpuEstimates, EveryStageHasAnEstimateWithItsInterval) {
     for (const std::string technique : {"amd_sssr", "diligent_ssr"}) {
         const VariantConfig point = single_point(technique);
         const TracedFrame frame = trace(point);
-        expect_all_invocations(frame);
+        expect_all_counts(frame);
         const std::vector<EstimateRow> rows = estimate_rows(frame, shot.name(), point, compilers, {.cache = cache});
         ASSERT_GT(rows.size(), 5u) << technique;
         double sum = 0;
