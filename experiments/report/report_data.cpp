@@ -112,6 +112,7 @@ ReportTables read_report_tables(const std::filesystem::path& folder, const json&
                         .hits = {},
                         .costs = {},
                         .compiled = {},
+                        .estimates = {},
                         .effects = {},
                         .time_effects = {},
                         .times = read_rows<TimeSummary>(file("time_summary.csv")),
@@ -122,6 +123,7 @@ ReportTables read_report_tables(const std::filesystem::path& folder, const json&
     if (has("hits.csv")) tables.hits = read_rows<HitRow>(file("hits.csv"));
     if (has("costs.csv")) tables.costs = read_rows<CostRow>(file("costs.csv"));
     if (has("compiled.csv")) tables.compiled = read_rows<CompiledRow>(file("compiled.csv"));
+    if (has("estimates.csv")) tables.estimates = read_rows<EstimateRow>(file("estimates.csv"));
     if (has("effects.csv")) tables.effects = read_rows<EffectRow>(file("effects.csv"));
     if (has("time_effects.csv")) tables.time_effects = read_rows<TimeEffectRow>(file("time_effects.csv"));
     return tables;
@@ -146,6 +148,7 @@ json report_data(const ReportTables& tables, const PointSet& single_changes) {
                  {"hits", table<HitRow>(tables.hits, code)},
                  {"costs", cost_table(tables.costs, code)},
                  {"compiled", table<CompiledRow>(tables.compiled, code)},
+                 {"estimates", table<EstimateRow>(tables.estimates, code)},
                  {"effects", table<EffectRow>(tables.effects, code)},
                  {"time_effects", table<TimeEffectRow>(tables.time_effects, code)},
                  {"times", table<TimeSummary>(tables.times, code)},

@@ -15,6 +15,7 @@ struct ReportTables {
     std::vector<HitRow> hits;
     std::vector<CostRow> costs;
     std::vector<CompiledRow> compiled;
+    std::vector<EstimateRow> estimates;
     std::vector<EffectRow> effects;
     std::vector<TimeEffectRow> time_effects;
     std::vector<TimeSummary> times;

@@ -54,6 +54,7 @@ function readData() {
         hits: rows(raw.hits),
         costs: rows(raw.costs),  // a row for each stage, with a column for each quantity
         compiled: rows(raw.compiled),
+        estimates: rows(raw.estimates).map(e => ({...e, value: e.microseconds})),
         effects: rows(raw.effects).map(effect),
         timeEffects: rows(raw.time_effects).map(timeEffect),
         times: rows(raw.times).map(time)

@@ -27,6 +27,7 @@ async function showStudy() {
     showHits();
     showStages();
     showCompiled();
+    showEstimates();
     showRoughness();
     showSplits();
     showEffects();

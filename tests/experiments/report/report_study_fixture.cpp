@@ -188,6 +188,38 @@ void add_compiled(const StudyShot& shot, const StudyPoint& point, Cell& cell) {
     if (shot.name == study_step_shot) cell.compiled.front().vgprs = 32;
 }
 
+/// Two stages on two chips: memory bounds the first, which is twice as slow in the step, latency the second, which the
+/// compiler of one chip refused of `fixed`. A third chip has no rates.
+void add_estimates(const StudyShot& shot, const StudyPoint& point, Cell& cell) {
+    const auto add = [&](const std::string& chip, const char* stage) -> EstimateRow& {
+        EstimateRow row;
+        row.shot = shot.name, row.variant = point.variant, row.point = point.point, row.stage = stage, row.chip = chip;
+        return cell.estimates.emplace_back(row);
+    };
+    const double first = shot.name == study_step_shot ? 8 : 4, second = point.point == "first" ? 16 : 12;
+    for (const auto& [chip, product] : {std::pair("navi21", "Card <A>"), {"gfx1100", "Card <B>"}}) {
+        const auto add_time = [&](const char* stage, const char* bound, double memory, double latency) {
+            EstimateRow& row = add(chip, stage);
+            row.product = product, row.bound = bound, row.memory = memory, row.latency = latency;
+            row.vector = 0.5, row.scalar = 0.25, row.shared_memory = 0, row.textures = 0.125, row.targets = 0;
+            row.caches = 40, row.waves = 60, row.active_lanes = 0.75, row.unmatched = 0.125, row.cut_lanes = 0;
+            row.microseconds = std::max(memory, latency);
+            row.low = 0.75 * *row.microseconds, row.high = 1.25 * *row.microseconds;
+        };
+        add_time("sssr/stage_0", "memory", first, 0.5);
+        if (chip == std::string("gfx1100") && point.point == "fixed") {
+            add(chip, "sssr/stage_1").refusal = "its compiler ended: <b>signal 9</b>";
+            add(chip, "total").refusal = "sssr/stage_1: its compiler ended: <b>signal 9</b>";
+            continue;
+        }
+        add_time("sssr/stage_1", "latency", 1, second);
+        add_time("total", "latency", first + 1, second + 0.5);
+        EstimateRow& total = cell.estimates.back();
+        total.microseconds = first + second, total.low = 0.75 * (first + second), total.high = 1.25 * (first + second);
+    }
+    add("vega20", "total").refusal = "ssrlab has no published rates of vega20";
+}
+
 /// Two passes, one of which traced rough surfaces only; two masks. The moving shot has two frames.
 void add_hits(const StudyShot& shot, const StudyPoint& point, Cell& cell) {
     const auto add = [&](const std::string& frame, const char* stage, const char* mask, double right) {
@@ -351,6 +383,7 @@ void write_study_fixture(const std::filesystem::path& folder) {
             if (point.point == "first" || point.point == "fixed") add_hits(shot, point, cell);
             if (point.point == "first" || point.point == "fixed") add_costs(shot, point, cell);
             if (point.point == "first" || point.point == "fixed") add_compiled(shot, point, cell);
+            if (point.point == "first" || point.point == "fixed") add_estimates(shot, point, cell);
             if (point.point == "first") add_times(shot, point, 1, cell);
             if (point.point == "fixed") add_times(shot, point, 2, cell);
             cells.push_back(std::move(cell));

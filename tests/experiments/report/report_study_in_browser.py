@@ -265,6 +265,52 @@ def test_compiled(page, folder):
     equal(said, "sssr/stage_1 of sssr · fixed: its compiler ended: <b>signal 9</b>.", "what was refused")
 
 
+def test_estimates(page, folder):
+    """Bars, totals and parts are those of estimates.csv; what bounds a stage and what has no estimate is said."""
+    still = "still_a.main.160x90.w8.r8"
+
+    def check_bars(chip, shot):
+        wanted = [r for r in rows_of(folder, "estimates.csv", chip=chip, shot=shot, refusal="") if r["stage"] != "total"]
+        bars = page.execute_script("return [...document.querySelectorAll('#estimates .bar')].map(b => [b.dataset.stage, b.dataset.bound, +b.dataset.value, +b.getAttribute('width')])")
+        equal([bar[:3] for bar in bars], [[r["stage"], r["bound"], float(r["microseconds"])] for r in wanted], f"stages on {chip} in {shot}")
+        per_microsecond = [width / value for _, _, value, width in bars]
+        check(max(per_microsecond) < 1.001 * min(per_microsecond), f"bars are as long as they say: {bars}")
+
+    check_bars("navi21", still)
+    section = page.find_element(By.ID, "estimates")
+    check("microseconds on navi21 (estimate)" in section.find_element(By.CSS_SELECTOR, ".chart").text, "what the axis shows")
+    looks = "return [...document.querySelectorAll(arguments[0])].map(e => e.getAttribute('fill'))"
+    fills, keys = page.execute_script(looks, "#estimates .bar"), page.execute_script(looks, "#estimates .stage-names rect")
+    equal([fills, len(set(keys))], [keys * 2, 2], "colours of what bounds a stage, as the legend has them")
+    equal([e.text for e in section.find_elements(By.CSS_SELECTOR, ".stage-names .stage")], ["memory", "latency"], "the legend")
+    sentences = [s.text for s in section.find_elements(By.CSS_SELECTOR, ".sentences li")]
+    said = "{}: {} µs by estimate (95 % interval from {} to {}), most of it bound by latency."
+    equal(sentences, [said.format("sssr · first", 20, 15, 25), said.format("sssr · fixed", 16, 12, 20)], "totals in words")
+    page.execute_script("document.querySelector('#estimates details').open = true")
+    columns = "microseconds vector scalar shared_memory textures targets memory latency caches".split()
+    rows = rows_of(folder, "estimates.csv", chip="navi21", shot=still)
+    shown = table_of(page, "#estimates")
+    equal([[float(row[i][1]) for i in (2, *range(4, 12))] for row in shown], [[float(r[c]) for c in columns] for r in rows], "all parts")
+    equal([row[3][0] for row in shown], [f"[{float(r['low']):g}, {float(r['high']):g}]" for r in rows], "intervals")
+    equal([cell[0] for cell in shown[0][12:]], ["75 %", "12.5 %"], "lanes that run, and runs that are known at most")
+    bold = page.execute_script("return [...document.querySelectorAll('#estimates td.number b')].map(b => b.closest('td').cellIndex)")
+    equal(bold, [9, 10] * 2, "the bold parts, which bound the stages")
+    equal(section.find_elements(By.CSS_SELECTOR, ".refusals"), [], "nothing refused")
+    choose_in(page, "estimates", "Shot", STEP)
+    check_bars("navi21", STEP)
+
+    choose_in(page, "estimates", "Chip", "gfx1100 (Card <B>)")
+    check_bars("gfx1100", STEP)
+    refusals = lambda: section.find_element(By.CSS_SELECTOR, ".refusals").text
+    equal(refusals(), "sssr/stage_1 of sssr · fixed: its compiler ended: <b>signal 9</b>.", "a stage without an estimate, once")
+    sentences = [s.text for s in section.find_elements(By.CSS_SELECTOR, ".sentences li")]
+    equal(sentences[1], "sssr · fixed: no total, since a stage has no estimate.", "a point without a total")
+    check("sssr · fixed (in part)" in section.find_element(By.CSS_SELECTOR, ".chart").text, "its bar says so")
+    choose_in(page, "estimates", "Chip", "vega20")
+    equal(refusals(), "All points: ssrlab has no published rates of vega20.", "a chip without rates")
+    equal(section.find_elements(By.CSS_SELECTOR, ".bar, table"), [], "and nothing else")
+
+
 def test_temporal(page, folder):
     text = page.find_element(By.ID, "temporal-tables").text
     check("not within the first half of 15 frames" in text, f"why a value is missing: {text}")
@@ -353,6 +399,7 @@ def main():
             test_held_heads(page)
             test_stages(page)
             test_compiled(page, folder)
+            test_estimates(page, folder)
             test_effects(page, folder, STEP)
             test_temporal(page, folder)
             test_stability(page, folder)

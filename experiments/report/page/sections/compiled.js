@@ -62,7 +62,7 @@ function compiledPart() {
               count(r.inverseThroughput), codeText(r, first.get(r.hash))]);
     const caption = `${chip}, by ${unique(compiled.map(r => r.driver)).join(", ")}`;
     return [
-        refusalsNote(refused, own.length),
+        refusalsNote(refused, own.length, r => `${compiledPass(r)} of ${pointLabel(r)}`, "All passes"),
         lines.length ? scroller(table(columns, lines, {groupBy: 0, caption})) : ""
     ];
 }
@@ -83,12 +83,12 @@ function codeText(r, first) {
     return `same machine code as ${isOtherPass ? `${compiledPass(first)} of ` : ""}${pointLabel(first)}`;
 }
 
-/// A sentence for each reason why passes have no numbers.
-function refusalsNote(refused, passes) {
+/// A sentence for each reason why some of `count` rows have no numbers; `place` names a row, `all` all of them.
+function refusalsNote(refused, count, place, all) {
     const sentences = unique(refused.map(r => r.refusal)).map(reason => {
-        const places = refused.filter(r => r.refusal === reason).map(r => `${compiledPass(r)} of ${pointLabel(r)}`);
-        const where = places.length === passes ? "All passes" : places.join(", ");
+        const places = refused.filter(r => r.refusal === reason).map(place);
+        const where = places.length === count ? all : places.join(", ");
         return h("li", {class: "warning"}, `${where}: ${reason}.`);
     });
-    return sentences.length ? h("ul", {class: "refusals", "aria-label": "Passes without numbers"}, sentences) : "";
+    return sentences.length ? h("ul", {class: "refusals", "aria-label": "What has no numbers, and why"}, sentences) : "";
 }
