@@ -1,12 +1,12 @@
 """Paper figures from a results folder, as PDF, SVG and PNG: those that figures.json asks for (experiments/README.md), else all
-that the study has results for. Of each shot: error against time, times and counted costs of stages, crops with error maps, and
+that the study has results for. Of each shot: error against time, times, counted costs and estimated GPU times of stages, crops with error maps, and
 of shots in motion an animated GIF.
 Of the study: error and bias by roughness, bias and variance, effects of changes, temporal metrics, the error of each frame,
 errors against the truth ladder, what error a cost buys, and depth fetches per ray against the resolution.
 
 usage: figures.py RESULTS [--out DIR] [--choice figures.json] [--target specular] [--metric mse] [--mask reflective]
 
-It reads manifest.json, summary.csv, time_summary.csv, splits.csv, effects.csv, hits.csv, costs.csv, the EXR images
+It reads manifest.json, summary.csv, time_summary.csv, splits.csv, effects.csv, hits.csv, costs.csv, estimates.csv, the EXR images
 (experiments/RESULTS.md) and what `ssrlab tradeoff` wrote, and writes the same bytes whenever they are the same. Needs Debian's python3-matplotlib and python3-numpy.
 """
 
@@ -52,7 +52,13 @@ from ssrlab.results import Results
 from ssrlab.text_files import path_inside
 
 # Kind of figure to what draws it: of one shot at a time, or of all that are asked for.
-SHOT_FIGURES = {"stage_times": stages.draw_times, "stage_costs": stages.draw_costs, "crops": crops.draw, "motion": motion.draw}
+SHOT_FIGURES = {
+    "stage_times": stages.draw_times,
+    "stage_costs": stages.draw_costs,
+    "stage_estimates": stages.draw_estimates,
+    "crops": crops.draw,
+    "motion": motion.draw,
+}
 STUDY_FIGURES = {
     "error_time": error_time.draw,
     "ladder": ladder.draw,
@@ -67,10 +73,10 @@ STUDY_FIGURES = {
     "fits": fits.draw,
     "fetches": fetches.draw,
 }
-UNASKED_OF_SHOTS = ("error_time", "stage_times", "stage_costs", "crops", "motion")  # without figures.json a file for each shot
+UNASKED_OF_SHOTS = ("error_time", "stage_times", "stage_costs", "stage_estimates", "crops", "motion")  # without figures.json a file for each shot
 UNASKED = ("ladder", "roughness_error", "roughness_bias", "bias_variance", "temporal", "frames", "fits", "fetches", "effects")
 OF_ONE_ERROR = ("error_time", "ladder", "response", "map", "convergence", "fits", "crops", "motion")  # that of their target, metric and mask
-UNMEASURED = ("stage_times", "stage_costs", "fetches")  # of studies without a reference, too
+UNMEASURED = ("stage_times", "stage_costs", "stage_estimates", "fetches")  # of studies without a reference, too
 
 
 def parse_arguments():
@@ -111,7 +117,7 @@ def without_errors(view, chosen):
 
 
 def drawn(view, chosen):
-    """(name, figure) of a request; several of one that makes a figure for each shot or baseline."""
+    """(name, figure) of a request; several of one that makes a figure for each shot, chip or baseline."""
     if chosen.kind == "effects":
         for name, rows in effects.comparisons(view, chosen).items():
             yield name.replace("effects", chosen.name, 1), effects.draw(view, chosen, rows)
@@ -119,7 +125,12 @@ def drawn(view, chosen):
         shots = view.shots()
         for shot in shots:
             name = chosen.name if len(shots) == 1 else f"{chosen.name}_{shot}"
-            yield name, SHOT_FIGURES[chosen.kind](view, shot, chosen)
+            chips = view.estimated_chips() if chosen.kind == "stage_estimates" and not chosen.option("chip") else []
+            if len(chips) > 1:
+                for chip in chips:
+                    yield f"{name}_{chip}", SHOT_FIGURES[chosen.kind](view, shot, replace(chosen, options={"chip": chip}))
+            else:
+                yield name, SHOT_FIGURES[chosen.kind](view, shot, chosen)
     else:
         yield chosen.name, STUDY_FIGURES[chosen.kind](view, chosen)
 

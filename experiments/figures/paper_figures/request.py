@@ -19,6 +19,7 @@ OPTIONS = {  # keys of one kind alone
     "error_time": {"front"},
     "stage_times": set(),
     "stage_costs": {"quantity"},
+    "stage_estimates": {"chip"},
     "fits": set(),
     "ladder": set(),
     "response": {"parameter", "where", "show"},

@@ -1,4 +1,4 @@
-"""Stacked bars: which stage of each point takes how long, or does how much. Techniques stand apart, each below the names of its
+"""Stacked bars: which stage of each point takes how long, does how much, or would take how long on a GPU. Techniques stand apart, each below the names of its
 own stages."""
 
 import matplotlib.pyplot as plt
@@ -80,6 +80,20 @@ def draw_costs(results, shot, chosen):
     if figure:
         figure.axes[0].xaxis.set_major_formatter(FuncFormatter(lambda x, _: numbers.count(x, keeps_zeros=False)))
     return figure
+
+
+def draw_estimates(results, shot, chosen):
+    """Of the chip that is asked for, else of the first; a point that lacks a stage's estimate is named and left out."""
+    chips = results.estimated_chips()
+    chip = chosen.option("chip", chips[0] if chips else None)
+    if chips and chip not in chips:
+        raise ResultsError(f"{chosen.where}: 'chip' = \"{chip}\" has no estimates{near(chip, chips)}")
+    points = results.estimates_of(shot, chip)
+    whole = {key: stages for key, stages in points.items() if "total" in stages}
+    lacking = ", ".join(results.point_label(*key) for key in points if key not in whole)
+    said = f"microseconds on {chip} (estimate) with the 95 % interval of the total"
+    said += f"; left out, since a stage has no estimate: {lacking}" if lacking else ""
+    return _draw(results, shot, chosen, whole, said, numbers.with_interval)
 
 
 def _draw(results, shot, chosen, points, said, total_text):

@@ -124,6 +124,7 @@ class Results:
         self.effects = self.read_csv("effects.csv", is_optional=True)
         self.hits = self.read_csv("hits.csv", is_optional=True)
         self.costs = self.read_csv("costs.csv", is_optional=True)
+        self.estimates = self.read_csv("estimates.csv", is_optional=True)
         self.single_changes = self._single_changes()
         self.hidden = set(self.single_changes)  # of figures of whole points: these have figures of their own
         self.colors = {}  # (variant, point) to "#rrggbb", before those of the palette
@@ -187,7 +188,7 @@ class Results:
                 rows.sort(key=lambda r: place_of_shot[r["shot"]])
             return rows
 
-        for name in ("all_errors", "errors", "times", "splits", "effects", "hits", "costs"):
+        for name in ("all_errors", "errors", "times", "splits", "effects", "hits", "costs", "estimates"):
             setattr(view, name, kept(getattr(self, name)))
         if shots is not None:
             view.shot_entries = {shot: self.shot_entries.get(shot, {}) for shot in shots}
@@ -298,6 +299,18 @@ class Results:
         for r in self.costs:
             if r["shot"] == shot and r["quantity"] == quantity:
                 stages.setdefault((r["variant"], r["point"]), {})[r["stage"]] = Measured(needed_number(r, "value"), None, None)
+        return stages
+
+    def estimated_chips(self):
+        """Those that a stage has an estimate for, in the order of the study."""
+        return list(dict.fromkeys(r["chip"] for r in self.estimates if r["microseconds"]))
+
+    def estimates_of(self, shot, chip):
+        """(variant, point) to {stage: Measured} in microseconds; without what has no estimate."""
+        stages = {}
+        for r in self.estimates:
+            if r["shot"] == shot and r["chip"] == chip and not r["refusal"]:
+                stages.setdefault((r["variant"], r["point"]), {})[r["stage"]] = Measured(*(needed_number(r, c) for c in ("microseconds", "low", "high")))
         return stages
 
     def warnings_of_times(self, shots):

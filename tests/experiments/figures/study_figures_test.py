@@ -203,6 +203,39 @@ def test_stage_costs(folder):
     plt.close("all")
 
 
+def test_stage_estimates(folder):
+    """Bars are as long as the stages' estimates, behind them the total with its interval; each chip with estimates has a figure."""
+    results = Results(folder)
+    shot, draw = results.shots()[0], SHOT_FIGURES["stage_estimates"]
+    check(results.estimated_chips() == ["navi21", "gfx1100"], "chips without an estimate are none")
+    chosen = request_of("stage_estimates", where="f.json")
+    figure = draw(results, shot, chosen)
+    axes = figure.axes[0]
+    lengths = lambda figure: sorted(bar.get_width() for bars in figure.axes[0].containers if hasattr(bars, "patches") for bar in bars)
+    check(lengths(figure) == [4, 4, 12, 16], "lengths of bars")
+    ends = sorted(tuple(segment[:, 0]) for bars in axes.collections for segment in bars.get_segments())
+    check(ends == [(12, 20), (15, 25)], f"intervals of totals: {ends}")
+    texts = sorted(t.get_text() for t in axes.texts)
+    check(texts == ["16.0 [12.0, 20.0]", "20.0 [15.0, 25.0]", "sssr", "stage_0", "stage_1"], texts)
+    said = lambda figure: figure._supxlabel.get_text().replace("\n", " ")
+    check("microseconds on navi21 (estimate)" in said(figure) and "left out" not in said(figure), said(figure))
+    chosen.options["chip"] = "gfx1100"
+    figure = draw(results, shot, chosen)
+    check(lengths(figure) == [4, 16], "a point without a total has no bar")
+    check("left out, since a stage has no estimate: sssr fixed" in said(figure), said(figure))
+    chosen.options["chip"] = "gfx110"
+    refused(draw, chosen, "f.json: 'chip' = \"gfx110\" has no estimates; did you mean 'gfx1100'?", results, shot)
+    look, of_chips = Look(formats=("svg",)), ["stage_estimates_gfx1100.svg", "stage_estimates_navi21.svg"]
+    for options, names in (({}, of_chips), ({"chip": "navi21"}, ["stage_estimates.svg"])):
+        with tempfile.TemporaryDirectory(prefix="ssrlab_chips_") as out:
+            make(results, [request_of("stage_estimates", shots=[shot], options=options)], look, out)
+            check(sorted(os.listdir(out)) == names, f"files: {os.listdir(out)}")
+    results.estimates = []
+    chosen.options = {}
+    check(draw(results, shot, chosen) is None, "a study without estimates")
+    plt.close("all")
+
+
 def test_fits(folder):
     """Points, curves, floors and the rung are where the files of `ssrlab tradeoff` have them; those of other errors are refused."""
     results = Results(folder)
@@ -319,6 +352,7 @@ with tempfile.TemporaryDirectory(prefix="ssrlab_figures_") as temporary:
     test_sweep_figures(study)
     test_front(study)
     test_stage_costs(study)
+    test_stage_estimates(study)
     test_fits(study)
     test_images_of_frames(study)
     test_several_baselines(study)
