@@ -31,7 +31,7 @@ Shot shot_of(const ShotOptions& options, const CommonOptions& common) {
 
 StagePipelines pipelines_of(Device& device, const Shot& shot, const VariantConfig& point, bool leaves_out) {
     const std::unique_ptr<FrameSource> source = scene_source(device, shot, timed_config({point}, 0), !leaves_out);
-    FrameStore store(*source, shot.config.depth_format, 0);
+    FrameStore store(*source, shot.config, 0);
     const HostImage unused;
     StagePipelines pipelines = stage_pipelines(
         device, shot, store, [&](const FrameStep&) -> const HostImage& { return unused; }, point, !leaves_out);

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/gbuffer/composite.h"
+#include "core/gbuffer/gbuffer_formats.h"
 #include "core/scene/camera.h"
 #include "experiments/config/targets.h"
 #include "groundtruth/reference/reference.h"
@@ -34,7 +35,8 @@ struct ShotConfig {
     DepthFormat depth_format = DepthFormat::d32f;
     DepthDirection depth_direction = DepthDirection::standard;
     unsigned normal_bits = 0;  ///< RasterizerOptions::normal_bits
-    std::string name_suffix;   ///< of these six, those that are not the study's own: ".d16.reversed"
+    GBufferFormats gbuffer_formats = GBufferFormats::exact;
+    std::string name_suffix;  ///< of these seven, those that are not the study's own: ".d16.reversed"
 
     std::string label, group;  ///< how tables and figures show it, and what it belongs to; "": its name, nothing
 

@@ -68,7 +68,14 @@ void for_each_choice(Use use) {
         "and `octahedral_8` (Cigolle et al. 2014). The truth has its own",
         {{"float", 0}, {"octahedral_16", 16}, {"octahedral_8", 8}},
         &ShotConfig::normal_bits};
-    use(lit), use(specular), use(fallback), use(formats), use(directions), use(normals);
+    static const Words<GBufferFormats> gbuffers = {
+        "gbuffer_formats",
+        "in which techniques and composite find the G-buffer: `exact`, mostly floats of 32 bits, or `packed`, as "
+        "engines "
+        "have it: halves, base colour and metalness in bytes, a third of the traffic. The truth has its own",
+        {{"exact", GBufferFormats::exact}, {"packed", GBufferFormats::packed}},
+        &ShotConfig::gbuffer_formats};
+    use(lit), use(specular), use(fallback), use(formats), use(directions), use(normals), use(gbuffers);
 }
 
 Values extents() {

@@ -138,6 +138,10 @@ nlohmann::json study_entry(const Config& config) {
         if (count > 0)
             warnings.push_back("techniques and composite read normals of 2 x " + std::to_string(count) +
                                " bits; the truth has its own");
+    if (std::ranges::any_of(config.shots,
+                            [](const ShotConfig& s) { return s.gbuffer_formats == GBufferFormats::packed; }))
+        warnings.push_back(
+            "techniques and composite read a packed G-buffer: halves, base colour in bytes; the truth has its own");
     return {{"study", {{"name", config.file.stem().string()}, {"config", shown_path(config.file)}}},
             {"title", config.title},
             {"config", config.source},

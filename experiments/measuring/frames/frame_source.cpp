@@ -26,7 +26,9 @@ public:
                        .probe = probe,
                        .is_still = shot.facts.is_still(),
                        .keep_all = keep_all}),
-          compositor_(rasterizer_.graph()) {}
+          compositor_(rasterizer_.graph()) {
+        rasterizer_.graph().set_precision(gbuffer_precision(shot.config.gbuffer_formats));
+    }
 
     GBuffer render(const FrameStep& step, unsigned seed, const HostImage& lit) override {
         GBuffer gbuffer = rasterizer_.render(shot_.camera, {.extent = shot_.config.extent,
@@ -59,6 +61,7 @@ public:
           lit_has_environment_(shot.config.lit_has_environment),
           graph_(device, shot.config.extent),
           compositor_(graph_) {
+        graph_.set_precision(gbuffer_precision(shot.config.gbuffer_formats));
         if (capture.environment()) environment_.emplace(graph_, *capture.environment(), false);
     }
 
@@ -111,12 +114,15 @@ struct FrameStore::Stored {
     GBuffer gbuffer;
     CameraData camera;
 
-    Stored(Device& device, const HostGBuffer& host)
-        : graph(device, host.extent()), gbuffer(upload_gbuffer(graph, host)), camera(host.camera) {}
+    Stored(Device& device, const HostGBuffer& host, GBufferFormats formats)
+        : graph(device, host.extent()), camera(host.camera) {
+        graph.set_precision(gbuffer_precision(formats));
+        gbuffer = upload_gbuffer(graph, host);
+    }
 };
 
-FrameStore::FrameStore(FrameSource& source, DepthFormat depth_format, size_t max_bytes)
-    : source_(source), depth_format_(depth_format), max_bytes_(max_bytes) {}
+FrameStore::FrameStore(FrameSource& source, const ShotConfig& shot, size_t max_bytes)
+    : source_(source), depth_format_(shot.depth_format), formats_(shot.gbuffer_formats), max_bytes_(max_bytes) {}
 FrameStore::~FrameStore() = default;
 
 bool FrameStore::keeps_all() const {
@@ -136,7 +142,7 @@ FrameStore::Frame FrameStore::frame(const FrameStep& step, const HostImage& lit)
         const size_t bytes = bytes_per_pixel * host.depth.pixel_count();
         if (bytes_ + bytes > max_bytes_) return {rendered, source_.camera()};
         bytes_ += bytes;
-        found->second = std::make_unique<Stored>(source_.graph().device(), host);
+        found->second = std::make_unique<Stored>(source_.graph().device(), host, formats_);
         found->second->gbuffer.environment = rendered.environment;
     }
     Frame frame{found->second->gbuffer, found->second->camera};

@@ -35,7 +35,7 @@ std::unique_ptr<FrameSource> capture_source(Device& device, Capture& capture, co
 class FrameStore {
 public:
     /// `max_bytes` of device memory at most.
-    FrameStore(FrameSource& source, DepthFormat depth_format, size_t max_bytes);
+    FrameStore(FrameSource& source, const ShotConfig& shot, size_t max_bytes);
     ~FrameStore();
 
     struct Frame {
@@ -54,6 +54,7 @@ private:
     struct Stored;
     FrameSource& source_;
     DepthFormat depth_format_;
+    GBufferFormats formats_;
     size_t max_bytes_, bytes_ = 0;
     /// By pose and pose before: a held pose looks the same each time. Without value: it did not fit.
     std::map<std::pair<unsigned, std::optional<unsigned>>, std::unique_ptr<Stored>> stored_;

@@ -152,7 +152,7 @@ std::string request_of(const Shot& shot, const Config& config, bool keep_all) {
           unsigned(shot.config.measures_last_only), shot.config.measure_from, unsigned(config.has_reference),
           unsigned(shot.config.direct_lit), unsigned(shot.config.lit_has_environment), unsigned(shot.config.has_probe),
           unsigned(config.filters_lit), unsigned(shot.config.depth_format), unsigned(shot.config.depth_direction),
-          shot.config.normal_bits})
+          shot.config.normal_bits, unsigned(shot.config.gbuffer_formats)})
         hash.add(number);
     return hash.hex();
 }

@@ -143,7 +143,7 @@ void open_scene(Opening& opening, const ShotConfig& config) {
     open.probe = obtain_probe(opening);
     open.source = scene_source(opening.device, open.shot, opening.config, opening.settings.keep_all,
                                open.probe ? &*open.probe : nullptr);
-    open.store = std::make_unique<FrameStore>(*open.source, open.shot.config.depth_format, max_stored_bytes);
+    open.store = std::make_unique<FrameStore>(*open.source, open.shot.config, max_stored_bytes);
     if (!opening.config.has_reference)
         open.truth = truth_of_lit(open.shot, [](unsigned) { return HostImage(); });
     else
@@ -178,7 +178,7 @@ void open_capture(Opening& opening, const ShotConfig& config) {
     const bool reads_own_lit = contents.has_lit && (!is_measured || config.direct_lit);
     if (reads_own_lit) open.entry["lit"] = "file";
     open.source = capture_source(opening.device, *open.capture, open.shot, reads_own_lit);
-    open.store = std::make_unique<FrameStore>(*open.source, open.shot.config.depth_format, max_stored_bytes);
+    open.store = std::make_unique<FrameStore>(*open.source, open.shot.config, max_stored_bytes);
     if (is_measured)
         open.truth = shot_truth(
             open.shot, opening.config, *open.store, open.source->graph(), [&](unsigned frame, ReferenceUse use) {

@@ -40,7 +40,7 @@ struct CompiledShaders : testing::Test {
             load_shot({.scene = "mirror_pillars", .extent = {32, 24}, .frames = {0}, .warm_up = 1, .direct_lit = true},
                       scene_search_path({}));
         const std::unique_ptr<FrameSource> source = scene_source(device(), shot, timed_config({point}, 0), true);
-        FrameStore store(*source, shot.config.depth_format, 0);
+        FrameStore store(*source, shot.config, 0);
         const HostImage unused;
         const StagePipelines pipelines = stage_pipelines(
             device(), shot, store, [&](const FrameStep&) -> const HostImage& { return unused; }, point, true);

@@ -33,7 +33,7 @@ struct GpuEstimates : testing::Test {
     }
     void open(const VariantConfig& point) {
         source = scene_source(device(), shot, timed_config({point}, 0), true);
-        store = std::make_unique<FrameStore>(*source, shot.config.depth_format, 0);
+        store = std::make_unique<FrameStore>(*source, shot.config, 0);
     }
     /// What the technique shows in the last frame.
     std::vector<float> radiance(const VariantConfig& point, bool is_traced) {

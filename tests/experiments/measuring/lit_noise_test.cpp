@@ -103,8 +103,8 @@ TEST_F(StudyTest, LitNoiseIsWhatNoisyLightAddsToRealTechniques) {
         double value = 0, lit_noise = 0;
     };
     const auto results = [&](const ReferenceHalves& light) {
-        FrameStore store(*source, shot.config.depth_format, size_t(1) << 28),
-            lit(*source, shot.config.depth_format, size_t(1) << 28);
+        FrameStore store(*source, shot.config, size_t(1) << 28),
+            lit(*source, shot.config, size_t(1) << 28);
         ShotTruth truth =
             shot_truth(shot, config, store, source->graph(), [&](unsigned, ReferenceUse) { return reference; });
         PoseTruth pose = *truth.poses.at(0);

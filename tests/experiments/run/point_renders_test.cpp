@@ -145,7 +145,7 @@ TEST_F(StudyTest, StoredFramesAreThoseThatAreRendered) {
                                  .lit_has_environment = true},
                                 {fs::path(SSRLAB_SOURCE_DIR) / "scenes"});
     const std::unique_ptr<FrameSource> source = scene_source(device, shot, config, false);
-    FrameStore keeps(*source, DepthFormat::d32f, size_t(1) << 30), forgets(*source, DepthFormat::d32f, 0);
+    FrameStore keeps(*source, shot.config, size_t(1) << 30), forgets(*source, shot.config, 0);
     for (const unsigned round : {0, 1})
         for (const FrameStep& step : shot.steps) {
             HostGBuffer host[2];
@@ -177,7 +177,7 @@ TEST_F(StudyTest, NonFiniteInputsAreCountedOnce) {
         {fs::path(SSRLAB_SOURCE_DIR) / "scenes"});
     for (Material& material : shot.scene.materials) material.roughness = NAN;
     const std::unique_ptr<FrameSource> source = scene_source(device, shot, config, false);
-    FrameStore keeps(*source, DepthFormat::d32f, size_t(1) << 30), forgets(*source, DepthFormat::d32f, 0);
+    FrameStore keeps(*source, shot.config, size_t(1) << 30), forgets(*source, shot.config, 0);
     for (FrameStore* store : {&keeps, &forgets}) {
         for (const FrameStep& step : shot.steps) store->frame(step, {});
         size_t surfaces = 0;

@@ -44,7 +44,7 @@ struct SeedDependence : testing::Test {
         load_shot({.scene = "roughness_gradient", .camera = "", .extent = {32, 18}, .repeat = 3, .direct_lit = true},
                   {fs::path(SSRLAB_SOURCE_DIR) / "scenes"});
     std::unique_ptr<FrameSource> source = scene_source(device, shot, config, false);
-    FrameStore store{*source, DepthFormat::d32f, size_t(1) << 28};
+    FrameStore store{*source, shot.config, size_t(1) << 28};
 
     /// All presets of all techniques run here, with synchronisation checks (SSRLAB_VALIDATE=1); all tracers do so in
     /// TracersTest.

@@ -1,0 +1,10 @@
+#pragma once
+#include "core/gpu/precision.h"
+
+/// In which formats techniques find the G-buffer. `exact`: those of gbuffer.h. `packed`: as engines have it, in about a
+/// third of the bytes: normals with their roughness, emission, lit colour and fallback rgba16f, base colour with its
+/// metalness rgba8, motion rg16f. Depth and material stay.
+enum class GBufferFormats { exact, packed };
+
+/// For the graph that makes the images.
+Precision gbuffer_precision(GBufferFormats formats);
