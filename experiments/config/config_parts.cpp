@@ -83,8 +83,8 @@ Keys table_keys() {
     return {{"name", name, required, "of its files"},
             {"caption", any_text(), required, "what stands above it"},
             {"of",
-             one_of({"effects", "results", "splits", "times", "time_effects", "hits", "costs", "compiled", "limits",
-                     "agreement", "eye", "at_cost", "changes", "over_scenes"}),
+             one_of({"effects", "results", "splits", "times", "time_effects", "hits", "costs", "compiled", "estimates",
+                     "limits", "agreement", "eye", "at_cost", "changes", "over_scenes"}),
              required, "where its numbers come from, below"},
             {"where", any_object, otherwise("all rows"),
              "column to the value, or array of values, of the rows that count; rows and columns of the table stand in "
@@ -114,6 +114,10 @@ void check_tables(ConfigObject& study, const Config& config) {
             fail(table.at("of"), ": the study counts no costs; add \"costs\": true");
         if (of == "compiled" && config.gpu_compilers.empty())
             fail(table.at("of"), ": the study asks no compiler; add \"gpu_compilers\": [\"navi21\"]");
+        if (of == "estimates" && !(config.counts_costs && !config.gpu_compilers.empty()))
+            fail(table.at("of"),
+                 ": the study estimates no GPU's times; add \"costs\": true and \"gpu_compilers\": "
+                 "[\"navi21\"]");
         if (table.has("best") && of != "results" && of != "limits")
             fail(table.at("best"), ": 'best' is of 'results' and 'limits', which have a standing, not of '", of, "'");
         if (table.has("best") && table.has("over"))

@@ -46,6 +46,7 @@ const std::map<std::string, Source>& sources() {
         {"hits", alike(columns_of<HitRow>())},
         {"costs", alike(columns_of<CostRow>())},
         {"compiled", alike(columns_of<CompiledRow>({"quantity", "value"}))},
+        {"estimates", alike(columns_of<EstimateRow>({"quantity", "value"}))},
         {"at_cost", alike(columns_of<AcrossRow>())},
         {"changes", alike(columns_of<ChangeRow>({"quantity", "value", "low", "high"}))},
         {"over_scenes", alike(columns_of<OverScenesRow>())},

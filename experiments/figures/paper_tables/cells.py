@@ -11,7 +11,7 @@ from ssrlab.mistakes import ResultsError
 from ssrlab.results import BEST, TIED, representative_rows
 from paper_tables import agreement, limits
 from paper_tables.cell import EXACT, Cell
-from paper_tables.means import ASSETS, SAMPLED, SHARES, largest, mean
+from paper_tables.means import ASSETS, SAMPLED, largest, mean
 
 SOURCES = {  # name to (file, columns of value, low and high)
     "effects": ("effects.csv", ("ratio", "low_holm", "high_holm")),  # intervals that agree with the verdict
@@ -22,6 +22,7 @@ SOURCES = {  # name to (file, columns of value, low and high)
     "hits": ("hits.csv", ("value", "low", "high")),
     "costs": ("costs.csv", ("value", "low", "high")),  # counts: without an interval, as they are exact
     "compiled": ("compiled.csv", ("value", "low", "high")),  # exact for its compiler; quantities are columns: see _compiled_rows()
+    "estimates": ("estimates.csv", ("value", "low", "high")),  # likewise: see _estimate_rows()
     "limits": ("summary.csv", ("value", "low", "high")),  # errors over the information limit of one frame: limits.py
     "agreement": ("summary.csv", ("value", "low", "high")),  # of metrics with each other, and ...
     "eye": ("summary.csv", ("value", "low", "high")),  # ... with people: agreement.py
@@ -71,6 +72,19 @@ def _compiled_rows(rows):
                 yield row | {"quantity": quantity, "value": value}
 
 
+ESTIMATE_TEXTS = ("product", "bound", "refusal")  # of estimates.csv, beside what names its rows
+LANE_SHARES = ("active_lanes", "unmatched", "cut_lanes")
+TIME = "microseconds"  # which alone has an interval there, and is above 0
+
+
+def _estimate_rows(rows):
+    """A row for each number that estimates.csv has, named by `quantity`."""
+    for row in rows:
+        for quantity, value in row.items():
+            if value and quantity not in (*NAMING, *ESTIMATE_TEXTS, "low", "high"):
+                yield row | {"quantity": quantity, "value": value} | ({} if quantity == TIME else {"low": "", "high": ""})
+
+
 class Table:
     """One entry of "tables", which ssrlab checked when it read the config."""
 
@@ -103,6 +117,8 @@ class Selection:
             rows = list(_change_rows(rows))
         if table.of == "compiled":
             rows = list(_compiled_rows(rows))
+        if table.of == "estimates":
+            rows = list(_estimate_rows(rows))
         if table.of == "splits":
             rows = list(_split_rows(rows))
         if table.of in ("results", "limits", "agreement", "eye"):
@@ -172,7 +188,7 @@ def _cell(selection, row, name):
     if table.of == "time_effects" and row["verdict"]:
         columns = SOURCES["effects"][1]  # of totals, which have verdicts: the interval that agrees with it
     value, low, high = (number(row, c) for c in columns)
-    is_share = table.of in SHARES and row["quantity"] not in NOT_SHARES
+    is_share = table.of == "hits" and row["quantity"] not in NOT_SHARES or table.of == "estimates" and row["quantity"] in LANE_SHARES
     if is_share:
         low, high = (None if end is None else min(max(end, 0.0), 1.0) for end in (low, high))
     seeds = whole(row, "seeds") if "seeds" in row else None
@@ -190,6 +206,7 @@ def _cell(selection, row, name):
         clock=_clock(selection, row) if row.get("clock") else None,
         disturbed_share=largest(shares),
         is_share=is_share,
+        may_be_zero=table.of == "hits" or table.of == "estimates" and row["quantity"] != TIME,
     )
 
 
@@ -256,6 +273,7 @@ def _about(selection, filled):
         "over_count": count,
         "clocks": sorted({_clock(selection, r) for r in filled if r.get("clock")}),
         "has_adjusted_intervals": table.of == "effects",
+        "is_estimated": table.of == "estimates",
         "sample": ASSETS if over in SAMPLED else None,
         "assets": {selection.label(s, table.rows): selection.results.asset(s["shot"]) for s in shots} if table.rows == ["shot"] else None,
     }

@@ -104,6 +104,8 @@ def other_notes(table, cells):
         found.append(f"\"n of {table['over_count']}\": so many of the {over} have a value and are in the mean")
     if any(c.is_count() for c in cells):
         found.append("counts of the last frame, exact but for rounding to three digits; k, M, G: thousands, millions, billions")
+    if table.get("is_estimated"):
+        found.append("estimated: no GPU ran anything")
     if any(c.value is None for c in cells):
         found.append(f"{NO_VALUE}: no value")
     share = max((c.disturbed_share for c in cells if c.disturbed_share), default=None)

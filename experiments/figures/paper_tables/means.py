@@ -9,7 +9,6 @@ from ssrlab import statistics
 SAMPLED = ("shot", "scene", "shot_group")  # what `over` takes as a sample of scenes ...
 ASSETS = "assets"  # ... whose means these are
 OVER_SCENES, THESE_ALONE = "scenes", "these shots"  # Cell.interval of means: as LESSER of formats.py has it
-SHARES = ("hits",)  # tables of what may be 0: their mean over shots is the arithmetic one
 
 
 def largest(numbers):
@@ -61,7 +60,7 @@ def _geometric_mean(parts, assets):
 
 
 def _arithmetic_mean(parts, assets):
-    """Of shares, and of counts of fetches; intervals as those of _geometric_mean()."""
+    """Of what may be 0; intervals as those of _geometric_mean()."""
     filled = [i for i, c in enumerate(parts) if c.value is not None]
     cells = [parts[i] for i in filled]
     result = Cell(parts[0].table, parts[0].row, parts[0].column, mean_of=len(cells))
@@ -102,4 +101,4 @@ def mean(table, parts, assets):
     if table.of == "agreement":
         return _mean_of_agreement(parts, assets)
     sampled = assets if table.over in SAMPLED else None
-    return _arithmetic_mean(parts, sampled) if table.of in SHARES else _geometric_mean(parts, sampled)
+    return _arithmetic_mean(parts, sampled) if any(c.may_be_zero for c in parts) else _geometric_mean(parts, sampled)

@@ -14,16 +14,16 @@ from paper_tables.cell import Cell
 
 MOST_BYTES = 180_000  # what the comparison of 22 points over 49 shots (configs/comparison.json) takes
 MOST_NAMED = 8  # shots below a table that does not show all of the study's; the summary's head names any number
-COLUMNS = [f.name for f in fields(Cell) if f.name != "is_share"]  # which only means ask for, before they are kept
+COLUMNS = [f.name for f in fields(Cell) if f.name not in ("is_share", "may_be_zero")]  # which only means ask for, before they are kept
 ABOUT = ("name", "caption", "shots", "resolutions", "over", "over_count", "clocks")  # a table; see cells_of()
-LATER = ("has_adjusted_intervals", "sample", "assets")  # of a table, too; summaries of before have none
+LATER = ("has_adjusted_intervals", "is_estimated", "sample", "assets")  # of a table, too; summaries of before have none
 MARK = "# "
 # Shapes of its head, as require() of json_files.py has them.
 _ANY = (str, bool, float, list, dict, None)
 _ORIGIN = {"study": str, "title": str, "commit": str, "device": str, "shots": int, "estimators": int, "is_complete": bool}
 _ABOUT = {
     **{"name": str, "caption": str, "shots": [str], "resolutions": [str], "over": (str, None), "over_count": (int, None), "clocks": [str]},
-    **{"has_adjusted_intervals?": bool, "sample?": (str, None), "assets?": ({"*": str}, None)},
+    **{"has_adjusted_intervals?": bool, "is_estimated?": bool, "sample?": (str, None), "assets?": ({"*": str}, None)},
 }
 
 

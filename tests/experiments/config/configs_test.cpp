@@ -315,10 +315,15 @@ TEST(Configs, TablesAreCheckedBeforeTheStudyRuns) {
     EXPECT_EQ(mistake_in(R"("of": "costs")", "true"), "none");
     EXPECT_EQ(mistake_in(R"("of": "hits")"), ":2:93: tables[0]: the study judges no rays; add \"hits\": {}");
     EXPECT_EQ(mistake_in(R"("of": "results", "best": "row")"), "none");
+    EXPECT_NE(mistake_in(R"("of": "estimates")", "true"), "none") << "which compiler?";
+    EXPECT_EQ(mistake_in(R"("of": "estimates")", R"(true, "gpu_compilers": ["navi21"])"), "none");
     for (const auto& [table, mistake] : std::map<std::string, std::string>{
              {R"("of": "costs")", ":2:93: tables[0]: the study counts no costs; add \"costs\": true"},
              {R"("of": "compiled")",
               ":2:93: tables[0]: the study asks no compiler; add \"gpu_compilers\": [\"navi21\"]"},
+             {R"("of": "estimates")",
+              ":2:93: tables[0]: the study estimates no GPU's times; add \"costs\": true and \"gpu_compilers\": "
+              "[\"navi21\"]"},
              {R"("of": "result")", ":2:93: tables[0]: 'of' = \"result\" is not known; did you mean 'results'?"},
              {R"("of": "results", "row": "x")", ":2:110: tables[0]: unknown key 'row'; did you mean 'rows'?"},
              {R"("of": "hits", "best": "row")",

@@ -39,6 +39,8 @@ TEST(TableColumns, AreThoseOfTheFilesOrParameters) {
         std::string::npos);
     EXPECT_NE(mistake_in(R"("of": "results", "sort": "msee")" + rest).find("did you mean 'mse'?"), std::string::npos);
     EXPECT_NE(mistake_in(R"("of": "times")" + rest).find("'metric' is neither"), std::string::npos);
+    EXPECT_EQ(mistake_in(R"("of": "estimates", "rows": ["stage", "bound"], "columns": ["chip", "quantity"])"),
+              "no error");
     EXPECT_EQ(mistake_in(R"("of": "results", "where": {"mask": "!all", "dda.stride": [1, 2]}, "over": "shot")" + rest),
               "no error");
 }

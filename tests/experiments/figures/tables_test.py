@@ -371,6 +371,41 @@ def test_compiled(temporary):
     check(values == {("trace", HEADS[0]): "48", ("trace", HEADS[1]): "10", ("trace", HEADS[2]): "52", ("blur", HEADS[0]): "16", ("blur", HEADS[1]): "16"}, grid)
 
 
+def test_estimates(temporary):
+    """Numbers of estimates.csv are rows by quantity; the time has an interval and a geometric mean, its parts, which may be 0, neither.
+    What is refused has no cell, and the table says that it is estimated."""
+    folder = os.path.join(temporary, "estimates")
+    single = {"name": "stages", "caption": "Stages", "of": "estimates", "where": {"shot": SHOTS[0]},
+              "rows": ["stage", "bound"], "columns": ["chip", "quantity"]}  # fmt: skip
+    mean = {"name": "mean", "caption": "Mean", "of": "estimates", "where": {"chip": "navi21", "stage": "total"}, "rows": "stage", "columns": "quantity", "over": "shot"}
+    write_results(folder, [single, mean])
+    columns = ("shot", "variant", "point", "stage", "chip", "product", "microseconds", "low", "high", "bound", "vector", "active_lanes", "refusal")
+    empty = dict.fromkeys(columns, "") | {"shot": SHOTS[0], "variant": "sssr", "point": "default"}
+    navi21 = {"chip": "navi21", "product": "Radeon RX 6800 XT"}
+    total = empty | navi21 | {"stage": "total", "bound": "vector", "active_lanes": "0.5"}
+    rows = [
+        empty | navi21 | {"stage": "trace", "microseconds": "14.5", "low": "12", "high": "15", "bound": "vector", "vector": "14.5"},
+        total | {"microseconds": "16", "low": "14", "high": "18", "vector": "0"},
+        total | {"shot": SHOTS[1], "microseconds": "4", "low": "3", "high": "5", "vector": "3"},
+        empty | {"stage": "total", "chip": "vega10", "refusal": "no radv"},
+    ]
+    write_rows(os.path.join(folder, "estimates.csv"), rows)
+    result = tables(folder)
+    check(result.returncode == 0, result.stderr)
+    grid = list(csv.reader(open(os.path.join(folder, "tables", "stages.csv"))))
+    by_head = [dict(zip(grid[0], row, strict=True)) for row in grid[1:]]
+    check([r[""] for r in by_head] == ["trace, vector", "total, vector"], grid)
+    check({head.removesuffix(" low").removesuffix(" high") for head in grid[0][1:]} == {f"navi21, {q}" for q in ("microseconds", "vector", "active_lanes")}, f"only numbers are quantities: {grid[0]}")
+    time = [by_head[0]["navi21, microseconds" + end] for end in ("", " low", " high")]
+    check([float(n) for n in time] == [14.5, 12, 15], grid)
+    check((by_head[0]["navi21, vector"], by_head[0]["navi21, vector low"]) == ("14.5", ""), "the interval is the time's")
+    check("estimated: no GPU ran anything" in read(os.path.join(folder, "tables", "stages.md")), "it looks like a measured table")
+    over = list(csv.reader(open(os.path.join(folder, "tables", "mean.csv"))))
+    means = dict(zip(over[0], over[1], strict=True))
+    check(abs(float(means["microseconds"]) - 8) < 1e-12, f"geometric mean of 16 and 4: {means}")
+    check((float(means["vector"]), float(means["active_lanes"])) == (1.5, 0.5), f"arithmetic means: {means}")
+
+
 def test_means_over_what_differs(folder):
     """Two metrics of a shot are not two shots."""
     for changed, parts in (
@@ -522,6 +557,7 @@ def main():
         test_shares(folder)
         test_counts(temporary)
         test_compiled(temporary)
+        test_estimates(temporary)
         test_means_over_what_differs(folder)
         test_refusals(folder)
         test_tables_that_nobody_asks_for(temporary)
