@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""How well counted costs tell times: a Markdown table of a results folder that has both.
+"""How well counted costs, and chips' estimated times, tell times: a Markdown table of a results folder that has both.
 
-    cost_agreement.py RESULTS [--costs RESULTS]    costs.csv of another folder, of the same shots and points
+    cost_agreement.py RESULTS [--costs RESULTS]    costs.csv and estimates.csv of another folder, of the same shots and points
 
 For each cost, over the shots: Kendall's rank correlation with the median times of the points, and of their stages; and of the pairs
 of points of a shot whose times differ by a factor of 1.5 or more, the share that the cost puts in the order of their times.
@@ -17,7 +17,7 @@ EXPERIMENTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../..")
 sys.path[:0] = [os.path.join(EXPERIMENTS, "figures"), os.path.join(EXPERIMENTS, "python")]
 
 from paper_tables.agreement import kendall_tau  # noqa: E402
-from ssrlab.csv_files import needed_number, read_rows, whole  # noqa: E402
+from ssrlab.csv_files import needed_number, number, read_rows, whole  # noqa: E402
 from ssrlab.mistakes import ResultsError, exit_code  # noqa: E402
 from ssrlab.text_files import path_inside  # noqa: E402
 
@@ -47,19 +47,32 @@ def medians(folder):
 
 
 def counts(folder):
-    """{shot: {(variant, point, stage): {quantity: value}}}"""
-    costs = {}
+    """{name: {shot: {(variant, point, stage): sum of its quantities}}}"""
+    costs = {name: {} for name in COSTS}
     for row in rows_of(folder, "costs.csv"):
         key = (row["variant"], row["point"], row["stage"])
-        costs.setdefault(row["shot"], {}).setdefault(key, {})[row["quantity"]] = whole(row, "value") or 0
+        for name, quantities in COSTS.items():
+            of_shot = costs[name].setdefault(row["shot"], {})
+            of_shot[key] = of_shot.get(key, 0) + (whole(row, "value") or 0) * (row["quantity"] in quantities)
     return costs
 
 
-def agreement(times, costs, quantities):
+def estimates(folder):
+    """The same of chips' microseconds, {} without such; what was refused has none."""
+    found = {}
+    if os.path.exists(path_inside(folder, "estimates.csv")):
+        for row in rows_of(folder, "estimates.csv"):
+            if (microseconds := number(row, "microseconds")) is not None:
+                key = (row["variant"], row["point"], row["stage"])
+                found.setdefault(f"{row['chip']} estimate", {}).setdefault(row["shot"], {})[key] = microseconds
+    return found
+
+
+def agreement(times, costs):
     """[tau of totals by shot], [tau of stages by shot], pairs that are clearly apart, how many of them are in order."""
     of_totals, of_stages, pairs, right = [], [], 0, 0
     for shot in sorted(set(times) & set(costs)):
-        both = {key: (ms, sum(costs[shot][key].get(q, 0) for q in quantities)) for key, ms in times[shot].items() if key in costs[shot]}
+        both = {key: (ms, costs[shot][key]) for key, ms in times[shot].items() if key in costs[shot]}
         totals = [pair for key, pair in both.items() if key[2] == "total"]
         stages = [pair for key, pair in both.items() if key[2] != "total"]
         of_totals.append(kendall_tau([ms for ms, _ in totals], [cost for _, cost in totals]))
@@ -81,12 +94,13 @@ def main():
     parser.add_argument("results")
     parser.add_argument("--costs")
     arguments = parser.parse_args()
-    times, costs = medians(arguments.results), counts(arguments.costs or arguments.results)
-    if not set(times) & set(costs):
+    folder = arguments.costs or arguments.results
+    times, costs = medians(arguments.results), counts(folder) | estimates(folder)
+    if not any(set(times) & set(shots) for shots in costs.values()):
         raise ResultsError("no shot has both times and costs")
     print("| cost | totals | stages | clearly apart, in order |\n|---|---|---|---|")
-    for name, quantities in COSTS.items():
-        of_totals, of_stages, pairs, right = agreement(times, costs, quantities)
+    for name, of_shots in costs.items():
+        of_totals, of_stages, pairs, right = agreement(times, of_shots)
         print(f"| {name} | {spread(of_totals)} | {spread(of_stages)} | {right} of {pairs} |")
 
 

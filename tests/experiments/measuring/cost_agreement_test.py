@@ -1,4 +1,4 @@
-"""How well counted costs predict times: against numbers by hand."""
+"""How well counted costs and estimates predict times: against numbers by hand."""
 
 import os
 import subprocess
@@ -20,13 +20,23 @@ s,v,a,0,v/x,0,1,host_fence,,0
 s,v,b,0,v/x,0,2,host_fence,,0
 other,v,a,0,total,0,7,host_fence,,0
 """
+ESTIMATES = """shot,variant,point,stage,chip,product,microseconds,refusal
+s,v,a,total,navi21,R,4,
+s,v,b,total,navi21,R,5,
+s,v,c,total,navi21,R,6,
+s,v,a,v/x,navi21,R,1,
+s,v,b,v/x,navi21,R,0.5,
+s,v,a,total,vega10,R,9,
+s,v,b,total,vega10,R,3,
+s,v,c,total,vega10,R,,a refusal
+"""
 FETCHES = {("a", "total"): 10, ("b", "total"): 30, ("c", "total"): 20, ("a", "v/x"): 7, ("b", "v/x"): 5}
 
 
 class CostAgreement(unittest.TestCase):
-    def run_on(self, costs):
+    def run_on(self, costs, estimates=None):
         with tempfile.TemporaryDirectory() as folder:
-            for name, text in (("times.csv", TIMES), ("costs.csv", costs)):
+            for name, text in (("times.csv", TIMES), ("costs.csv", costs), *([("estimates.csv", estimates)] if estimates else [])):
                 with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
                     file.write(text)
             return subprocess.run([sys.executable, "-B", PROGRAM, folder], capture_output=True, text=True)
@@ -40,6 +50,13 @@ class CostAgreement(unittest.TestCase):
         done = self.run_on("\n".join(rows) + "\n")
         self.assertIn("| fetches | 0.33 [0.33, 0.33] | -1.00 [-1.00, -1.00] | 2 of 2 |", done.stdout, done.stderr)
         self.assertIn("| operations | none | none | 0 of 2 |", done.stdout)  # ties say nothing
+
+    def test_estimates_of_chips_are_ranked_beside(self):
+        costs = "shot,variant,point,stage,quantity,value\ns,v,a,total,fetches,1\n"
+        done = self.run_on(costs, ESTIMATES)
+        self.assertIn("| navi21 estimate | 1.00 [1.00, 1.00] | -1.00 [-1.00, -1.00] | 2 of 2 |", done.stdout, done.stderr)
+        self.assertIn("| vega10 estimate | -1.00 [-1.00, -1.00] | none | 0 of 1 |", done.stdout)  # c was refused
+        self.assertNotIn("estimate", self.run_on(costs).stdout)
 
     def test_without_a_common_shot(self):
         done = self.run_on("shot,variant,point,stage,quantity,value\nthird,v,a,total,fetches,1\n")

@@ -130,7 +130,8 @@ class BrokenFiles(unittest.TestCase):
     def test_smaller_scripts(self):
         self.write("times.csv", "shot,variant,point,stage,milliseconds\n" + "".join(f"s,v,p{i},{stage},{i + 1}\n" for i in range(3) for stage in ("total", "a")))
         self.write("costs.csv", "shot,variant,point,stage,quantity,value\n" + "".join(f"s,v,p{i},{stage},fetches,{i + 1}\n" for i in range(3) for stage in ("total", "a")))
-        self.break_files(("times.csv", "costs.csv"), cost_agreement.main, self.folder)
+        self.write("estimates.csv", "shot,variant,point,stage,chip,microseconds\n" + "".join(f"s,v,p{i},{stage},navi21,{i + 1}\n" for i in range(3) for stage in ("total", "a")))
+        self.break_files(("times.csv", "costs.csv", "estimates.csv"), cost_agreement.main, self.folder)
         self.write("key.csv", "pair,shot,first,first_point,second,second_point\n1,s,a,b,c,d\n")
         self.write("answers.csv", "pair,nearer\n1,left\n")
         known, judge.JUDGEMENTS = judge.JUDGEMENTS, self.path("judgements.csv")
