@@ -252,7 +252,8 @@ int parse_and_run(int argc, char** argv) {
         .add_option("--baseline", tradeoff.baseline,
                     "Errors are multiples of this point's; default: none, else the study's first baseline")
         ->type_name("VARIANT:POINT");
-    tradeoff_command_.add_option("--times", tradeoff.times, "Time budgets, or budgets of the quantity of --cost")
+    tradeoff_command_
+        .add_option("--times", tradeoff.times, "Time budgets, or budgets of what --cost counts or estimates")
         ->check(positive())
         ->capture_default_str()
         ->type_name("MS");
@@ -265,8 +266,10 @@ int parse_and_run(int argc, char** argv) {
     tradeoff_command_.add_option("--metric", tradeoff.metric, "Default: that of the study's primary error");
     tradeoff_command_.add_option("--mask", tradeoff.mask, "Default: that of the study's primary error");
     tradeoff_command_.add_option("--target", tradeoff.target, "Default: that of the study's primary error");
-    tradeoff_command_.add_option("--cost", tradeoff.cost, "A counted quantity of costs.csv in place of time")
-        ->type_name("QUANTITY");
+    tradeoff_command_
+        .add_option("--cost", tradeoff.cost,
+                    "A counted quantity of costs.csv, or a chip of estimates.csv, in place of time")
+        ->type_name("QUANTITY|CHIP");
     add_reading(tradeoff_command_);
     tradeoff_command_.callback([&] { status = tradeoff_command(tradeoff); });
 

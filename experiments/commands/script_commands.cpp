@@ -73,10 +73,16 @@ int tradeoff_command(const TradeoffOptions& options) {
                             {"target", error.target},
                             {"metric", error.metric},
                             {"mask", error.mask},
-                            {"cost", options.cost},
+                            {"costs", found.kind == CostKind::timed     ? "timed"
+                                      : found.kind == CostKind::counted ? "counted"
+                                                                        : "estimated"},
+                            {"unit", found.unit},
+                            {"refused", nlohmann::json::array()},
                             {"divisors", nlohmann::json::object()},
                             {"chosen", nlohmann::json::array()}};
     for (const auto& [shot, divisor] : found.divisors) asked["divisors"][shot] = column_json(divisor);
+    for (const RefusedEstimate& r : found.refused)
+        asked["refused"].push_back({{"point", r.point}, {"shots", r.shots}, {"why", r.refusal}});
     for (const ChosenPoint& c : found.chosen)
         asked["chosen"].push_back({{"shot", c.shot},
                                    {"variant", c.variant},

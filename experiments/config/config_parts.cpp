@@ -133,7 +133,7 @@ Keys frozen_keys() {
     return {{"cost",
              {{{"type", "number"}, {"exclusiveMinimum", 0}}, "a number above 0", {}},
              required,
-             "milliseconds, or what `ssrlab tradeoff --cost` counts"},
+             "milliseconds, or what `ssrlab tradeoff --cost` counts or estimates"},
             {"points", points, required, "technique to the name of one of its points"}};
 }
 

@@ -71,7 +71,8 @@ void write_evaluation(const std::filesystem::path& folder, const StudyRows& rows
                        .rounds = rows.times,
                        .effects = std::move(effects),
                        .time_effects = std::move(of_times),
-                       .costs = {}};
+                       .costs = {},
+                       .estimates = {}};
     set_dominated(tables, primary);
     write_rows(folder / "summary.csv", tables.errors);
 }

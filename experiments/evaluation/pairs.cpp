@@ -1,5 +1,6 @@
 #include "experiments/evaluation/pairs.h"
 
+#include "experiments/evaluation/other_costs.h"
 #include "experiments/evaluation/standings.h"
 #include "experiments/store/manifest.h"
 #include "metrics/statistics.h"
@@ -37,19 +38,20 @@ private:
 
 /// The cost of every point of a shot.
 struct Costs {
-    std::map<PointName, double> values;
+    std::map<PointName, OtherCost> values;
     std::map<PointName, Rounds> rounds;  ///< of times
-    bool is_counted = false;             ///< exact
-    double floor = 0;                    ///< see aa_floor(); 0 of counts
+    bool is_timed = false;
+    double floor = 0;  ///< see aa_floor(); 0 of other costs
     size_t aa_pairs = 0;
     bool is_judged = true;  ///< false of times whose noise is unknown
 };
 
-Costs costs_of(const StudyTables& tables, const std::string& shot, const std::string& quantity) {
+Costs costs_of(const StudyTables& tables, const std::string& shot, const std::string& cost) {
     Costs costs;
-    if (quantity.empty()) {
+    if (cost_kind(tables, cost) == CostKind::timed) {
+        costs.is_timed = true;
         for (const TimeSummary& t : tables.times)
-            if (t.shot == shot && t.stage == "total") costs.values[{t.variant, t.point}] = t.median;
+            if (t.shot == shot && t.stage == "total") costs.values[{t.variant, t.point}] = {t.median, t.low, t.high};
         for (const TimeRow& t : tables.rounds)
             if (t.shot == shot && t.stage == "total")
                 costs.rounds[{t.variant, t.point}][{t.seed, t.frame}] = t.milliseconds;
@@ -58,7 +60,7 @@ Costs costs_of(const StudyTables& tables, const std::string& shot, const std::st
         costs.aa_pairs = aa_pair_count(tables.manifest, shot);
         return costs;
     }
-    costs.is_counted = true, costs.values = counted_costs(tables, shot, quantity);
+    costs.values = other_costs(tables, shot, cost);
     return costs;
 }
 
@@ -102,16 +104,26 @@ void compare_errors(OpenPair& pair, const Decided<EffectRow>& effects, const Dec
     row.decided_by = "pairs", pair.p = p_by_intervals(a, b);
 }
 
+/// With an interval that holds every pair of values in both; what is alike in all numbers is equal.
+MedianInterval ratio_of(const OtherCost& a, const OtherCost& b) {
+    if (a == b) return {1, 1, 1};
+    return {a.value / b.value, a.low / b.high, a.high / b.low};
+}
+
 void compare_costs(OpenPair& pair, const Costs& costs, const Decided<TimeEffectRow>& effects) {
     const PointName a = name_of(*pair.a), b = name_of(*pair.b);
     const auto of_a = costs.values.find(a), of_b = costs.values.find(b);
-    if (of_a == costs.values.end() || of_b == costs.values.end() || !(of_a->second > 0 && of_b->second > 0)) return;
+    if (of_a == costs.values.end() || of_b == costs.values.end()) return;
+    const OtherCost &cost_a = of_a->second, &cost_b = of_b->second;
+    if (!(cost_a.value > 0 && cost_b.value > 0)) return;
     PairRow& row = pair.row;
-    pair.has_cost = true;
-    const double ratio = of_a->second / of_b->second;
-    pair.cost = {ratio, ratio, ratio};
-    if (costs.is_counted) {
-        row.cost_verdict = ratio < 1 ? verdict::less : ratio > 1 ? verdict::more : verdict::equal;
+    if (!costs.is_timed) {
+        pair.has_cost = true;
+        pair.cost = ratio_of(cost_a, cost_b);
+        row.cost_verdict = pair.cost.high < 1                          ? verdict::less
+                           : pair.cost.low > 1                         ? verdict::more
+                           : pair.cost.low == 1 && pair.cost.high == 1 ? verdict::equal
+                                                                       : verdict::not_distinguishable;
         return;
     }
     std::vector<double> ratios;
@@ -174,16 +186,6 @@ void set_dominance(OpenPair& pair, double floor) {
 }
 
 }  // namespace
-
-std::map<PointName, double> counted_costs(const StudyTables& tables, const std::string& shot,
-                                          const std::string& quantity) {
-    std::map<PointName, double> sums, totals;  // a stage of that name has the sum of all
-    for (const CostRow& c : tables.costs)
-        if (c.shot == shot && c.quantity == quantity)
-            (c.stage == "total" ? totals : sums)[{c.variant, c.point}] += double(c.value);
-    for (const auto& [point, total] : totals) sums[point] = total;
-    return sums;
-}
 
 std::vector<PairRow> pairs_of(const StudyTables& tables, const PrimaryComparisons& error, const std::string& cost) {
     const auto is_of_error = [&](const auto& row) {

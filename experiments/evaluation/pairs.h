@@ -10,7 +10,7 @@ struct PairRow {
     std::optional<double> error_p_holm;   ///< of "both err alike", adjusted; none where they are equal
     std::string error_verdict;            ///< verdict::less if the point errs less, ...
     std::string decided_by;               ///< whose family the p is adjusted for: "standings", "effects" or "pairs"
-    std::optional<double> cost_p_holm;    ///< of "both cost alike"; none of counted costs, which are exact
+    std::optional<double> cost_p_holm;    ///< of "both cost alike"; none of counted and estimated costs
     std::string cost_verdict;             ///< empty where one has no cost, or where none of the shot was timed twice
     std::string dominates, is_dominated;  ///< "yes", "maybe" or "no"; empty without costs
 
@@ -24,18 +24,15 @@ struct PairRow {
     }
 };
 
-/// The points' sums over their stages of a quantity of costs.csv in a shot.
-std::map<PointName, double> counted_costs(const StudyTables& tables, const std::string& shot,
-                                          const std::string& quantity);
-
-/// Every pair of points of each shot that are ranked by the error, once. `cost`: a quantity of costs.csv; "": the total
-/// time of a frame.
+/// Every pair of points of each shot that are ranked by the error, once. `cost`: see cost_kind(); "": the total time of
+/// a frame.
 ///
 /// A pair has one verdict. That of a point and the best measured one is its standing's; that of a comparison which the
 /// study was asked for is its effect's; all others of a shot are a family of their own (p_by_intervals(), which knows
 /// no pairs of seeds, and so is the wider one; Holm 1979). Times go likewise: what is in time_effects.csv is decided
 /// there, all others by the ratios of the frames that both were timed in, and by what copies of one point differ by
-/// (time_ratio()). Counted costs are exact.
+/// (time_ratio()). Counted costs are exact. Of estimated ones a point costs less where its interval ends below the
+/// other's begin.
 ///
 /// A point dominates another that errs more and costs no less, or costs more and errs no less: each of them certain. It
 /// may dominate where neither its cost nor its error is certainly the larger one.

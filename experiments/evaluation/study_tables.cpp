@@ -52,5 +52,7 @@ StudyTables read_study_tables(const std::filesystem::path& folder) {
     tables.effects = read_rows<EffectRow>(file("effects.csv"));
     tables.time_effects = read_rows<TimeEffectRow>(file("time_effects.csv"));
     if (std::filesystem::exists(file("costs.csv"))) tables.costs = read_rows<CostRow>(file("costs.csv"));
+    if (std::filesystem::exists(file("estimates.csv")))
+        tables.estimates = read_rows<EstimateRow>(file("estimates.csv"));
     return tables;
 }

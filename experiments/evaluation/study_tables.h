@@ -15,6 +15,7 @@ struct StudyTables {
     std::vector<EffectRow> effects;           ///< effects.csv
     std::vector<TimeEffectRow> time_effects;  ///< time_effects.csv
     std::vector<CostRow> costs;               ///< costs.csv; empty where none were counted
+    std::vector<EstimateRow> estimates;       ///< estimates.csv; empty where no GPU's times were estimated
 };
 
 /// Fails with Error, which names the member, where a manifest has another kind of value than those who read it expect.

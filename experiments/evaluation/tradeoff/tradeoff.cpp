@@ -86,23 +86,36 @@ void leave_out(std::vector<TradeoffShot>& shots, const std::vector<std::string>&
     for (const std::string& name : names) std::erase_if(shots, has_name(name));
 }
 
+std::string unit_of(CostKind kind, const std::string& cost) {
+    switch (kind) {
+        case CostKind::timed:
+            return unit_of_times;
+        case CostKind::counted:
+            return cost;
+        case CostKind::estimated:
+            return "us on " + cost + ", estimated";
+    }
+    return "";
+}
+
 /// Costs and machines.
-void add_costs(std::vector<TradeoffShot>& shots, const StudyTables& tables, const std::string& quantity) {
+void add_costs(std::vector<TradeoffShot>& shots, const StudyTables& tables, const std::string& cost) {
     std::map<std::string, std::string> machines = machines_of(tables.manifest);
-    if (!quantity.empty() && std::ranges::count(tables.costs, quantity, &CostRow::quantity) == 0)
-        fail("costs.csv has no '", quantity, "'");
+    const CostKind kind = cost_kind(tables, cost);
+    const bool is_timed = kind == CostKind::timed;
     for (TradeoffShot& shot : shots) {
         std::string clock;
-        const std::map<PointName, double> counts = counted_costs(tables, shot.name, quantity);
+        std::map<PointName, OtherCost> others;
+        if (!is_timed) others = other_costs(tables, shot.name, cost);
         for (TradeoffPoint& p : shot.points) {
-            p.row.unit = quantity.empty() ? unit_of_times : quantity;
-            if (const auto count = counts.find(p.name()); count != counts.end()) {
-                p.row.cost = p.row.cost_low = p.row.cost_high = count->second;
-                p.fits_from = p.may_fit_from = count->second;
+            p.row.unit = unit_of(kind, cost);
+            if (const auto other = others.find(p.name()); other != others.end()) {
+                p.row.cost = other->second.value;
+                p.row.cost_low = p.may_fit_from = other->second.low;
+                p.row.cost_high = p.fits_from = other->second.high;
             }
             for (const TimeSummary& t : tables.times) {
-                if (!quantity.empty() || t.shot != shot.name || t.stage != "total" ||
-                    PointName(t.variant, t.point) != p.name())
+                if (!is_timed || t.shot != shot.name || t.stage != "total" || PointName(t.variant, t.point) != p.name())
                     continue;
                 p.row.cost = t.median, p.row.cost_low = t.low, p.row.cost_high = t.high;
                 p.fits_from = t.fits_from, p.may_fit_from = t.may_fit_from, clock = t.clock;
@@ -110,9 +123,9 @@ void add_costs(std::vector<TradeoffShot>& shots, const StudyTables& tables, cons
         }
         const json& entry = entry_of(tables.manifest, shot.name);
         shot.machine = text_of(entry, "width") + "x" + text_of(entry, "height");
-        if (quantity.empty() && clock.empty())
+        if (is_timed && clock.empty())
             shot.machine = "not timed, " + shot.machine;
-        else if (quantity.empty())
+        else if (is_timed)
             shot.machine = (machines.contains(shot.name) ? machines[shot.name] : "machine not known") + ", " + clock +
                            ", " + shot.machine;
     }
@@ -285,6 +298,10 @@ Tradeoff tradeoff_of(const StudyTables& tables, const TradeoffQuestion& question
     }
     add_costs(shots, tables, question.cost);
     Tradeoff found{.baseline = baseline_named(question.baseline, tables.manifest)};
+    found.kind = cost_kind(tables, question.cost), found.unit = unit_of(found.kind, question.cost);
+    std::set<std::string> compared;
+    for (const TradeoffShot& shot : shots) compared.insert(shot.name);
+    found.refused = refused_estimates(tables, compared, question.cost);
     std::map<std::string, std::map<std::pair<PointName, PointName>, std::string>> dominates;
     LessErrors less;
     for (PairRow& pair : pairs_of(tables, question.error, question.cost)) {
@@ -327,8 +344,7 @@ Tradeoff tradeoff_of(const StudyTables& tables, const TradeoffQuestion& question
         for (AcrossRow& row : rows) row.group = group;
         std::ranges::move(rows, std::back_inserter(found.across));
     }
-    const std::string unit = question.cost.empty() ? unit_of_times : question.cost;
-    for (AcrossRow& row : found.across) row.baseline = label_of(labels, found.baseline), row.unit = unit;
-    found.changes = changes_of(tables, question.error, found.front, unit);
+    for (AcrossRow& row : found.across) row.baseline = label_of(labels, found.baseline), row.unit = found.unit;
+    found.changes = changes_of(tables, question.error, found.front, found.unit);
     return found;
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include "experiments/evaluation/other_costs.h"
 #include "experiments/evaluation/pairs.h"
 #include "experiments/evaluation/tradeoff/chosen_points.h"
 
@@ -7,7 +8,7 @@ inline constexpr const char* unit_of_times = "ms";
 /// What `ssrlab tradeoff` is asked (experiments/tradeoff/README.md).
 struct TradeoffQuestion {
     PrimaryComparisons error;
-    std::string cost;      ///< a quantity of costs.csv; "": the median total of a technique's own stages, ms
+    std::string cost;      ///< see cost_kind(); "": the median total of a technique's own stages, ms
     std::string baseline;  ///< VARIANT:POINT; "": baseline_over_scenes()
     std::vector<double> costs;
     std::vector<std::string> left_out;  ///< scenes or shots
@@ -118,6 +119,9 @@ struct Tradeoff {
     std::vector<FrozenPoint> to_freeze;  ///< what a study that judges other scenes should hold as its "frozen"
     std::vector<AcrossRow> across;
     std::vector<ChangeRow> changes;
+    CostKind kind = CostKind::timed;
+    std::string unit;                      ///< of costs
+    std::vector<RefusedEstimate> refused;  ///< points without a cost
 };
 
 /// Fails with Error where the study has no such error, cost, baseline, shot or scene.

@@ -192,7 +192,8 @@ std::vector<ChangeRow> changes_of(const StudyTables& tables, const PrimaryCompar
             change_between(parameters[{e.against_variant, e.against_point}], parameters[{e.variant, e.point}]);
         if (text.empty() || !known.insert(names).second) continue;
         const FrontRow& of = *b->second;
-        const double cost = *a->second->cost, exact = *of.cost / cost;
+        const FrontRow& before = *a->second;
+        const double cost = *before.cost, exact = *of.cost / cost;
         Change& change = changes.emplace_back();
         change.asset = asset_of(tables.manifest, e.shot);
         change.is_error_significant = e.verdict == verdict::less || e.verdict == verdict::more;
@@ -201,16 +202,21 @@ std::vector<ChangeRow> changes_of(const StudyTables& tables, const PrimaryCompar
         row.variant = e.variant, row.point = e.point, row.label = of.label;
         row.against_variant = e.against_variant, row.against_point = e.against_point;
         row.error_ratio = *e.ratio, row.error_low = *e.low_holm, row.error_high = *e.high_holm;
-        std::array<double, 3> ratios = {exact, exact, exact};
+        row.cost_low = row.cost_high = row.cost = (exact - 1) * cost;
         change.is_cost_significant = exact != 1;
+        if (unit != unit_of_times && before.cost_low && of.cost_low) {
+            row.cost = *of.cost - cost;
+            row.cost_low = *of.cost_low - *before.cost_high, row.cost_high = *of.cost_high - *before.cost_low;
+            change.is_cost_significant = *row.cost_low > 0 || *row.cost_high < 0;
+        }
         if (const auto found = time_effects.find(names); found != time_effects.end()) {
             const TimeEffectRow& t = *found->second;
             const bool is_judged = !t.verdict.empty();
-            ratios = {t.ratio, is_judged ? *t.low_holm : t.low, is_judged ? *t.high_holm : t.high};
+            row.cost = (t.ratio - 1) * cost;
+            row.cost_low = ((is_judged ? *t.low_holm : t.low) - 1) * cost;
+            row.cost_high = ((is_judged ? *t.high_holm : t.high) - 1) * cost;
             change.is_cost_significant = t.verdict == verdict::less || t.verdict == verdict::more;
         }
-        row.cost = (ratios[0] - 1) * cost, row.cost_low = (ratios[1] - 1) * cost,
-        row.cost_high = (ratios[2] - 1) * cost;
         row.verdict = verdict_of(change);
         if (has_worth(change))
             set_worth(row, normal_between(normal, std::log(*e.ratio), std::log(*e.low_holm), std::log(*e.high_holm)),

@@ -56,7 +56,7 @@ class Answers:
     def _head(self):
         study, manifest = self.study, self.study.results.manifest
         title = manifest.get("title") or manifest.get("study", {}).get("name", "")
-        lines = [f"# {markdown_text(title)}: error against {'time' if self.unit == 'ms' else self.unit}", ""]
+        lines = [f"# {markdown_text(title)}: error against {'time' if self.study.is_timed else self.unit}", ""]
         if commits := study.commits:
             lines += [f"{markdown_code('ssrlab run ' + manifest['study']['config'])}, commit {markdown_text(commits)}; then `ssrlab tradeoff`.", ""]
         lines.append(
@@ -65,17 +65,27 @@ class Answers:
         )
         machines = self.analysis.machines()
         if not machines:
-            lines.append("Nothing was timed: errors alone are compared." if self.unit == "ms" else f"Nothing has {self.unit}.")
+            lines.append("Nothing was timed: errors alone are compared." if self.study.is_timed else f"Nothing has {self.unit}.")
         elif all(row["cost"] is None for row in study.front):
             lines.append("Nothing was timed here: at a time stands what was chosen for it on the scenes of another study.")
-        elif self.unit == "ms":
+        elif self.study.is_timed:
             lines.append(
                 f"Times are medians of the sum of a technique's own stages. Taken on {'; '.join(map(markdown_text, machines))}."
                 + (" **Times of different machines or sizes are never compared below.**" if len(machines) > 1 else "")
             )
             lines += self._doubts()
+        elif study.costs == "estimated":
+            lines.append(
+                f"{markdown_code(study.unit)}: microseconds that the chip would take for a technique's own stages. **No GPU ran anything**: what is assumed stands in "
+                "core/gpu/chips/README.md, and no interval holds whether that is so. Those of costs hold the sampling of invocations, and code of which it is not known whether it ran."
+            )
         else:
             lines.append(f"{markdown_code(self.study.unit)}: counted over a technique's own stages, without scatter; times may order techniques otherwise.")
+        lines += [
+            f"**{markdown_text(study.label_of(tuple(r['point'])))} has no estimate** in {listed(markdown_text(self.shot_labels[s]) for s in r['shots'])} and is left out there: "
+            f"{markdown_text(r['why'])}."
+            for r in study.asked["refused"]
+        ]
         without = [s.label for s in study.shots if s.divisor is None]
         if without:
             lines.append(
@@ -104,7 +114,7 @@ class Answers:
     def _at_costs(self):
         lines = []
         for machine in self.analysis.machines():
-            lines += [f"## Which technique at which {'time' if self.unit == 'ms' else 'cost'}", "", f"{where(machine)}, over scenes. {self._who_stands()}".rstrip(), ""]
+            lines += [f"## Which technique at which {'time' if self.study.is_timed else 'cost'}", "", f"{where(machine)}, over scenes. {self._who_stands()}".rstrip(), ""]
             lines += table((self.unit, "least error", f"error / {self.base}", "not distinguishable from it"), [self._short(machine, c) for c in self.analysis.costs])
             for cost in self.analysis.costs:
                 lines += self._at_cost(machine, cost)
@@ -273,7 +283,7 @@ class Answers:
     def _floors(self):
         if not self.analysis.fits and not self.analysis.limits:
             return []
-        lines = [f"## What more {'time' if self.unit == 'ms' else self.unit} cannot improve", ""]
+        lines = [f"## What more {'time' if self.study.is_timed else self.unit} cannot improve", ""]
         return lines + self._limits() + self._fits()
 
     def _limits(self):

@@ -15,7 +15,8 @@ TEXTS = ("shot", "scene", "machine", "variant", "point", "label", "unit", "verdi
 
 
 ASKED = {  # asked.json
-    **{"results": str, "out": str, "baseline": [str], "times": [float], "factors": [float], "target": str, "metric": str, "mask": str, "cost": str},
+    **{"results": str, "out": str, "baseline": [str], "times": [float], "factors": [float], "target": str, "metric": str, "mask": str, "costs": str, "unit": str},
+    "refused": [{"point": [str], "shots": [str], "why": str}],
     **{"divisors": {"*": (float, None)}, "chosen": [{"shot": str, "variant": str, "cost": float, "point": str, "chosen_on": str, "fits": str}]},
 }
 
@@ -32,8 +33,8 @@ class Point:
     error_high: float
     seeds: dict  # seed to error; one of a point that does not depend on it
     verdict: str = "front"  # of front.csv
-    rounds: dict = field(default_factory=dict)  # frame to ms: all points took turns in it; none of a counted cost
-    cost: float = None  # median over the rounds (time_summary.csv), or counted; None: not timed
+    rounds: dict = field(default_factory=dict)  # frame to ms: all points took turns in it; none of costs that are not timed
+    cost: float = None  # median over the rounds (time_summary.csv), counted or estimated; None: there is none
     cost_low: float = None
     cost_high: float = None
     disturbed_share: float = 0.0
@@ -75,7 +76,7 @@ def _number(row, column):
 
 
 class Study:
-    """A results folder's shots, of one error (target, metric, mask), by time or by a counted quantity."""
+    """A results folder's shots, of one error (target, metric, mask), by time, by a counted quantity or by a chip's estimated time."""
 
     def __init__(self, folder):
         """`folder`: where `ssrlab tradeoff` wrote what was asked (asked.json) and what it decided."""
@@ -84,9 +85,9 @@ class Study:
         self.commits = commits_of(self.results.manifest)
         self.target, self.metric, self.mask = (self.asked[k] for k in ("target", "metric", "mask"))
         self.baseline = tuple(self.asked["baseline"])
-        self.counted = self.asked["cost"]
-        self.unit = self.counted or "ms"
-        self.has_noise_of_times = bool(self.counted) or "aa_floors" in self.results.manifest.get("clock", {})
+        self.costs, self.unit = self.asked["costs"], self.asked["unit"]
+        self.is_timed = self.costs == "timed"
+        self.has_noise_of_times = not self.is_timed or "aa_floors" in self.results.manifest.get("clock", {})
         self.front, self.across, self.stages = (read_rows(folder, f"{name}.csv") for name in ("front", "across", "stages"))
         self.chosen = {(c["shot"], c["variant"], c["cost"]): c for c in self.asked["chosen"]}
         self.shots = self._shots()
@@ -127,11 +128,11 @@ class Study:
             if self.is_error(rung) and isinstance(rung.get("value"), (int, float))
         }
         proofs = [p.get("verdict") == "passed" for p in clock.get("proofs", []) if name in p.get("shots", [])]
-        floor = 0.0 if self.counted else clock.get("aa_floors", {}).get(name, 0.0)
-        return Shot(name, self.results.shot_label(name), scene, machine, floor, bool(self.counted) or any(proofs), [], ladder, self.asked["divisors"][name])
+        floor = 0.0 if not self.is_timed else clock.get("aa_floors", {}).get(name, 0.0)
+        return Shot(name, self.results.shot_label(name), scene, machine, floor, not self.is_timed or any(proofs), [], ladder, self.asked["divisors"][name])
 
     def _add_rounds(self):
-        if self.counted:
+        if not self.is_timed:
             return
         points = {(s.name, p.variant, p.point): p for s in self.shots for p in s.points}
         for row in self.results.read_csv("times.csv", is_optional=True):

@@ -101,6 +101,34 @@ TEST(Pairs, TakeCountedCostsForExact) {
     EXPECT_EQ(dominance(pair), Dominance("yes", "no"));
 }
 
+/// Which of two costs less is certain where their intervals do not meet.
+TEST(Pairs, KnowWhatIsNotKnownOfEstimatedCosts) {
+    ShotOfPairs shot;
+    for (const char* variant : {"a", "b", "c", "d"}) shot.add_error(variant, 1 + variant[0] - 'a', 0.1);
+    set_standings(shot.tables.errors);
+    const auto add = [&](const char* variant, double microseconds, double low, double high) {
+        EstimateRow row;
+        row.shot = "s", row.variant = variant, row.point = "p", row.chip = "navi21";
+        for (const char* stage : {"total", "march"}) {  // stages are part of the total
+            row.stage = stage, row.microseconds = microseconds, row.low = low, row.high = high;
+            shot.tables.estimates.push_back(row);
+            low = high = microseconds = 500;
+        }
+    };
+    add("a", 10, 9, 11), add("b", 12, 11.5, 13), add("c", 12, 11.5, 13), add("d", 12.5, 0, 14);
+    const auto verdict_of = [&](const std::string& a, const std::string& b) {
+        for (const PairRow& pair : pairs_of(shot.tables, specular_mse, "navi21"))
+            if (pair.variant == a && pair.other_variant == b) return pair.cost_verdict + ", " + pair.dominates;
+        return std::string("no such pair");
+    };
+    EXPECT_EQ(verdict_of("a", "b"), "less, yes");
+    EXPECT_EQ(verdict_of("b", "c"), "equal, yes");
+    EXPECT_EQ(verdict_of("b", "d"), "not distinguishable, maybe");
+    for (EstimateRow& row : shot.tables.estimates)
+        if (row.variant == "b") row.microseconds = row.low = row.high = std::nullopt, row.refusal = "no radv";
+    EXPECT_EQ(verdict_of("a", "b"), ", ") << "without an estimate there is no cost";
+}
+
 TEST(Pairs, AreDecidedWhereTheStudyAskedForThem) {
     ShotOfPairs shot;
     shot.add("best", 0.1, 0.01, 10), shot.add("a", 1.2, 0.3, 20), shot.add("b", 1, 0.3, 10);

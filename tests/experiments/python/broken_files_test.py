@@ -31,7 +31,8 @@ from ssrlab.mistakes import exit_code  # noqa: E402
 
 STRIDE = int(sys.argv.pop()) if len(sys.argv) > 1 else 31
 ASKED = {
-    **{"baseline": ["sssr", "default"], "times": [5], "factors": [0.5], "target": "specular", "metric": "mse", "mask": "all", "cost": ""},
+    **{"baseline": ["sssr", "default"], "times": [5], "factors": [0.5], "target": "specular", "metric": "mse", "mask": "all", "costs": "timed", "unit": "ms"},
+    **{"refused": [{"point": ["sssr", "default"], "shots": ["floor"], "why": "no radv"}]},
     **{"divisors": {"floor": 1, "wall": 1}, "chosen": [{"shot": "floor", "variant": "sssr", "cost": 5, "point": "default", "chosen_on": "all", "fits": "surely"}]},
 }
 FRONT = "shot,scene,machine,variant,point,label,error,error_low,error_high,cost,cost_low,cost_high,verdict\nfloor,s,m,sssr,default,l,1,0.9,1.1,2,1.9,2.1,front\n"

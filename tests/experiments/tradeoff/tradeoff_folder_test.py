@@ -35,6 +35,7 @@ COLUMNS = {  # of the files that ssrlab reads, which refuses those that lack one
     "over_scenes.csv": "target,metric,mask,variant,point,baseline_variant,baseline_point,scenes,shots,ratio,low,high,rank,rank_low,rank_high,over_best,over_best_low,over_best_high,p_holm,standing",
     "time_effects.csv": "shot,variant,point,against,against_variant,against_point,stage,clock,rounds,ratio,low,high,p,p_holm,low_holm,high_holm,verdict",
     "costs.csv": "shot,variant,point,stage,quantity,value",
+    "estimates.csv": "shot,variant,point,stage,chip,product,microseconds,low,high,bound,vector,scalar,shared_memory,textures,targets,memory,latency,caches,waves,active_lanes,unmatched,cut_lanes,refusal",
 }
 NUMBERS = ("seeds", "corrected", "pixels", "non_finite", "negative", "frames", "rounds", "width", "height", "seed", "disturbed", "represents_shot", "ranked", "frame")  # where a row says nothing of them, 0
 
@@ -59,7 +60,7 @@ def write_study(folder):
     names_of_cells = dict(zip((n for n, _ in MACHINES), ("times", "timing")))  # now, and in earlier versions
     keys = {name: tuple(name.partition(":")[::2]) for name in PRESETS}
     keys = {name: (v, p or "default") for name, (v, p) in keys.items()}
-    errors, times, counts, effects = [], [], [], []
+    errors, times, counts, estimates, effects = [], [], [], [], []
     errors += [{"shot": "moon", "variant": "none", "point": "default", "frame": 0, "target": "specular", "metric": "mse", "mask": "reflective", "value": 1, "represents_shot": 1}]
     oracle = {"variant": "oracle", "point": "default", "frame": 0, "target": "specular", "metric": "mse", "mask": "reflective", "represents_shot": 1, "seed": 0}
     errors += [oracle | {"shot": s, "value": 0.01, "low": 0.01, "high": 0.01, "ranked": 1} for s in shots]
@@ -77,6 +78,12 @@ def write_study(folder):
                 times.append(own | {"stage": "v/march", "frame": frame, "milliseconds": 500, "clock": "host_fence"})
                 times.append(own | {"variant": "", "point": "", "stage": "gbuffer/draw", "frame": frame, "milliseconds": 1000, "clock": "host_fence"})
             counts += [own | {"stage": stage, "quantity": "fetches", "value": round(50 * ms)} for stage in ("march", "shade")]
+            on_chip = own | {"chip": "navi21", "product": "Radeon RX 6800 XT"}
+            estimates += [on_chip | {"stage": "march", "microseconds": 500, "low": 500, "high": 500}]
+            if name == "w":
+                estimates += [on_chip | {"stage": "total", "refusal": "march: the compiler ended"}]
+            else:
+                estimates += [on_chip | {"stage": "total", "microseconds": 10 * ms, "low": 9 * ms, "high": 10.5 * ms}]
         compared = {"shot": a_shot, "variant": "v", "point": "rays=2", "against_variant": "v", "against_point": "rays=1", "target": "specular"}
         effects.append(compared | {"metric": "mse", "mask": "reflective", "ratio": 0.5, "low": 0.49, "high": 0.51, "p_holm": 0.001, "low_holm": 0.48, "high_holm": 0.52, "verdict": "less"})
     write_csv(folder, "summary.csv", errors)
@@ -87,6 +94,7 @@ def write_study(folder):
     medians = [own_times(s, *keys[name], 1.01 * ms) for s in shots for name, (ms, _) in PRESETS.items()]
     write_csv(folder, "time_summary.csv", medians)
     write_csv(folder, "costs.csv", counts)
+    write_csv(folder, "estimates.csv", estimates)
     write_csv(folder, "effects.csv", effects)
     of_times = {"variant": "v", "point": "rays=2", "against_variant": "v", "against_point": "rays=1", "stage": "total", "ratio": 2, "low": 2, "high": 2}
     write_csv(folder, "time_effects.csv", [of_times | {"shot": s, "p": 0.001, "p_holm": 0.002, "low_holm": 1.9, "high_holm": 2.1, "verdict": "more"} for s in shots])
@@ -210,7 +218,27 @@ class Folder(unittest.TestCase):
         at = {(r["shot"], r["variant"]): r for r in read(out, "error_at_cost.csv")}
         self.assertAlmostEqual(float(at["floor", "v"]["error"]), 0.8, places=6)
         self.assertEqual({r["cost_low"] for r in read(out, "front.csv") if r["label"] == "w"}, {"600"})
-        self.assertIn("has no 'bytes'", run(self.folder, "--cost", "bytes")[1])
+        self.assertIn("costs.csv has no 'bytes', and estimates.csv no such chip; known are: fetches, navi21", run(self.folder, "--cost", "bytes")[1])
+
+    def test_estimated_times_of_a_chip_take_the_place_of_times(self):
+        out = os.path.join(self.folder, "estimated")
+        self.assertEqual(run(self.folder, "--cost", "navi21", "--times", "41", "100", "--leave-out", "roof", "moon", "sky", "--out", out), (0, ""))
+        front = {(r["shot"], r["label"]): r for r in read(out, "front.csv")}
+        self.assertEqual([float(front["floor", "v rays=1"][c]) for c in ("cost", "cost_low", "cost_high")], [40, 36, 42])
+        self.assertEqual((front["floor", "w"]["cost"], front["floor", "w"]["verdict"]), ("", "no cost"))
+        unit = "us on navi21, estimated"
+        self.assertEqual({r["unit"] for name in ("front", "across", "error_at_cost", "stages") for r in read(out, f"{name}.csv")}, {unit})
+        at = {(r["shot"], r["variant"], float(r["cost"])): r for r in read(out, "error_at_cost.csv")}
+        self.assertEqual(at["floor", "v", 41]["fits"], "maybe")  # its interval ends at 42
+        self.assertEqual((at["floor", "v", 100]["point"], at["floor", "v", 100]["fits"]), ("rays=2", "surely"))
+        change = next(r for r in read(out, "stages.csv") if r["shot"] == "floor")
+        self.assertEqual([float(change[c]) for c in ("cost", "cost_low", "cost_high")], [40, 72 - 42, 84 - 36])
+        with open(os.path.join(out, "answers.md"), encoding="utf-8") as stream:
+            answers = stream.read()
+        self.assertIn("No GPU ran anything", answers)
+        self.assertIn(f"### 100 {unit}", answers)
+        self.assertIn("**w has no estimate** in floor and wall and is left out there: march: the compiler ended.", answers)
+        self.assertIn("did you mean 'navi21'?", run(self.folder, "--cost", "navi2")[1])
 
     def test_a_link_leads_nowhere(self):
         with tempfile.TemporaryDirectory() as strange, tempfile.TemporaryDirectory() as outside:
