@@ -2,6 +2,7 @@
 #include "core/child_process.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/gpu/chips/chip_compiler.h"
 #include "core/path_inside.h"
 #include "experiments/commands/commands.h"
 #include "experiments/config/config.h"
@@ -101,6 +102,8 @@ int tune_command(const TuneOptions& options, const std::vector<std::string>& run
     if (!config.source["tune"].contains("axes"))
         fail(options.config.string(), ": 'tune' has no 'axes'; it can only be extended");
     const std::filesystem::path out = options.out.empty() ? default_results(options.config) : options.out;
+    const json rules = tuning_of(config);
+    if (rules["is_estimated"]) find_chip(rules["time"]);  // or says why it cannot be asked
     json points = json::array();
     for (const VariantConfig& v : config.variants)
         points.push_back({{"variant", v.variant},
@@ -111,7 +114,7 @@ int tune_command(const TuneOptions& options, const std::vector<std::string>& run
                           {"label", v.label},
                           {"baseline", v.is_baseline}});
     const json asked = {{"study", config.source},
-                        {"tune", tuning_of(config)},
+                        {"tune", rules},
                         {"points", points},
                         {"parameters", config_schema(config.variants.front().variant)["properties"]},
                         {"folder", std::filesystem::absolute(options.config).parent_path().string()}};

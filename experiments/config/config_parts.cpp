@@ -1,6 +1,7 @@
 #include "experiments/config/config_parts.h"
 
 #include "core/error.h"
+#include "core/gpu/chips/chip_rates.h"
 #include "core/gpu/pass_cost.h"
 #include "core/near_miss.h"
 #include "experiments/config/conditions.h"
@@ -157,6 +158,7 @@ void check_frozen(ConfigObject& study, const Config& config) {
 Keys tune_keys() {
     std::vector<std::string> times = {milliseconds};
     for (const CostQuantity& quantity : cost_quantities) times.push_back(quantity.name);
+    for (const std::string& chip : chips_with_rates()) times.push_back(chip);
     const Values values = array_of({json::object(), "a value", {}});
     const Values axis = either(values, object_of(axis_keys()));
     Values budget = {{{"type", "number"}, {"exclusiveMinimum", 0}}, "a number above 0", {}};
@@ -169,7 +171,9 @@ Keys tune_keys() {
          "an axis out, the parameter keeps the value that it has at the start"},
         {"start", any_text(), otherwise("the baseline"), "the point that the axes change, by its name"},
         {"time", one_of(times), milliseconds,
-         "what a point takes: the clock's, or a quantity of `costs.csv`, which is exact and needs no quiet machine"},
+         "what a point takes: the clock's, a quantity of `costs.csv`, which is exact and needs no quiet machine, or a "
+         "GPU's "
+         "estimated `total` in `estimates.csv`, which needs none either"},
         {"budgets", array_of(budget), json::array({0.5, 1, 2}),
          "of each the point of least error is found that takes no more than so many times the baseline's time"},
         {"metrics", names_of_metrics(), otherwise("the study's `primary`"),
@@ -193,7 +197,9 @@ void check_tune(ConfigObject& study, Config& config) {
     if (tune.has("axes"))  // which one that others extend may leave to them
         check_axes(tune, make_variant(config.variants.front().variant)->params);
     if (tune["time"] == milliseconds && config.timing.frames == 0)
-        fail(tune.where(), ": needs 'timing' of 15 frames or more, or a counted 'time', such as \"operations\"");
+        fail(tune.where(),
+             ": needs 'timing' of 15 frames or more, a counted 'time', such as \"operations\", or an "
+             "estimated one, such as \"navi21\"");
     if (tune.has("metrics")) tune.known_texts("metrics", config.metrics);
     if (tune.has("target")) tune.known_texts("target", config.targets);
     if (tune.has("mask")) tune.known_texts("mask", config.masks);
@@ -215,6 +221,7 @@ json tuning_of(const Config& config) {
     rules.update(ConfigObject(JsonObject(config.source.at("tune"), where), tune_keys()).values());
     if (rules["metrics"].is_string()) rules["metrics"] = json::array({rules["metrics"]});
     const json seeds = config.source.value("seeds", json(default_seeds));
+    rules["is_estimated"] = chip_rates(rules["time"]).has_value();
     rules["seeds"] = numbers_of(seeds, where);
     rules["judge"]["seeds"] = numbers_of(rules["judge"].value("seeds", seeds), where);
     return rules;

@@ -32,7 +32,7 @@ class Outcome:
         self.tuning, self.race, self.studies = tuning, tuning.race, tuning.studies
         self.results, self.found = judged
         self.points = {**tuning.points, **{p.name: p for p in tuning.tried}}
-        self.unit = "ms" if self.studies.has_clock else self.studies.cost
+        self.unit = "ms" if self.studies.has_clock else f"us on {self.studies.cost}, estimated" if self.studies.is_estimated else self.studies.cost
 
     def write(self):
         self.write_csv()
@@ -56,7 +56,7 @@ class Outcome:
                 error = ratio_of(self.race.error(point))
                 row = [point.name, point.batch, point.stopped, len(point.shots()), point.runs(), error.value, error.low, error.high]
                 values = [point.values.get(name, "") if point.values else point.parameters[name] for name in axes]
-                lines.append(row + [math.exp(self.log_time(point))] + [json.dumps(v) if isinstance(v, bool) else v for v in values])
+                lines.append(row + ["" if point.refusal else math.exp(self.log_time(point))] + [json.dumps(v) if isinstance(v, bool) else v for v in values])
             write_lines(stream, lines)
 
     def file(self, name):
@@ -115,7 +115,7 @@ class Outcome:
         write_text(self.file("presets.json"), json.dumps({"presets": presets}, indent=2) + "\n")
 
     def time_word(self):
-        return "time" if self.studies.has_clock else self.studies.cost
+        return "time" if self.studies.has_clock else f"estimated time on {self.studies.cost}" if self.studies.is_estimated else self.studies.cost
 
     def write_page(self):
         tuning = self.tuning

@@ -33,6 +33,7 @@ class Point:
     values: dict  # of the axes
     errors: dict = field(default_factory=dict)  # (shot, metric) to {seed: (error, standard deviation by the reference's noise)}
     times: dict = field(default_factory=dict)  # shot to the time over the baseline's
+    refusal: str = ""  # why a time was not estimated
     batch: int = 0
     stopped: str = ""  # why
     estimate: tuple = None  # logarithms of error and time over the baseline's, of a point that was stopped

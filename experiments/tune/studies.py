@@ -63,12 +63,12 @@ class Studies:
         self.judged_shots = self._placed(single_shots(judge["shots"]), asked["folder"])
         self.judge_seeds = judge["seeds"]
         self.metrics, self.target, self.mask, self.cost = (self.rules[key] for key in ("metrics", "target", "mask", "time"))
-        self.has_clock = self.cost == "milliseconds"
+        self.has_clock, self.is_estimated = self.cost == "milliseconds", self.rules["is_estimated"]
         self.out, self.command, self.baseline = out, command, baseline
         self.references = {}  # shot to the hashes of its references: errors are paired against the same pixels alone
         self.minutes_file = path_inside(out, "minutes.json")
         self.minutes = {}  # study to what its run took
-        self.counts_of_baseline = {}  # shot to what was counted
+        self.costs_of_baseline = {}  # shot to what was counted or estimated
 
     @staticmethod
     def _placed(shots, folder):
@@ -85,6 +85,8 @@ class Studies:
         timing = self.timing if name == "judged" else self.search_timing
         study["timing"] = timing if is_timed and self.has_clock else {"frames": 0}
         study["costs"] = is_timed and not self.has_clock
+        if self.is_estimated:
+            study["gpu_compilers"] = [self.cost] if is_timed else []
         write_text(config, json.dumps(study, indent=1))  # beside the folder: study.json in it is ssrlab's own
         begin = time.monotonic()
         with open(log_file, "a", encoding="utf-8") as log:
@@ -128,6 +130,7 @@ class Studies:
             point.errors.setdefault((row["shot"], row["metric"]), {})[whole(row, "seed")] = self._error(row)
         for shot, (ratio, _) in self.times_of(results, entry["point"]).items():
             point.times[shot] = ratio
+        point.refusal = point.refusal or self._refusal_of(results, entry["point"])
 
     def _rows(self, results):
         if not hasattr(results, "representative"):
@@ -142,9 +145,10 @@ class Studies:
         return needed_number(row, "value"), 0.0 if None in (low, high) else (high - low) / 2 / NORMAL
 
     def times_of(self, results, point):
-        """Shot to (time over the baseline's, the baseline's) of what a study timed, or counted."""
+        """Shot to (time over the baseline's, the baseline's) of what a study timed, counted or estimated; a shot in which an estimate was
+        refused is missing."""
         base = next((v["point"] for v in results.manifest["variants"] if v.get("label") == self.baseline), None)
-        return self._clock_ratios(results, point, base) if self.has_clock else self._counted_ratios(results, point, base)
+        return self._clock_ratios(results, point, base) if self.has_clock else self._other_ratios(results, point, base)
 
     @staticmethod
     def _clock_ratios(results, point, base):
@@ -157,11 +161,31 @@ class Studies:
         chosen = [r for r in rows if r["point"] == point and r["against"] == "baseline" and r["stage"] == "total"]
         return {r["shot"]: (_positive(r, "ratio"), own[r["shot"]]) for r in chosen if r["shot"] in own}
 
-    def _counted_ratios(self, results, point, base):
-        """Counts of the baseline hold wherever they were taken; a point that does nothing counts as doing 1."""
-        counts = {}
+    def _other_ratios(self, results, point, base):
+        """Costs of the baseline hold wherever they were counted or estimated."""
+        costs = {}
+        for of_point, shot, value in self._estimated(results) if self.is_estimated else self._counted(results):
+            costs.setdefault(of_point, {})[shot] = value
+        self.costs_of_baseline.update(costs.get(base, {}))
+        return {shot: (value / self.costs_of_baseline[shot], self.costs_of_baseline[shot]) for shot, value in costs.get(point, {}).items() if shot in self.costs_of_baseline}
+
+    def _counted(self, results):
+        """(point, shot, count); a point that does nothing counts as doing 1."""
         for row in results.read_csv("costs.csv", is_optional=True):
             if row["stage"] == "total" and row["quantity"] == self.cost:
-                counts.setdefault(row["point"], {})[row["shot"]] = max(needed_number(row, "value"), 1.0)
-        self.counts_of_baseline.update(counts.get(base, {}))
-        return {shot: (value / self.counts_of_baseline[shot], self.counts_of_baseline[shot]) for shot, value in counts.get(point, {}).items() if shot in self.counts_of_baseline}
+                yield row["point"], row["shot"], max(needed_number(row, "value"), 1.0)
+
+    def _estimated(self, results):
+        """(point, shot, microseconds)"""
+        for row in self._totals_of_chip(results):
+            if not row["refusal"]:
+                yield row["point"], row["shot"], _positive(row, "microseconds")
+
+    def _refusal_of(self, results, point):
+        """Why a point's time was not estimated; "" where it was, or needs no estimate."""
+        rows = self._totals_of_chip(results) if self.is_estimated else []
+        return next((r["refusal"] for r in rows if r["point"] == point and r["refusal"]), "")
+
+    def _totals_of_chip(self, results):
+        rows = results.read_csv("estimates.csv", is_optional=True)
+        return [r for r in rows if r["stage"] == "total" and r["chip"] == self.cost]

@@ -29,7 +29,7 @@ from space import Proposals, Space  # noqa: E402
 from studies import Studies, StudyFailed  # noqa: E402
 
 SAME_TIME = {True: 1.05, False: 1.0}  # with a clock, whose noise it is about; with counts, which are exact
-BEYOND = 1.25  # a point that takes so much longer than the largest budget in the first shot is not run in others
+BEYOND = 1.25  # a point that takes so much longer than the largest budget in the first shot is not run in others; what has no time counts as such
 FUTILE = 5  # batches without a point that was not tried before, after which the space counts as searched
 
 
@@ -73,6 +73,8 @@ class Tuning:
         self.points = {name: Point(name, {}) for name in self.names}
         for name in [self.baseline, *self.names]:
             self.studies.read_into(self.points[name], results)
+            if self.points[name].refusal:
+                raise ResultsError(f"{results.folder}: the time of '{name}' on {self.studies.cost} cannot be estimated: {self.points[name].refusal}")
         self.steps = doubling(len(self.studies.shots))
         self.race = Race(self.points[self.baseline], SAME_TIME[self.studies.has_clock], len(self.steps))
         self.baseline_cost = self.cost_of_baseline(results)
@@ -160,16 +162,21 @@ class Tuning:
             self.studies.read_into(point, results)
 
     def those_left(self, points, stage):
-        """Stops those that are significantly worse or take too long."""
+        """Stops those that are significantly worse, take too long, or have no time."""
         left = []
         for point in points:
+            too_long = math.log(max(self.budgets) * BEYOND)
+            if point.refusal:
+                point.stopped = f"after {stage}: no estimate: {point.refusal}"
+                point.estimate = (self.race.error(point).mean, too_long)
+                continue
             beaten = self.race.beaten_by(point)
             time = self.race.log_time(point)
             if beaten:
                 rival, difference = beaten
                 point.stopped = f"after {stage}: worse than {rival.name}"
                 point.estimate = (self.race.mean_log(rival) + difference, time)
-            elif time > math.log(max(self.budgets) * BEYOND):
+            elif time > too_long:
                 point.stopped = f"after {stage}: takes too long"
                 point.estimate = (self.race.error(point).mean, time)
             else:

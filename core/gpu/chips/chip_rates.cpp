@@ -39,9 +39,7 @@ ChipRates gcn(std::string product, unsigned units, double gigahertz, double memo
             .waits_for_stores = true};
 }
 
-}  // namespace
-
-std::optional<ChipRates> chip_rates(const std::string& chip) {
+const std::map<std::string, ChipRates>& all_rates() {
     static const std::map<std::string, ChipRates> known = [] {
         std::map<std::string, ChipRates> rates = {
             {"navi21", rdna("Radeon RX 6800 XT", 72, 2.25, 512, 1024, 128)},
@@ -56,6 +54,18 @@ std::optional<ChipRates> chip_rates(const std::string& chip) {
         gfx1100.slow_double = 32;
         return rates;
     }();
-    const auto found = known.find(chip);
-    return found == known.end() ? std::nullopt : std::optional(found->second);
+    return known;
+}
+
+}  // namespace
+
+std::optional<ChipRates> chip_rates(const std::string& chip) {
+    const auto found = all_rates().find(chip);
+    return found == all_rates().end() ? std::nullopt : std::optional(found->second);
+}
+
+std::vector<std::string> chips_with_rates() {
+    std::vector<std::string> names;
+    for (const auto& [name, rates] : all_rates()) names.push_back(name);
+    return names;
 }

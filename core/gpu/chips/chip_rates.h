@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <vector>
 
 /// What a product with a chip does in a clock, as its vendor or measurements state it; README.md has every source.
 /// Units are its compute units; all rates without another unit are of one of them, per clock.
@@ -32,3 +33,6 @@ struct ChipRates {
 
 /// Of the product that stands for a chip; empty for one without published rates here.
 std::optional<ChipRates> chip_rates(const std::string& chip);
+
+/// The chips that have some, by name.
+std::vector<std::string> chips_with_rates();

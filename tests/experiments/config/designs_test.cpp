@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "experiments/config/conditions.h"
+#include "experiments/config/config_parts.h"
 #include "experiments/config/point_name.h"
 #include "experiments/config/unit_samples.h"
 
@@ -371,6 +372,10 @@ TEST_F(Designs, SearchesAreCheckedBeforeTheyRun) {
     const Config config = read(study(judged + R"(, "time": "operations", "start": "default")"));
     EXPECT_TRUE(config.is_tuned);
     EXPECT_TRUE(config.variants.front().is_baseline);
+    EXPECT_FALSE(tuning_of(config)["is_estimated"]);
+    const Config estimated =
+        read(study(judged + R"(, "time": "navi21")", R"({"variant": "mcguire_dda"})", R"("timing": {"frames": 0},)"));
+    EXPECT_TRUE(tuning_of(estimated)["is_estimated"]);
 
     const auto refuses = [&](const std::string& text, const std::string& why) {
         const std::string mistake = mistake_in(text);
@@ -388,6 +393,7 @@ TEST_F(Designs, SearchesAreCheckedBeforeTheyRun) {
     refuses(study(axes + R"(, "budget": [1])"), "budgets");
     refuses(study(axes + R"(, "budgets": [0])"), "'budgets' must be");
     refuses(study(axes + R"(, "time": "operation")"), "operations");
+    refuses(study(axes + R"(, "time": "navi2")"), "did you mean 'navi21'?");
     refuses(study(axes + R"(, "metrics": "flip")"), "flip");
     refuses(study(axes + R"(, "start": "best")"), "best");
     refuses(study(axes + R"(, "judge": {"shots": []})"), "names no shots");

@@ -44,8 +44,10 @@ def truth(p, shot):
 class FakeSsrlab:
     """Writes what a search reads of a finished study; keeps what it has done, as cells are kept."""
 
-    def __init__(self, fails_at=None):
+    def __init__(self, fails_at=None, is_estimated=False, refuses=None):
+        """`refuses`: whether the chip's compiler refuses a point of these parameters."""
         self.runs, self.calls, self.fails_at = 0, [], fails_at
+        self.is_estimated, self.refuses = is_estimated, refuses or (lambda parameters: False)
 
     def __call__(self, command, **_):
         file, out = command[2], command[command.index("--out") + 1]
@@ -62,7 +64,8 @@ class FakeSsrlab:
         return types.SimpleNamespace(returncode=0)
 
     def write(self, study, out):
-        points, results, costs, effects, times, time_effects, seen = [], [], [], [], [], [], set()
+        points, results, costs, estimates, effects, times, time_effects, seen = [], [], [], [], [], [], [], set()
+        assert study.get("gpu_compilers", []) == (["navi21"] if study["costs"] and self.is_estimated else [])
         for entry in study["variants"]:
             swept = {k: v[0] for k, v in entry["sweep"].items()}
             name = " ".join(f"{k}={v}" for k, v in sorted(swept.items())) or "default"
@@ -83,6 +86,9 @@ class FakeSsrlab:
                     results.append(key | row | {"low": value * 0.999, "high": value * 1.001})
                 if study["costs"]:
                     costs.append(key | {"stage": "total", "quantity": "operations", "value": round(operations)})
+                    is_refused = self.refuses(p["parameters"])
+                    estimate = {"microseconds": "" if is_refused else operations / 100, "refusal": "trace: it ended" if is_refused else ""}
+                    estimates += [key | {"stage": "total", "chip": "navi21"} | estimate, key | {"stage": "trace", "chip": "navi21", "microseconds": 1, "refusal": ""}]
                 if study["timing"]["frames"]:  # of a machine whose speed changes from study to study
                     assert points[0]["parameters"] == DEFAULTS, "times are ratios of the same frames"
                     speed = 1e-3 * (1 + zlib.crc32(out.encode()) % 100 / 100)
@@ -94,7 +100,7 @@ class FakeSsrlab:
         shots = [{"shot": s["scene"], "scene": s["scene"], "references": [{"hash": s["scene"]}]} for s in study["shots"]]
         with open(os.path.join(out, "manifest.json"), "w", encoding="utf-8") as stream:
             json.dump({"variants": points, "shots": shots}, stream)
-        for name, rows in (("results", results), ("costs", costs), ("effects", effects), ("summary", []), ("time_summary", times), ("time_effects", time_effects)):
+        for name, rows in (("results", results), ("costs", costs), ("estimates", estimates), ("effects", effects), ("summary", []), ("time_summary", times), ("time_effects", time_effects)):
             with open(os.path.join(out, name + ".csv"), "w", newline="", encoding="utf-8") as stream:
                 writer = csv.DictWriter(stream, rows[0].keys() if rows else ["shot", "frame", "represents_shot", "standing", "dominated", "fits_from_ms"])
                 writer.writeheader()
@@ -110,7 +116,7 @@ def search(folder, fake, rules=None):
     """Exit code, what was said."""
     given = [("default", {}, True), ("rays=2", {"rays": 2}, False)]
     points = [{"variant": "sssr", "preset": "", "parameters": s, "swept": s, "point": n, "label": "", "baseline": b} for n, s, b in given]
-    rules = {"axes": AXES, "start": "default", "time": "operations", "metrics": ["mse"], "target": "specular", "mask": "all", "seeds": [0, 1, 2, 3],
+    rules = {"axes": AXES, "start": "default", "time": "operations", "is_estimated": False, "metrics": ["mse"], "target": "specular", "mask": "all", "seeds": [0, 1, 2, 3],
              "budgets": [1, 2], "most_runs": 1000, "most_minutes": 1e7, "batch": 8, "seed": 0,
              "judge": {"shots": [{"scene": [f"unseen {i}" for i in range(4)]}], "seeds": [0, 1]}} | (rules or {})  # fmt: skip
     study = {"title": "made up", "shots": [{"scene": SHOTS}], "seeds": 4, "timing": {"frames": 15}}
@@ -194,6 +200,32 @@ def test_clock(folder):
     check(times[0] == times[1] and len(times[0]) > 3, f"{times[0]} differ from {times[1]}")
 
 
+def test_estimates(folder):
+    """With a chip's estimated times the search is that by what they are proportional to; what its compiler refuses is stopped and said."""
+    times = []
+    for name, rules in (("counted", {}), ("estimated", {"time": "navi21", "is_estimated": True})):
+        os.makedirs(os.path.join(folder, name))
+        code, said = search(os.path.join(folder, name), FakeSsrlab(is_estimated=bool(rules)), {"most_runs": 240, **rules})
+        check(code == 0, said)
+        times.append([(r["point"], round(float(r["time"]), 3)) for r in read(os.path.join(folder, name), "tune.csv")])
+    check(times[0] == times[1] and len(times[0]) > 10, f"{times[0]} differ from {times[1]}")
+    page = read(os.path.join(folder, "estimated"), "tuned.md")
+    check("15 us on navi21, estimated" in page and "| estimated time on navi21 |" in page, page)
+
+    refusing = os.path.join(folder, "refusing")
+    os.makedirs(refusing)
+    code, said = search(refusing, FakeSsrlab(is_estimated=True, refuses=lambda p: p["rays"] == 4), {"time": "navi21", "is_estimated": True, "most_runs": 400})
+    check(code == 0, said)
+    refused = [r for r in read(refusing, "tune.csv") if r["rays"] == "4"]
+    check(refused and all(r["stopped"] == "after 1 of 4 shots: no estimate: trace: it ended" and r["time"] == "" for r in refused), f"{refused}")
+    check('"rays": 4' not in read(refusing, "presets.json"), "what has no time is within no budget")
+
+    start = os.path.join(folder, "start")
+    os.makedirs(start)
+    code, said = search(start, FakeSsrlab(is_estimated=True, refuses=lambda p: p["rays"] == 2), {"time": "navi21", "is_estimated": True})
+    check(code == 2 and "the time of 'rays=2' on navi21 cannot be estimated: trace: it ended" in said, f"{code} {said}")
+
+
 def test_small_space(folder):
     """Where there is nothing else to try, nothing is tried again, and the search ends."""
     code, said = search(folder, FakeSsrlab(), {"axes": {"rays": [1, 2, 4]}})
@@ -266,6 +298,8 @@ def main():
         test_interruption(folder)
     with tempfile.TemporaryDirectory() as folder:
         test_clock(folder)
+    with tempfile.TemporaryDirectory() as folder:
+        test_estimates(folder)
     with tempfile.TemporaryDirectory() as folder:
         test_small_space(folder)
 
