@@ -5,6 +5,8 @@
 #include "experiments/measuring/render_variant.h"
 #include "variants/registry.h"
 
+#include <tbb/parallel_for.h>
+
 namespace {
 
 constexpr std::array wave_widths = {32u, 64u};
@@ -17,8 +19,10 @@ TracedFrame::Pass traced_pass(const PassTrace& trace) {
                            .traced = {}};
     for (const unsigned width : wave_widths) {
         std::vector<WaveCounts>& groups = pass.traced[width];
-        for (unsigned place = 0; place < trace.layout.chosen; ++place)
-            groups.push_back(replay(pass.flow, lanes_of(trace.layout, trace.content, place), width));
+        groups.resize(trace.layout.chosen);
+        tbb::parallel_for(0u, trace.layout.chosen, [&](unsigned place) {
+            groups[place] = replay(pass.flow, lanes_of(trace.layout, trace.content, place), width);
+        });
     }
     return pass;
 }

@@ -30,6 +30,8 @@ constexpr unsigned few_samples = 32, many_samples = 128;
 /// rays of three rooms the latter has 0.46 to 0.54. Both trace the first hits.
 constexpr double lit_share = 0.6, specular_share = 0.5;
 constexpr double clock_proof_seconds = 5, compiling_seconds = 0.3, counting_factor = 5;
+constexpr double chip_seconds = 1;     // of one chip's compiler for the passes of a point
+constexpr double tracing_factor = 15;  // a traced frame, with the replay of its waves, takes so many others
 
 double seconds_of(const std::function<void()>& work) {
     const auto start = std::chrono::steady_clock::now();
@@ -249,8 +251,7 @@ public:
             case CellKind::renders:
                 return of_renders(*cell.variant, shot);
             case CellKind::costs:
-                // Frames before the last are rendered as they are; counting takes several times a frame.
-                return frame_of(*cell.variant, shot) * (cell.units + counting_factor) + compiling_seconds;
+                return of_costs(cell, shot);
             case CellKind::times:
                 return rates_.opening.at(pixels) + of_times(shot, others) + std::exchange(proof_seconds_, 0.0);
         }
@@ -261,6 +262,18 @@ public:
     unsigned copies_timed() const { return config_.timing.has_copies ? 3 : 1; }
 
 private:
+    double of_costs(const PlannedCell& cell, const ShotConfig& shot) const {
+        const double frame = frame_of(*cell.variant, shot), chips = double(config_.gpu_compilers.size());
+        // Frames before the last are rendered as they are; counting takes several times a frame.
+        const double counted = frame * (cell.units + counting_factor) + compiling_seconds;
+        double seconds = config_.counts_costs ? counted : 0;
+        if (chips > 0) seconds += 2 * frame + chips * chip_seconds;
+        // Once more counted, and once traced.
+        if (config_.counts_costs && chips > 0)
+            seconds += 2 * counted + frame * tracing_factor + chips * 2 * chip_seconds;
+        return seconds;
+    }
+
     double of_references(const ShotConfig& shot, double frames) const {
         if (!config_.has_reference || !shot.gbuffer.empty()) return 0;
         const double compared = double(compared_frames({.config = shot, .steps = timeline(shot)}).size());
