@@ -7,8 +7,13 @@ float walk(ivec2 pixel, int rounds) {
     float sum = 0.0;
     for (int round = 0; round < rounds; ++round) {
         for (int step = 0; step < (pixel.x + round) % 3; ++step) {
-            sum += texelFetch(source, ivec2(step, round & 3), 0).x;
-            if (sum > 900.0) return sum;
+            if (((pixel.x + step) & 1) == 0) {
+                sum += texelFetch(source, ivec2(step, round & 3), 0).x;
+                if (sum > 3.5) return sum;
+            } else {
+                sum += texelFetch(source, ivec2(round & 3, step), 0).y;
+                if (sum > 5.5) return sum;
+            }
         }
         if (round == pixel.y) break;
     }

@@ -4,6 +4,7 @@
 #include "core/gpu/spirv_module.h"
 
 #include <algorithm>
+#include <functional>
 #include <spirv-tools/optimizer.hpp>
 
 namespace {
@@ -19,6 +20,22 @@ bool reads_or_writes_memory(const SpirvModule& module, const SpirvInstruction& i
     if (i.op == spv::OpStore) return is_memory(i[1]);
     return i.op == spv::OpControlBarrier ||
            (i.op >= spv::OpGroupNonUniformElect && i.op <= spv::OpGroupNonUniformQuadSwap);
+}
+
+/// The structured order of SPIR-V ("Structured Control Flow"): depth first, what follows a construct before what it
+/// holds, and backwards.
+void set_ranks(ShaderFlow& flow, const std::map<unsigned, std::vector<unsigned>>& behind) {
+    std::vector<bool> is_seen(flow.blocks.size(), false);
+    unsigned rank = unsigned(flow.blocks.size());
+    const std::function<void(unsigned)> visit = [&](unsigned block) {
+        if (is_seen[block]) return;
+        is_seen[block] = true;
+        if (const auto targets = behind.find(block); targets != behind.end())
+            for (const unsigned target : targets->second) visit(target);
+        for (const unsigned next : flow.blocks[block].successors) visit(next);
+        flow.blocks[block].rank = --rank;
+    };
+    visit(0);
 }
 
 }  // namespace
@@ -50,6 +67,7 @@ ShaderFlow flow_of(const PipelineRecipe& simplified) {
     const SpirvModule module(instructions);
     ShaderFlow flow;
     std::map<unsigned, unsigned> places;
+    std::map<unsigned, std::vector<unsigned>> behind;  ///< of a construct's first block: its merge and continue target
     for (const SpirvInstruction& i : instructions)
         if (i.op == spv::OpLabel) {
             places[i[1]] = unsigned(flow.blocks.size());
@@ -67,6 +85,9 @@ ShaderFlow flow_of(const PipelineRecipe& simplified) {
         block->fetches += is_sample(i.op) || is_gather(i.op) || is_texel_fetch(i.op) || is_image_atomic;
         block->has_memory = block->has_memory || reads_or_writes_memory(module, i);
         block->is_loop_header = block->is_loop_header || i.op == spv::OpLoopMerge;
+        const unsigned here = unsigned(block - flow.blocks.data());
+        if (i.op == spv::OpSelectionMerge) behind[here] = {places.at(i[1])};
+        if (i.op == spv::OpLoopMerge) behind[here] = {places.at(i[1]), places.at(i[2])};
         if (i.op == spv::OpBranch) block->successors = {places.at(i[1])};
         if (i.op == spv::OpBranchConditional) {
             block->successors = {places.at(i[2]), places.at(i[3])};
@@ -79,8 +100,7 @@ ShaderFlow flow_of(const PipelineRecipe& simplified) {
         }
     }
     if (functions != 1) fail("a shader of ", functions, " functions cannot be followed");
-    const std::vector<unsigned> reconvergence = nearest_postdominators(graph_of(flow));
-    for (size_t b = 0; b < flow.blocks.size(); ++b) flow.blocks[b].reconvergence = reconvergence[b];
+    set_ranks(flow, behind);
     return flow;
 }
 

@@ -12,10 +12,12 @@ struct ShaderFlow {
         std::vector<unsigned> successors;  ///< places in `blocks`; of a branch: where true, where false
         /// Of a trace: a branch takes one bit, a switch one for each of its cases, in order, in front of its default.
         unsigned decisions = 0;
-        unsigned reconvergence = 0;  ///< the nearest block that all ways from here meet again; blocks.size(): the end
-        unsigned operations = 0;     ///< scalar arithmetic, as the module states it
-        unsigned fetches = 0;        ///< instructions that read images
-        bool has_memory = false;     ///< it reads or writes images, buffers or the workgroup's memory
+        /// In the order in which a wave runs blocks: those of a construct before those behind it, so that lanes that
+        /// leave it early wait there.
+        unsigned rank = 0;
+        unsigned operations = 0;  ///< scalar arithmetic, as the module states it
+        unsigned fetches = 0;     ///< instructions that read images
+        bool has_memory = false;  ///< it reads or writes images, buffers or the workgroup's memory
         bool is_loop_header = false;
     };
     std::vector<Block> blocks;  ///< the first is where the shader starts

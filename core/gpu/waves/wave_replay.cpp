@@ -3,6 +3,7 @@
 #include "core/error.h"
 
 #include <bit>
+#include <map>
 
 namespace {
 
@@ -15,58 +16,37 @@ public:
         : flow_(flow), lanes_(lanes), next_(lanes.size()), counts_(counts) {}
 
     void run() {
-        Mask started = 0;
         for (size_t lane = 0; lane < lanes_.size(); ++lane)
-            if (lanes_[lane].has_run) started |= Mask(1) << lane;
-        if (!started) return;
-        ++counts_.started;
-        const unsigned end = unsigned(flow_.blocks.size());
-        std::vector<Part> parts = {{.block = 0, .until = end, .lanes = started}};
-        while (!parts.empty()) {
-            Part& part = parts.back();
-            part.lanes &= ~ended_;
-            if (part.block == part.until || part.block == end || !part.lanes) {
-                parts.pop_back();
-                continue;
-            }
-            counts_.waves[part.block] += 1;
-            counts_.lanes[part.block] += unsigned(std::popcount(part.lanes));
-            go_on(parts);
+            if (lanes_[lane].has_run) go_to(0, Mask(1) << lane);
+        counts_.started += !at_.empty();
+        while (!at_.empty()) {
+            const auto [block, lanes] = at_.begin()->second;
+            at_.erase(at_.begin());
+            counts_.waves[block] += 1;
+            counts_.lanes[block] += unsigned(std::popcount(lanes));
+            go_on(flow_.blocks[block], lanes);
         }
     }
 
 private:
-    /// Lanes that go together until a block that others of the wave wait at.
-    struct Part {
-        unsigned block, until;
+    struct Place {
+        unsigned block;
         Mask lanes;
     };
 
-    void go_on(std::vector<Part>& parts) {
-        Part& part = parts.back();
-        const ShaderFlow::Block& block = flow_.blocks[part.block];
-        if (block.successors.empty()) {
-            ended_ |= part.lanes;
-            return;
-        }
-        std::vector<Mask> by_successor(block.successors.size(), 0);
-        for (size_t lane = 0; lane < lanes_.size(); ++lane) {
-            if (!(part.lanes >> lane & 1)) continue;
-            const std::optional<unsigned> way = decide(lane, block);
-            if (way)
-                by_successor[*way] |= Mask(1) << lane;
+    void go_to(unsigned block, Mask lanes) {
+        at_.try_emplace(flow_.blocks[block].rank, Place{block, 0}).first->second.lanes |= lanes;
+    }
+
+    void go_on(const ShaderFlow::Block& block, Mask lanes) {
+        if (block.successors.empty()) return;
+        for (; lanes; lanes &= lanes - 1) {
+            const auto lane = size_t(std::countr_zero(lanes));
+            if (const std::optional<unsigned> way = decide(lane, block))
+                go_to(block.successors[*way], Mask(1) << lane);
             else
-                ended_ |= Mask(1) << lane, ++counts_.cut;
+                ++counts_.cut;
         }
-        std::vector<Part> ways;
-        for (size_t s = 0; s < block.successors.size(); ++s)
-            if (by_successor[s]) ways.push_back({block.successors[s], block.reconvergence, by_successor[s]});
-        if (ways.size() == 1) {
-            part.block = ways.front().block;
-            return;
-        }
-        part.block = block.reconvergence;  // where those wait that are there already
-        parts.insert(parts.end(), ways.begin(), ways.end());
     }
 
     /// The successor that a lane takes; nothing where its trace ends.
@@ -84,8 +64,8 @@ private:
 
     const ShaderFlow& flow_;
     const std::span<const LaneTrace> lanes_;
-    std::vector<uint64_t> next_;  ///< decision, by lane
-    Mask ended_ = 0;
+    std::vector<uint64_t> next_;    ///< decision, by lane
+    std::map<unsigned, Place> at_;  ///< by rank, where lanes are
     WaveCounts& counts_;
 };
 

@@ -20,8 +20,9 @@ struct LaneTrace {
     std::span<const uint32_t> words;
 };
 
-/// Runs the lanes of a group again as waves of `width` lanes, in their order. All lanes of a wave go the same way
-/// together; where their decisions differ the wave goes each way with the lanes that take it, and they meet again at
-/// the reconvergence of the block, as chips do it that mask lanes out (Fung et al. 2007, "Dynamic Warp Formation and
-/// Scheduling for Efficient GPU Control Flow", section 3: reconvergence at the immediate post-dominator).
+/// Runs the lanes of a group again as waves of `width` lanes, in their order. Of the blocks that lanes are at, a wave
+/// runs the one of the lowest rank, with all lanes that are there; the others wait. So lanes go on together behind a
+/// branch, and at the end of a loop's turn, also where some of them have left the loop: as chips do it that mask lanes
+/// out by the structure of the program, and as Diamos et al. 2011, "SIMD Re-Convergence at Thread Frontiers", do it.
+/// The nearest post-dominator, which other simulators wait at, lies behind the loop for every branch that may leave it.
 WaveCounts replay(const ShaderFlow& flow, std::span<const LaneTrace> group, unsigned width);

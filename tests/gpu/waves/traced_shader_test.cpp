@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <set>
 
 namespace {
 
@@ -36,12 +37,19 @@ struct TracedShader : testing::TestWithParam<Clock> {
 
 /// What wave_paths.comp does in a pixel, written down again.
 struct Path {
-    std::vector<int> steps;  ///< turns of the inner loop by those of the outer one
+    std::vector<std::vector<int>> arms;  ///< which arm each turn of the inner loop takes, by the turns of the outer one
 };
 Path path_of(glm::ivec2 pixel) {
     Path path;
+    float sum = 0;
     for (int round = 0; round < pixel.x % 5; ++round) {
-        path.steps.push_back((pixel.x + round) % 3);
+        path.arms.emplace_back();
+        for (int step = 0; step < (pixel.x + round) % 3; ++step) {
+            const int arm = (pixel.x + step) & 1;
+            path.arms.back().push_back(arm);
+            sum += arm == 0 ? 1.0f : 2.0f;
+            if (sum > (arm == 0 ? 3.5f : 5.5f)) return path;
+        }
         if (round == pixel.y) break;
     }
     return path;
@@ -78,22 +86,23 @@ TEST_P(TracedShader, WavesTakeTheTurnsOfTheirBusiestLanes) {
                     const glm::ivec2 pixel(group % 3 * 8 + int(lane % 8), group / 3 * 8 + int(lane / 8));
                     if (pixel.x < 20 && pixel.y < 13) paths.push_back(path_of(pixel));
                 }
-                for (size_t round = 0; round < 4; ++round) {
-                    int longest = 0;
-                    for (const Path& path : paths)
-                        if (round < path.steps.size()) {
-                            longest = std::max(longest, path.steps[round]);
-                            lane_turns += uint64_t(path.steps[round]);
-                        }
-                    turns += uint64_t(longest);
-                }
+                for (size_t round = 0; round < 4; ++round)
+                    for (size_t step = 0; step < 2; ++step) {
+                        std::set<int> arms;  // a wave runs each that one of its lanes takes
+                        for (const Path& path : paths)
+                            if (round < path.arms.size() && step < path.arms[round].size()) {
+                                arms.insert(path.arms[round][step]);
+                                ++lane_turns;
+                            }
+                        turns += arms.size();
+                    }
             }
         WaveCounts counts;
         for (unsigned place = 0; place < 6; ++place)
             counts.add(replay(flow, lanes_of(trace.layout, trace.content, place), width));
         EXPECT_EQ(counts.started, 6u * 64 / width);
         EXPECT_EQ(counts.lanes[0], 6u * 64) << "those beyond the edge start, too";
-        // The body of the inner loop is the only block that fetches and is in a loop.
+        // The arms in the inner loop are the only blocks that fetch and are in a loop.
         const std::vector<unsigned> depth = loop_depths(graph_of(flow));
         uint64_t found = 0, found_lanes = 0;
         for (size_t b = 0; b < flow.blocks.size(); ++b)
@@ -124,7 +133,7 @@ TEST_P(TracedShader, ChosenGroupsStandForAll) {
     double all = 0;
     for (int y = 0; y < 512; ++y)
         for (int x = 0; x < 1024; ++x)
-            for (const int steps : path_of({x, y}).steps) all += steps;
+            for (const std::vector<int>& steps : path_of({x, y}).arms) all += double(steps.size());
     const double count = trace.layout.chosen, mean = sum / count, truth = all / trace.layout.groups,
                  error = std::sqrt((squares / count - mean * mean) / count);
     EXPECT_GT(error, 0);

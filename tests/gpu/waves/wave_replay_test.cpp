@@ -26,13 +26,12 @@ WaveCounts replayed(const ShaderFlow& flow, const std::vector<Decisions>& lanes,
 }
 
 /// 0; while (decision 1) { while (decision 2) 3; 4 } 5. Reconvergence: the block behind each loop.
-const ShaderFlow nested_loops{
-    {{.label = 0, .successors = {1}, .reconvergence = 1},
-     {.label = 1, .successors = {2, 5}, .decisions = 1, .reconvergence = 5, .is_loop_header = true},
-     {.label = 2, .successors = {3, 4}, .decisions = 1, .reconvergence = 4, .is_loop_header = true},
-     {.label = 3, .successors = {2}, .reconvergence = 2},
-     {.label = 4, .successors = {1}, .reconvergence = 1},
-     {.label = 5, .reconvergence = 6}}};
+const ShaderFlow nested_loops{{{.label = 0, .successors = {1}, .rank = 0},
+                               {.label = 1, .successors = {2, 5}, .decisions = 1, .rank = 1, .is_loop_header = true},
+                               {.label = 2, .successors = {3, 4}, .decisions = 1, .rank = 2, .is_loop_header = true},
+                               {.label = 3, .successors = {2}, .rank = 3},
+                               {.label = 4, .successors = {1}, .rank = 4},
+                               {.label = 5, .rank = 5}}};
 
 }  // namespace
 
@@ -82,20 +81,53 @@ TEST(WaveReplay, LoopsTakeAsLongAsTheBusiestLane) {
 /// A switch of two cases and a default, one of which ends the lane: the wave goes each way that one of its lanes takes,
 /// and only what is left goes on.
 TEST(WaveReplay, WavesGoEachWayThatALaneTakes) {
-    const ShaderFlow flow{{{.label = 0, .successors = {1, 2, 3}, .decisions = 2, .reconvergence = 5},
-                           {.label = 1, .successors = {4}, .reconvergence = 4},
-                           {.label = 2, .reconvergence = 5},
-                           {.label = 3, .successors = {4}, .reconvergence = 4},
-                           {.label = 4, .reconvergence = 5}}};
+    const ShaderFlow flow{{{.label = 0, .successors = {1, 2, 3}, .decisions = 2, .rank = 0},
+                           {.label = 1, .successors = {4}, .rank = 1},
+                           {.label = 2, .rank = 2},
+                           {.label = 3, .successors = {4}, .rank = 3},
+                           {.label = 4, .rank = 4}}};
     const auto lane = [](int way) {
         Decisions decisions;
         decisions.add(way == 0), decisions.add(way == 1);
         return decisions;
     };
-    EXPECT_EQ(replayed(flow, {lane(0), lane(1), lane(2), lane(2)}, 4).waves,
-              (std::vector<uint64_t>{1, 1, 1, 1, 2}));  // nothing brings them together before the end
+    EXPECT_EQ(replayed(flow, {lane(0), lane(1), lane(2), lane(2)}, 4).waves, (std::vector<uint64_t>{1, 1, 1, 1, 1}));
     EXPECT_EQ(replayed(flow, {lane(2), lane(2)}, 4).waves, (std::vector<uint64_t>{1, 0, 0, 1, 1}));
     EXPECT_EQ(replayed(flow, {lane(1)}, 4).waves, (std::vector<uint64_t>{1, 0, 1, 0, 0}));
+}
+
+/// A loop whose branch has a way out of the loop in both of its arms: those that stay go on together in each turn, as
+/// the sets of lanes in the test below say, though the branch's nearest post-dominator is the end of the loop.
+TEST(WaveReplay, LanesMeetAtTheEndOfATurnThoughOthersLeftTheLoop) {
+    const ShaderFlow flow{{{.label = 0, .successors = {1}, .rank = 0},
+                           {.label = 1, .successors = {2, 3}, .decisions = 1, .rank = 1, .is_loop_header = true},
+                           {.label = 2, .successors = {5, 4}, .decisions = 1, .rank = 2},
+                           {.label = 3, .successors = {5, 4}, .decisions = 1, .rank = 3},
+                           {.label = 4, .successors = {1}, .rank = 4},
+                           {.label = 5, .rank = 5}}};
+    std::mt19937 random(2);
+    std::vector<Decisions> lanes(64);
+    std::vector<std::vector<bool>> arms(lanes.size());  // by lane: in each turn, whether it takes the first
+    for (size_t lane = 0; lane < lanes.size(); ++lane) {
+        arms[lane].resize(1 + random() % 20);
+        for (size_t turn = 0; turn < arms[lane].size(); ++turn) {
+            arms[lane][turn] = random() % 2;
+            lanes[lane].add(arms[lane][turn]);
+            lanes[lane].add(turn + 1 == arms[lane].size());
+        }
+    }
+    std::vector<uint64_t> expected = {1, 0, 0, 0, 0, 1};
+    for (size_t turn = 0; turn < 20; ++turn) {
+        bool has_first = false, has_second = false, has_next = false;
+        for (const std::vector<bool>& lane : arms) {
+            if (turn >= lane.size()) continue;
+            (lane[turn] ? has_first : has_second) = true;
+            has_next = has_next || turn + 1 < lane.size();
+        }
+        expected[1] += has_first || has_second, expected[2] += has_first, expected[3] += has_second;
+        expected[4] += has_next;
+    }
+    EXPECT_EQ(replayed(flow, lanes, 64).waves, expected);
 }
 
 TEST(WaveReplay, LanesWithoutARecordDoNotRunAndLongOnesAreCut) {
