@@ -5,6 +5,7 @@
 #include "core/files.h"
 #include "core/json.h"
 #include "core/scene/load_scene.h"
+#include "experiments/measuring/costs/gpu_estimates.h"
 #include "experiments/run/shots/shot_cells.h"
 #include "experiments/run/study_results.h"
 #include "experiments/store/finished_run.h"
@@ -145,7 +146,7 @@ private:
     void keep_finished(const std::vector<std::string>& lines) const {
         const bool has_more_to_say = std::ranges::any_of(study_.finished, [&](const Cell& cell) {
             return (!cell.timing.is_null() && cell.provenance.at("host") != study_.maker.at("host")) ||
-                   !refusal_in(cell.compiled).empty();
+                   !refusal_in(cell.compiled).empty() || !refusal_in(cell.estimates).empty();
         });
         if (!has_more_to_say) keep_finished_run(study_.settings.out, key_of_run(study_), lines);
     }

@@ -41,7 +41,7 @@ struct CompiledPipeline {
 struct ChipCompilation {
     /// Folder of what is known already, by recipe, chip and driver, in its folder `chips`; empty: none.
     std::filesystem::path cache;
-    bool has_assembly = false;                       ///< which is not cached
+    bool has_assembly = false;
     std::function<void(const std::string&)> notice;  ///< gets a sentence for the user
 };
 

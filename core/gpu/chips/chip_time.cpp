@@ -16,11 +16,10 @@ double ChipTime::most() const {
     return longest;
 }
 
-double ChipTime::at_most() const { return std::max(most(), caches); }
-
 ChipTime chip_time(const StageWork& stage, const PassCost& cost, const ChipRates& rates) {
     const double clocks_per_microsecond = rates.gigahertz * 1e3, simds = double(rates.units) * rates.simds;
-    const double texel = cost.texels ? double(cost.bytes_read) / double(cost.texels) : 0;  // bytes, of the mean one
+    // Bytes of the mean texel. What is read from buffers is among them, so that a few texels would seem too large.
+    const double texel = cost.texels ? std::min(16.0, double(cost.bytes_read) / double(cost.texels)) : 0;
     const double units = rates.units, bytes = double(cost.bytes_read + cost.bytes_written);
     const ChipWork& work = stage.work;
     const double load = std::max(1 / rates.loaded_lanes, texel / rates.loaded_bytes);

@@ -7,7 +7,7 @@ struct StageWork {
     ChipWork work;
     double waves = 0;
     double resident_latency = 0;  ///< the sum of the latencies of all waves, each divided by the waves of its SIMD
-    double longest_wave = 0;      ///< clocks; the sum over passes of the mean wave's latency: they follow each other
+    double longest_wave = 0;  ///< clocks; the sum over passes of their longest wave's latency: they follow each other
 
     /// As many waves that do `factor` times as much, but for the longest.
     StageWork times(double factor) const;
@@ -27,8 +27,7 @@ struct ChipTime {
     double caches =
         0;  ///< each byte that is asked for through the last cache: more than the truth, since others hold it
 
-    double most() const;     ///< of all but the last
-    double at_most() const;  ///< of all
+    double most() const;  ///< of all but the last
 };
 
 struct ChipTimePart {

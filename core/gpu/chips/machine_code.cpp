@@ -57,11 +57,13 @@ Unit unit_of(std::string_view name) {
 
 double vector_clocks(std::string_view name, unsigned lanes, const ChipRates& rates) {
     const double whole = std::max(1.0, double(lanes) / rates.simd_lanes);
+    if (name.find("_f64") != name.npos) return whole * rates.slow_double;
+    if (is_one_of(name, {"v_mad_u64", "v_mad_i64", "v_lshlrev_b64", "v_lshrrev_b64", "v_ashrrev_i64"}))
+        return whole * 2;
     if (is_one_of(name, {"v_rcp_", "v_rsq_", "v_sqrt_", "v_exp_", "v_log_", "v_sin_", "v_cos_"}))
         return whole * rates.slow;
     if (is_one_of(name, {"v_mul_lo_u32", "v_mul_lo_i32", "v_mul_hi_u32", "v_mul_hi_i32"}))
         return whole * rates.slow_integer;
-    if (name.find("_f64") != name.npos) return whole * rates.slow_double;
     return whole;
 }
 

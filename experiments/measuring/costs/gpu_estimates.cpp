@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <span>
 
 namespace {
 
@@ -33,8 +34,7 @@ void add_pass(StageEstimate& stage, const TracedFrame::Pass& pass, const ShaderW
     if (groups.empty()) return;
     const double scale = double(pass.groups) / double(groups.size());
     StageEstimate::Sample sample{.scale = scale, .groups = {}};
-    ChipWork of_pass;
-    double waves = 0;
+    double longest_wave = 0;
     for (const WaveCounts& group : groups) {
         auto& [work, fetches] = sample.groups.emplace_back();
         ChipWork uncertain;
@@ -56,24 +56,18 @@ void add_pass(StageEstimate& stage, const TracedFrame::Pass& pass, const ShaderW
         stage.uncertain.resident_latency += uncertain.latency / code.resident_waves * scale;
         stage.cut += double(group.cut), stage.lanes += double(group.lanes.empty() ? 0 : group.lanes[0]);
         stage.fetches += fetches * scale;
-        of_pass.add(work.work, 1), waves += work.waves;
+        if (work.waves > 0) longest_wave = std::max(longest_wave, work.work.latency / work.waves);
     }
-    if (waves > 0) stage.all.longest_wave += of_pass.latency / waves;
+    stage.all.longest_wave += longest_wave;
     stage.samples.push_back(std::move(sample));
 }
 
-/// The ratio estimator (Cochran 1977, "Sampling Techniques", chapter 6): what is sampled is multiplied by this, since
-/// fetches are known of all invocations, and groups that fetch more do more. 1 where all groups were traced.
-double ratio_to_all(const StageEstimate& stage, const PassCost& cost) {
-    return stage.fetches > 0 && cost.fetches > 0 ? double(cost.fetches) / stage.fetches : 1;
-}
-
-/// The square of the standard error of the time that a part takes for a stage, `time` as the traced groups say it.
-/// `cost`: without traffic, which is counted and not sampled.
-double sampling_variance(const StageEstimate& stage, const ChipTimePart& part, double time, const PassCost& cost,
-                         const ChipRates& rates) {
-    const double time_of_fetch = stage.fetches > 0 && cost.fetches > 0 ? time / stage.fetches : 0;
-    double variance = 0;
+/// The standard error of the time that a part takes for a stage, as the traced groups say it, and if `time_of_fetch` is
+/// taken from each of their fetches. `cost`: without traffic, which is counted and not sampled. Passes have their
+/// groups at the same places, so that they err together.
+double standard_error(const StageEstimate& stage, const ChipTimePart& part, double time_of_fetch, const PassCost& cost,
+                      const ChipRates& rates) {
+    double error = 0;
     for (const auto& [scale, groups] : stage.samples) {
         const double count = double(groups.size());
         if (groups.size() < 2 || scale <= 1) continue;
@@ -83,10 +77,9 @@ double sampling_variance(const StageEstimate& stage, const ChipTimePart& part, d
             sum += residual, squares += residual * residual;
         }
         const double of_group = std::max(0.0, (squares - sum * sum / count) / (count - 1));
-        const double all = count * scale;
-        variance += all * all * of_group / count * (1 - 1 / scale);
+        error += count * scale * std::sqrt(of_group / count * (1 - 1 / scale));
     }
-    return variance;
+    return error;
 }
 
 /// Of a stage or a frame; microseconds.
@@ -94,7 +87,7 @@ struct Estimate {
     ChipTime parts;
     double time = 0;
     std::map<std::string, double> by_bound;  ///< time of the stages that a part bounds
-    double variance = 0;                     ///< of sampling
+    double error = 0;                        ///< standard error of sampling
     double uncertain = 0;                    ///< of blocks of which runs are known at most
     double active = 0, possible = 0;
     double cut = 0, lanes = 0, waves = 0;
@@ -104,23 +97,36 @@ struct Estimate {
         for (const ChipTimePart& part : chip_time_parts) parts.*part.member += other.parts.*part.member;
         parts.caches += other.parts.caches;
         for (const auto& [bound, of_bound] : other.by_bound) by_bound[bound] += of_bound;
-        time += other.time, variance += other.variance, uncertain += other.uncertain;
+        time += other.time, error += other.error, uncertain += other.uncertain;
         active += other.active, possible += other.possible;
         cut += other.cut, lanes += other.lanes, waves += other.waves;
     }
 };
 
+/// The part that takes longest.
+const ChipTimePart& bound_of(const ChipTime& times) {
+    return *std::ranges::max_element(chip_time_parts, {}, [&](const ChipTimePart& p) { return times.*p.member; });
+}
+
 Estimate estimate_of(const StageEstimate& stage, const PassCost& cost, const ChipRates& rates) {
-    const double ratio = ratio_to_all(stage, cost);
     PassCost no_traffic = cost;
     no_traffic.unique_bytes = 0;
-    Estimate estimate{.parts = chip_time(stage.all.times(ratio), cost, rates)};
-    const ChipTimePart& part =
-        *std::ranges::max_element(chip_time_parts, {}, [&](const ChipTimePart& p) { return estimate.parts.*p.member; });
-    const double sampled = chip_time(stage.all, no_traffic, rates).*part.member;
+    Estimate estimate{.parts = chip_time(stage.all, cost, rates)};
+    const ChipTimePart& sampled = bound_of(estimate.parts);
+    estimate.error = standard_error(stage, sampled, 0, no_traffic, rates);
+    double ratio = 1;
+    // The ratio estimator (Cochran 1977, "Sampling Techniques", chapter 6): fetches are known of all invocations, and
+    // groups that fetch more do more. It is used where it says more.
+    if (stage.fetches > 0 && cost.fetches > 0) {
+        const double all = double(cost.fetches) / stage.fetches;
+        const double of_fetch = chip_time(stage.all, no_traffic, rates).*sampled.member / stage.fetches;
+        const double error = all * standard_error(stage, sampled, of_fetch, no_traffic, rates);
+        if (error < estimate.error) ratio = all, estimate.error = error;
+    }
+    estimate.parts = chip_time(stage.all.times(ratio), cost, rates);
+    const ChipTimePart& part = bound_of(estimate.parts);
     estimate.time = estimate.parts.*part.member;
     estimate.by_bound[part.name] = estimate.time;
-    estimate.variance = ratio * ratio * sampling_variance(stage, part, sampled, no_traffic, rates);
     estimate.uncertain = chip_time(stage.uncertain.times(ratio), no_traffic, rates).*part.member;
     estimate.active = stage.active, estimate.possible = stage.possible;
     estimate.cut = stage.cut, estimate.lanes = stage.lanes, estimate.waves = stage.all.waves;
@@ -136,7 +142,7 @@ EstimateRow row_of(const std::string& shot, const VariantConfig& point, const st
 
 void set_numbers(EstimateRow& row, const Estimate& estimate) {
     constexpr double normal_95 = 1.96;
-    const double half = normal_95 * std::sqrt(estimate.variance);
+    const double half = normal_95 * estimate.error;
     row.microseconds = estimate.time;
     row.low = std::max(0.0, estimate.time - estimate.uncertain - half), row.high = estimate.time + half;
     row.bound = std::ranges::max_element(estimate.by_bound, {}, [](const auto& entry) { return entry.second; })->first;
@@ -170,7 +176,8 @@ FrameCode compile_frame(const TracedFrame& frame, const Chip& chip, const ChipRa
         if (!seen.insert(key).second) continue;
         try {
             pipelines.push_back({.key = key, .marks = marked(pass.recipe, pass.flow)});
-            recipes.push_back(pass.recipe), recipes.push_back(pipelines.back().marks.recipe);
+            for (const PipelineRecipe& recipe : {pass.original, pass.recipe, pipelines.back().marks.recipe})
+                recipes.push_back(recipe);
         } catch (const Error& e) {
             code.refusals[key] = e.what();
         }
@@ -178,14 +185,15 @@ FrameCode compile_frame(const TracedFrame& frame, const Chip& chip, const ChipRa
     how.has_assembly = true;
     const std::vector<CompiledPipeline> compiled = compile_for_chip(chip, recipes, how);
     for (size_t i = 0; i < pipelines.size(); ++i) {
-        const CompiledPipeline &plain = compiled[2 * i], &marked = compiled[2 * i + 1];
+        const std::span<const CompiledPipeline> forms = std::span(compiled).subspan(3 * i, 3);
         const Pipeline& p = pipelines[i];
-        if (!plain.refusal.empty() || !marked.refusal.empty())
-            code.refusals[p.key] = plain.refusal.empty() ? marked.refusal : plain.refusal;
+        if (const auto refused = std::ranges::find_if(forms, [](const auto& f) { return !f.refusal.empty(); });
+            refused != forms.end())
+            code.refusals[p.key] = refused->refusal;
         else
             try {
-                code.by_recipe.emplace(
-                    p.key, shader_work(p.marks, plain.shaders.back(), marked.shaders.back(), chip.name, rates));
+                code.by_recipe.emplace(p.key, shader_work(p.marks, forms[0].shaders.back(), forms[1].shaders.back(),
+                                                          forms[2].shaders.back(), chip.name, rates));
             } catch (const Error& e) {
                 code.refusals[p.key] = e.what();
             }
@@ -229,6 +237,20 @@ std::vector<EstimateRow> rows_of_chip(const TracedFrame& frame, const std::strin
 }
 
 }  // namespace
+
+std::string refusal_in(const std::vector<EstimateRow>& rows) {
+    for (const EstimateRow& row : rows)
+        if (!row.refusal.empty() && !row.product.empty()) return row.stage + " on " + row.chip + ": " + row.refusal;
+    return "";
+}
+
+std::vector<EstimateRow> refused_estimates(const std::string& why, const std::string& shot, const VariantConfig& point,
+                                           const GpuCompilers& compilers) {
+    std::vector<EstimateRow> rows;
+    for (const GpuCompilers::Entry& compiler : compilers.entries)
+        rows.emplace_back(row_of(shot, point, "total", compiler.chip.name)).refusal = why;
+    return rows;
+}
 
 std::vector<EstimateRow> estimate_rows(const TracedFrame& frame, const std::string& shot, const VariantConfig& point,
                                        const GpuCompilers& compilers, const ChipCompilation& how) {

@@ -1,6 +1,6 @@
 #pragma once
-#include "experiments/measuring/costs/traced_frame.h"
 #include "experiments/measuring/costs/compiled_shaders.h"
+#include "experiments/measuring/costs/traced_frame.h"
 
 // How long a GPU that is not there would take: what its compiler makes of each pass, as often as waves of the chip's
 // width would run each block of it, against the chip's published rates. core/gpu/chips/README.md says what is assumed.
@@ -9,3 +9,10 @@
 /// asked, a shader that it refuses and a chip without published rates are rows without numbers.
 std::vector<EstimateRow> estimate_rows(const TracedFrame& frame, const std::string& shot, const VariantConfig& point,
                                        const GpuCompilers& compilers, const ChipCompilation& how);
+
+/// The same of a frame that could not be traced.
+std::vector<EstimateRow> refused_estimates(const std::string& why, const std::string& shot, const VariantConfig& point,
+                                           const GpuCompilers& compilers);
+
+/// What a compiler that is there refused, or did not get to; "" if nothing.
+std::string refusal_in(const std::vector<EstimateRow>& rows);

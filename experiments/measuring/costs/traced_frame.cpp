@@ -37,14 +37,20 @@ TracedFrame trace_last_frame(Device& device, const Shot& shot, FrameStore& store
         const std::unique_ptr<Variant> variant = make_variant(point.variant, point.parameters, point.preset);
         if (variant->uses_scene_data()) return {};
         if (!keep_all) variant->leave_out(shot.facts);
+        PipelineRecipe original;  // of the pass that is traced next
         PassGraph graph(device, shot.config.extent);
         graph.use_gpu_forms(true);
         for (const FrameStep& step : shot.steps) {
             const size_t number = size_t(&step - shot.steps.data()) + 1;
             const bool is_last = number == shot.steps.size();
             graph.count_costs(is_last && !is_traced);
-            if (is_last && is_traced)
-                graph.trace([&](const PassTrace& trace) { result.passes.push_back(traced_pass(trace)); });
+            if (is_last && is_traced) {
+                graph.observe_pipelines([&](const std::string&, const PipelineRecipe& recipe) { original = recipe; });
+                graph.trace([&](const PassTrace& trace) {
+                    result.passes.push_back(traced_pass(trace));
+                    result.passes.back().original = original;
+                });
+            }
             const FrameStore::Frame frame = store.frame(step, lit(step));
             render_variant(graph, *variant, frame.camera, point.seeds.front(), frame.gbuffer);
             graph.times();  // waits: the frame's images are gone with the next one

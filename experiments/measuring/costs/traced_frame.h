@@ -12,7 +12,7 @@
 struct TracedFrame {
     struct Pass {
         std::string stage;
-        PipelineRecipe recipe;  ///< as simplified() gave it
+        PipelineRecipe original, recipe;  ///< as the pass has it, and as simplified() gave it
         ShaderFlow flow;
         unsigned groups = 0;  ///< all of the pass
         /// By the lanes of a wave: what the waves of each group did that was traced.

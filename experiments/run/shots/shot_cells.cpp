@@ -69,7 +69,7 @@ std::string why_timed_again(const StudySession& study, const Cell& cell) {
 /// Why a cell that is there is tried once more; "" if it is not. The better of both is kept.
 std::string why_again(const StudySession& study, CellKind kind, const Cell& cell) {
     if (kind == CellKind::times) return why_timed_again(study, cell);
-    const std::string refusal = refusal_in(cell.compiled);
+    const std::string refusal = refusal_in(cell.compiled) + refusal_in(cell.estimates);
     return refusal.empty() ? "" : "a compiler is asked again that gave no numbers (" + refusal + ")";
 }
 
@@ -205,11 +205,15 @@ Cell costs_cell(StudySession& study, OpenShot& open, const PlannedCell& planned,
     const ChipCompilation how{.cache = study.settings.cache,
                               .notice = [&](const std::string& text) { study.progress.say("warning: " + text); }};
     cell.compiled = compiled_rows(pipelines, shot, *planned.variant, study.plan.compilers, how);
-    if (study.config.counts_costs) {
-        const TracedFrame frame = trace_last_frame(study.device, open.shot, *open.store, lit, *planned.variant,
-                                                   study.settings.keep_all, report);
-        cell.estimates = estimate_rows(frame, shot, *planned.variant, study.plan.compilers, how);
-    }
+    if (study.config.counts_costs) try {
+            const TracedFrame frame = trace_last_frame(study.device, open.shot, *open.store, lit, *planned.variant,
+                                                       study.settings.keep_all, report);
+            cell.estimates = estimate_rows(frame, shot, *planned.variant, study.plan.compilers, how);
+        } catch (const MachineError&) {
+            throw;
+        } catch (const Error& e) {  // a shader that cannot be traced
+            cell.estimates = refused_estimates(e.what(), shot, *planned.variant, study.plan.compilers);
+        }
     return cell;
 }
 

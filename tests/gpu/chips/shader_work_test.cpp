@@ -51,8 +51,8 @@ struct ShaderWorkTest : testing::Test {
         const std::vector<CompiledPipeline> compiled =
             compile_for_chip(chip_of(chip), {trace->recipe, marks.recipe}, {.cache = {}, .has_assembly = true});
         for (const CompiledPipeline& pipeline : compiled) EXPECT_EQ(pipeline.refusal, "");
-        const ShaderWork of_blocks =
-            shader_work(marks, compiled[0].shaders.back(), compiled[1].shaders.back(), chip, *chip_rates(chip));
+        const ShaderWork of_blocks = shader_work(marks, compiled[0].shaders.back(), compiled[0].shaders.back(),
+                                                 compiled[1].shaders.back(), chip, *chip_rates(chip));
         EXPECT_EQ(of_blocks.lanes, 64u);
         const WaveCounts counts = replay(flow, lanes_of(trace->layout, trace->content, 0), of_blocks.lanes);
         ChipWork sum;
