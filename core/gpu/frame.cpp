@@ -87,6 +87,8 @@ void PassGraph::Impl::add_time(const std::string& stage, double milliseconds) {
         found->milliseconds += milliseconds;
 }
 
+/// One barrier in front of each stage, which holds for all that was submitted before: a stage starts when the one before
+/// has ended, so that its time is its own.
 void PassGraph::Impl::execute(const std::string& stage,
                               const std::function<void(const vk::raii::CommandBuffer&)>& record) {
     if (recorded.empty() && gpu.flush_recording) gpu.flush_recording();
@@ -99,7 +101,6 @@ void PassGraph::Impl::execute(const std::string& stage,
             gpu.commands.reset();
             throw;
         }
-        full_barrier(gpu.commands);
         gpu.commands.end();
         const auto start = std::chrono::steady_clock::now();
         gpu.submit_and_wait(gpu.commands, gpu.fence);
@@ -125,7 +126,6 @@ void PassGraph::Impl::execute(const std::string& stage,
         gpu.flush_recording = nullptr;
         throw;
     }
-    full_barrier(commands);
     commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *queries, query + 1);
     recorded.push_back(stage);
 }
