@@ -72,7 +72,7 @@ void for_each_choice(Use use) {
         "gbuffer_formats",
         "in which techniques and composite find the G-buffer: `exact`, mostly floats of 32 bits, or `packed`, as "
         "engines "
-        "have it: halves, base colour and metalness in bytes, a third of the traffic. The truth has its own",
+        "have it: halves, base colour and metalness in bytes, about half of the bytes. The truth has its own",
         {{"exact", GBufferFormats::exact}, {"packed", GBufferFormats::packed}},
         &ShotConfig::gbuffer_formats};
     use(lit), use(specular), use(fallback), use(formats), use(directions), use(normals), use(gbuffers);

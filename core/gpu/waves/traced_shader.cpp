@@ -133,10 +133,10 @@ TraceLayout trace_layout(glm::uvec3 groups, unsigned lanes, unsigned chosen) {
     layout.lanes = lanes;
     layout.chosen = std::min(chosen, layout.groups);
     if (layout.chosen == layout.groups) return layout;
-    // The golden ratio's multiples fall between each other; products must fit 32 bits.
-    layout.step = std::max(1u, unsigned(double(layout.groups) * 0.6180339887));
+    // The golden ratio's multiples fall between each other. The shader multiplies numbers of groups in 32 bits.
+    const unsigned most = std::min(layout.groups, unsigned(UINT32_MAX / layout.groups));
+    layout.step = std::max(1u, unsigned(double(most) * 0.6180339887));
     while (std::gcd(layout.step, layout.groups) != 1) --layout.step;
-    while (uint64_t(layout.groups) * layout.step > UINT32_MAX) layout.step = 1;
     return layout;
 }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <set>
@@ -141,17 +142,22 @@ TEST_P(TracedShader, ChosenGroupsStandForAll) {
     EXPECT_NEAR(mean, truth, 5 * error);
 }
 
-TEST(TraceLayout, EachGroupHasAPlaceOfItsOwn) {
-    for (const glm::uvec3 groups :
-         {glm::uvec3(1, 1, 1), glm::uvec3(240, 135, 1), glm::uvec3(7, 11, 13), glm::uvec3(70000, 1, 1)}) {
+/// Groups of 480 x 270 are those of 8 x 8 pixels of a frame of 3840x2160.
+TEST(TraceLayout, EachGroupHasAPlaceOfItsOwnAndTheChosenAreSpread) {
+    for (const glm::uvec3 groups : {glm::uvec3(1, 1, 1), glm::uvec3(240, 135, 1), glm::uvec3(480, 270, 1),
+                                    glm::uvec3(7, 11, 13), glm::uvec3(4000, 1000, 1)}) {
         const TraceLayout layout = trace_layout(groups, 64, 512);
         std::vector<bool> is_taken(layout.chosen, false);
+        std::array<unsigned, 8> in_part{};  // of eighths of all groups
         for (uint32_t group = 0; group < layout.groups; ++group) {
             const uint32_t place = group * layout.step % layout.groups;
             if (place >= layout.chosen) continue;
             EXPECT_FALSE(is_taken[place]);
             is_taken[place] = true;
+            ++in_part[size_t(uint64_t(group) * 8 / layout.groups)];
         }
         EXPECT_TRUE(std::ranges::all_of(is_taken, std::identity()));
+        if (layout.chosen < 512) continue;
+        for (const unsigned count : in_part) EXPECT_NEAR(count, 64, 16) << layout.groups;
     }
 }
