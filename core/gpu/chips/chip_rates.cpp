@@ -46,7 +46,6 @@ const std::map<std::string, ChipRates>& all_rates() {
             {"gfx1100", rdna("Radeon RX 7900 XTX", 96, 2.5, 960, 1536, 192)},
             {"vega10", gcn("Radeon RX Vega 64", 64, 1.546, 483.8, 1024, 64)},
             {"polaris10", gcn("Radeon RX 480", 36, 1.266, 256, 512, 32)},
-            {"bonaire", gcn("PlayStation 4", 18, 0.8, 176, 512, 32)},
         };
         ChipRates &navi21 = rates.at("navi21"), &gfx1100 = rates.at("gfx1100");
         navi21.last_megabytes = 128, navi21.last_gigabytes = 2000;

@@ -12,7 +12,7 @@ struct TraceLayout {
     uint32_t groups_x = 1, groups_y = 1;  ///< of a row and of a slice
     uint32_t groups = 0, chosen = 0, step = 1;
     uint32_t lanes = 64;         ///< of a group
-    uint32_t lane_words = 1024;  ///< 32 decisions each
+    uint32_t lane_words = 1000;  ///< 32 decisions each; 2^15 lanes fit the 128 MiB that each device has for a buffer
     uint32_t unused = 0;
 };
 

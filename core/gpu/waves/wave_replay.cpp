@@ -40,18 +40,21 @@ private:
 
     void go_on(const ShaderFlow::Block& block, Mask lanes) {
         if (block.successors.empty()) return;
+        if (!block.decisions) return go_to(block.successors[0], lanes);
+        by_successor_.assign(block.successors.size(), 0);
         for (; lanes; lanes &= lanes - 1) {
             const auto lane = size_t(std::countr_zero(lanes));
             if (const std::optional<unsigned> way = decide(lane, block))
-                go_to(block.successors[*way], Mask(1) << lane);
+                by_successor_[*way] |= Mask(1) << lane;
             else
                 ++counts_.cut;
         }
+        for (size_t s = 0; s < by_successor_.size(); ++s)
+            if (by_successor_[s]) go_to(block.successors[s], by_successor_[s]);
     }
 
     /// The successor that a lane takes; nothing where its trace ends.
     std::optional<unsigned> decide(size_t lane, const ShaderFlow::Block& block) {
-        if (!block.decisions) return 0;
         uint64_t& next = next_[lane];
         const LaneTrace& trace = lanes_[lane];
         if (next + block.decisions > trace.words.size() * 32) return {};
@@ -64,18 +67,13 @@ private:
 
     const ShaderFlow& flow_;
     const std::span<const LaneTrace> lanes_;
-    std::vector<uint64_t> next_;    ///< decision, by lane
+    std::vector<uint64_t> next_;  ///< decision, by lane
+    std::vector<Mask> by_successor_;
     std::map<unsigned, Place> at_;  ///< by rank, where lanes are
     WaveCounts& counts_;
 };
 
 }  // namespace
-
-void WaveCounts::add(const WaveCounts& other) {
-    waves.resize(std::max(waves.size(), other.waves.size())), lanes.resize(waves.size());
-    for (size_t i = 0; i < other.waves.size(); ++i) waves[i] += other.waves[i], lanes[i] += other.lanes[i];
-    started += other.started, cut += other.cut;
-}
 
 WaveCounts replay(const ShaderFlow& flow, std::span<const LaneTrace> group, unsigned width) {
     if (width < 1 || width > 64) fail("a wave has 1 to 64 lanes, not ", width);

@@ -9,8 +9,6 @@ struct WaveCounts {
     std::vector<uint64_t> lanes;  ///< the same, of lanes
     uint64_t started = 0;         ///< waves with one or more lanes that ran
     uint64_t cut = 0;             ///< lanes that decided more than their trace holds; nothing is counted after it
-
-    void add(const WaveCounts& other);
 };
 
 /// The trace of one lane: the decisions that it made, from the lowest bit of the first word on.
