@@ -4,6 +4,7 @@
 #include "core/gpu/chips/occupancy.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace {
 
@@ -19,9 +20,10 @@ ShaderWork shader_work(const MarkedShader& marks, const CompiledShader& original
                       with_marks = machine_code_of(marked.assembly, marked.lanes, rates);
     unsigned instructions = 0;
     for (const MachineCode::Block& block : own.blocks) instructions += block.instructions;
-    if (simplified.instructions && instructions != *simplified.instructions)
-        fail("of ", *simplified.instructions, " instructions that the compiler states, its assembly shows ",
-             instructions);
+    // LLVM cannot read some instructions with high scalar registers, and misses the next.
+    const double stated = double(simplified.instructions.value_or(instructions));
+    if (std::abs(instructions - stated) > 0.01 * stated)
+        fail("of ", stated, " instructions that the compiler states, its assembly shows ", instructions);
     // Marks are left out, but they may change what the compiler makes of other instructions.
     const MachineCode& code = have_same_flow(own, with_marks) ? own : with_marks;
     const std::vector<BlockRuns> runs = runs_of(with_marks, marks);
