@@ -284,22 +284,7 @@ def compilers():
     return Picture(panels, "vector registers of a lane, of 256", is_log=False, columns=3, extra={"xlim": (0, 265)})
 
 
-def gpu_times():
-    errors = grid("gpu_times", "errors")
-    chips = {chip: grid("gpu_times", chip) for chip in ("navi21", "gfx1100")}
-    panels = []
-    for shot in dict.fromkeys(c for _, c in errors):
-        points = sorted((p for p, c in chips["navi21"] if c == shot), key=lambda p: chips["navi21"][p, shot].value)
-        is_published = lambda p: p.endswith(PUBLISHED_PRESETS)  # noqa: E731
-        marks = lambda p: [Mark(chip, look(p)[0], mark, cells[p, shot], is_published(p)) for (chip, cells), mark in zip(chips.items(), "os")]  # noqa: E731
-        panels.append(Panel(f"{shot}: microseconds, estimated", [(p, marks(p)) for p in points]))
-        panels.append(Panel(f"{shot}: error over that of no reflections", [(p, [technique_mark(p, errors[p, shot], is_hollow=is_published(p))]) for p in points], 1.0))
-    return Picture(panels, "1920x1080; circles: Radeon RX 6800 XT (navi21), squares: RX 7900 XTX (gfx1100); 95 % intervals", columns=2, note="hollow: as published")
-
-
-PUBLISHED_PRESETS = ("default", "sdk_1_5", "current", "frostbite_2015", "blog", "high")
-
-PICTURES = {p.__name__: p for p in (techniques, budgets, rooms, metrics, causes, limit, third_party, traced_environment, corrections, estimators, march, thickness, temporal, fragments, resolution, compilers, gpu_times)}
+PICTURES = {p.__name__: p for p in (techniques, budgets, rooms, metrics, causes, limit, third_party, traced_environment, corrections, estimators, march, thickness, temporal, fragments, resolution, compilers)}
 
 
 def save(name, folder):
