@@ -284,7 +284,20 @@ def compilers():
     return Picture(panels, "vector registers of a lane, of 256", is_log=False, columns=3, extra={"xlim": (0, 265)})
 
 
-PICTURES = {p.__name__: p for p in (techniques, budgets, rooms, metrics, causes, limit, third_party, traced_environment, corrections, estimators, march, thickness, temporal, fragments, resolution, compilers)}
+def gpu_times():
+    errors, times = grid("gpu_times", "errors"), grid("gpu_times", "navi21")
+    panels = []
+    for shot in dict.fromkeys(c for _, c in errors):
+        points = sorted((p for p, c in times if c == shot and p != "mcguire_dda, best"), key=lambda p: times[p, shot].value)
+        for title, cells, line in ((f"{shot}: microseconds", times, None), (f"{shot}: error over none's", errors, 1.0)):
+            rows = [(p, [technique_mark(p, cells[p, shot], is_hollow=p.endswith(PUBLISHED_PRESETS))]) for p in points]
+            panels.append(Panel(title, rows, line))
+    return Picture(panels, "Radeon RX 6800 XT (navi21) at 1920x1080, estimated, 95 % intervals", columns=2, note="hollow: as published")
+
+
+PUBLISHED_PRESETS = ("default", "sdk_1_5", "current", "frostbite_2015", "blog", "high")
+
+PICTURES = {p.__name__: p for p in (techniques, budgets, rooms, metrics, causes, limit, third_party, traced_environment, corrections, estimators, march, thickness, temporal, fragments, resolution, compilers, gpu_times)}
 
 
 def save(name, folder):
