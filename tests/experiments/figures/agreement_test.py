@@ -59,11 +59,11 @@ class Agreement(unittest.TestCase):
     def test_only_shares_end_at_one(self):
         """Tables of rays have shares, and counts of fetches, which may be any."""
         table, assets = types.SimpleNamespace(of="hits", over="shot"), ["a", "b", "c", "d"]
-        shares = means.mean(table, [Cell("t", "r", "c", v, is_share=True) for v in (0.5, 0.9, 1, 1)], assets)
+        shares = means.mean(table, [Cell("t", "r", "c", v, is_share=True, may_be_zero=True) for v in (0.5, 0.9, 1, 1)], assets)
         self.assertEqual(shares.high, 1)
-        few = means.mean(table, [Cell("t", "r", "c", v) for v in (0.5, 0.9, 1, 1)], assets)
+        few = means.mean(table, [Cell("t", "r", "c", v, may_be_zero=True) for v in (0.5, 0.9, 1, 1)], assets)
         self.assertGreater(few.high, 1)
-        fetches = means.mean(table, [Cell("t", "r", "c", v) for v in (20, 30, 40, 50)], assets)
+        fetches = means.mean(table, [Cell("t", "r", "c", v, may_be_zero=True) for v in (20, 30, 40, 50)], assets)
         self.assertTrue(20 < fetches.value < fetches.high, fetches)
 
     def test_notes_say_what_intervals_are_of(self):
