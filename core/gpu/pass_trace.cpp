@@ -6,7 +6,8 @@
 
 namespace {
 
-// Of whole groups: their mean is known to some percent, and records of 4 kB a lane fit 128 MiB, the least that devices have.
+// Of whole groups: their mean is known to some percent, and records of 4 kB a lane fit 128 MiB, the least that devices
+// have.
 constexpr unsigned traced_lanes = 1 << 15;
 
 constexpr unsigned tile = 8;  // pixels, see TraceLayout

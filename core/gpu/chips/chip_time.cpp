@@ -10,10 +10,8 @@ StageWork StageWork::times(double factor) const {
     return result;
 }
 
-double ChipTime::most() const {
-    double longest = 0;
-    for (const ChipTimePart& part : chip_time_parts) longest = std::max(longest, this->*part.member);
-    return longest;
+const ChipTimePart& bound_of(const ChipTime& times) {
+    return *std::ranges::max_element(chip_time_parts, {}, [&](const ChipTimePart& p) { return times.*p.member; });
 }
 
 ChipTime chip_time(const StageWork& stage, const PassCost& cost, const ChipRates& rates) {

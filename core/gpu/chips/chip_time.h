@@ -24,10 +24,9 @@ struct ChipTime {
     double memory = 0;   ///< each byte once (PassCost::unique_bytes), from the cache in front of the memory as far as
                          ///< that holds them
     double latency = 0;  ///< waves that wait, as many at a time as their registers let be
-    double caches =
-        0;  ///< each byte that is asked for through the last cache: more than the truth, since others hold it
-
-    double most() const;  ///< of all but the last
+    /// Each byte that is asked for through the last cache: more than the truth, since others hold some of them. It
+    /// bounds no stage.
+    double caches = 0;
 };
 
 struct ChipTimePart {
@@ -43,6 +42,9 @@ inline constexpr std::array chip_time_parts = {
     ChipTimePart{"memory", &ChipTime::memory},
     ChipTimePart{"latency", &ChipTime::latency},
 };
+
+/// The part that takes longest.
+const ChipTimePart& bound_of(const ChipTime& times);
 
 /// `cost`: what the stage's shaders count of themselves.
 ChipTime chip_time(const StageWork& stage, const PassCost& cost, const ChipRates& rates);

@@ -20,7 +20,8 @@ ShaderWork shader_work(const MarkedShader& marks, const CompiledShader& original
                       with_marks = machine_code_of(marked.assembly, marked.lanes, rates);
     unsigned instructions = 0;
     for (const MachineCode::Block& block : own.blocks) instructions += block.instructions;
-    // LLVM cannot read some instructions with high scalar registers, and misses the next.
+    // LLVM cannot read some instructions with high scalar registers, and misses the next: 8 of 3369 in the worst shader
+    // that was seen, Frostbite's resolve. More would be another defect.
     const double stated = double(simplified.instructions.value_or(instructions));
     if (std::abs(instructions - stated) > 0.01 * stated)
         fail("of ", stated, " instructions that the compiler states, its assembly shows ", instructions);

@@ -1,7 +1,7 @@
 #include "experiments/measuring/costs/costs.h"
 
 #include "core/gpu/device.h"
-#include "experiments/measuring/render_variant.h"
+#include "experiments/measuring/costs/played_shot.h"
 #include "variants/registry.h"
 
 std::vector<CostRow> count_costs(Device& device, const Shot& shot, FrameStore& store,
@@ -12,13 +12,8 @@ std::vector<CostRow> count_costs(Device& device, const Shot& shot, FrameStore& s
     if (variant->uses_scene_data()) return {};
     if (!keep_all) variant->leave_out(shot.facts);
     PassGraph graph(device, shot.config.extent);
-    for (const FrameStep& step : shot.steps) {
-        graph.count_costs(&step == &shot.steps.back());
-        const FrameStore::Frame frame = store.frame(step, lit(step));
-        render_variant(graph, *variant, frame.camera, config.seeds.front(), frame.gbuffer);
-        graph.times();  // waits: the frame's images are gone with the next one
-        report(double(&step - shot.steps.data() + 1) / double(shot.steps.size()));
-    }
+    play_shot(
+        graph, *variant, shot, store, lit, config, [&] { graph.count_costs(true); }, report);
 
     std::vector<PassCost> costs = graph.costs();
     PassCost total{.stage = "total"};

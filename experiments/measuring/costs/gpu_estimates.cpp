@@ -91,7 +91,6 @@ struct Estimate {
     double uncertain = 0;                    ///< of blocks of which runs are known at most
     double active = 0, possible = 0;
     double cut = 0, lanes = 0, waves = 0;
-    std::string refusal;
 
     void add(const Estimate& other) {
         for (const ChipTimePart& part : chip_time_parts) parts.*part.member += other.parts.*part.member;
@@ -102,11 +101,6 @@ struct Estimate {
         cut += other.cut, lanes += other.lanes, waves += other.waves;
     }
 };
-
-/// The part that takes longest.
-const ChipTimePart& bound_of(const ChipTime& times) {
-    return *std::ranges::max_element(chip_time_parts, {}, [&](const ChipTimePart& p) { return times.*p.member; });
-}
 
 Estimate estimate_of(const StageEstimate& stage, const PassCost& cost, const ChipRates& rates) {
     PassCost no_traffic = cost;

@@ -2,7 +2,7 @@
 
 #include "core/gpu/device.h"
 #include "core/gpu/waves/traced_shader.h"
-#include "experiments/measuring/render_variant.h"
+#include "experiments/measuring/costs/played_shot.h"
 #include "variants/registry.h"
 
 #include <tbb/parallel_for.h>
@@ -40,22 +40,16 @@ TracedFrame trace_last_frame(Device& device, const Shot& shot, FrameStore& store
         PipelineRecipe original;  // of the pass that is traced next
         PassGraph graph(device, shot.config.extent);
         graph.use_gpu_forms(true);
-        for (const FrameStep& step : shot.steps) {
-            const size_t number = size_t(&step - shot.steps.data()) + 1;
-            const bool is_last = number == shot.steps.size();
-            graph.count_costs(is_last && !is_traced);
-            if (is_last && is_traced) {
-                graph.observe_pipelines([&](const std::string&, const PipelineRecipe& recipe) { original = recipe; });
-                graph.trace([&](const PassTrace& trace) {
-                    result.passes.push_back(traced_pass(trace));
-                    result.passes.back().original = original;
-                });
-            }
-            const FrameStore::Frame frame = store.frame(step, lit(step));
-            render_variant(graph, *variant, frame.camera, point.seeds.front(), frame.gbuffer);
-            graph.times();  // waits: the frame's images are gone with the next one
-            report((double(is_traced) + double(number) / double(shot.steps.size())) / 2);
-        }
+        const auto watch = [&] {
+            if (!is_traced) return graph.count_costs(true);
+            graph.observe_pipelines([&](const std::string&, const PipelineRecipe& recipe) { original = recipe; });
+            graph.trace([&](const PassTrace& trace) {
+                result.passes.push_back(traced_pass(trace));
+                result.passes.back().original = original;
+            });
+        };
+        play_shot(graph, *variant, shot, store, lit, point, watch,
+                  [&](double share) { report((double(is_traced) + share) / 2); });
         if (!is_traced) result.costs = graph.costs();
     }
     return result;

@@ -5,6 +5,7 @@
 #include "core/gpu/device.h"
 #include "core/gpu/pass_graph.h"
 #include "tests/error_message.h"
+#include "tests/gpu/chips/known_chip.h"
 
 #include <gtest/gtest.h>
 #include <cstdlib>
@@ -27,15 +28,9 @@ struct ChipCompiler : testing::Test {
     fs::path cache = fs::path(testing::TempDir()) / "chip_cache";
     std::vector<std::string> notices;
 
-    /// Asked for once: that takes half a second.
-    static const Chip& chip_of(const std::string& name) {
-        static std::map<std::string, Chip> known;
-        const auto found = known.find(name);
-        return found != known.end() ? found->second : known[name] = find_chip(name);
-    }
     void SetUp() override {
         try {
-            chip_of("navi21");
+            known_chip("navi21");
         } catch (const MachineError& e) {
             GTEST_SKIP() << e.what();
         }
@@ -46,7 +41,7 @@ struct ChipCompiler : testing::Test {
     }
     void store(const std::string& shader) { graph.compute(shader).write(graph.image("target", Format::rgba32f)).run(); }
     std::vector<CompiledPipeline> compile(const std::string& chip, const fs::path& folder = {}) {
-        return compile_for_chip(chip_of(chip), recipes,
+        return compile_for_chip(known_chip(chip), recipes,
                                 {.cache = folder, .notice = [this](const std::string& n) { notices.push_back(n); }});
     }
 };
