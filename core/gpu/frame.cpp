@@ -87,8 +87,8 @@ void PassGraph::Impl::add_time(const std::string& stage, double milliseconds) {
         found->milliseconds += milliseconds;
 }
 
-/// One barrier in front of each stage, which holds for all that was submitted before: a stage starts when the one before
-/// has ended, so that its time is its own.
+/// One barrier in front of each stage, which holds for all that was submitted before: a stage starts when the one
+/// before has ended, so that its time is its own.
 void PassGraph::Impl::execute(const std::string& stage,
                               const std::function<void(const vk::raii::CommandBuffer&)>& record) {
     if (recorded.empty() && gpu.flush_recording) gpu.flush_recording();
@@ -135,7 +135,13 @@ void PassGraph::Impl::flush() {
     gpu.flush_recording = nullptr;
     commands.end();
     const std::vector<std::string> stages = std::exchange(recorded, {});
-    gpu.submit_and_wait(commands, fence);
+    try {
+        gpu.submit_and_wait(commands, fence);
+    } catch (const MachineError& e) {
+        std::string names;
+        for (const std::string& stage : stages) names += (names.empty() ? "" : ", ") + stage;
+        fail_machine(e.what(), "; its stages were: ", names);
+    }
     auto [result, ticks] =
         queries.getResults<uint64_t>(0, uint32_t(2 * stages.size()), 2 * stages.size() * sizeof(uint64_t),
                                      sizeof(uint64_t), vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);

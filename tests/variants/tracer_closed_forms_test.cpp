@@ -336,3 +336,42 @@ TEST(TracersInWebgl2, CompileAsGlslEs) {
 }
 
 }  // namespace
+
+/// Fragments come in quads: at borders of odd sizes GPUs run shaders for pixels beyond them, too.
+TEST_F(TracersInRoom, EndBeyondTheScreen) {
+    bench.view.extent = {67, 45};
+    bench.show(room);
+    std::vector<BenchRay> rays;
+    for (const glm::uvec2 beyond : {glm::uvec2(67, 20), {30, 45}, {67, 45}})
+        for (const glm::vec3 direction :
+             {glm::vec3(1, 0, 0), {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {1, 1, -1}, {-1, -1, 1}})
+            rays.push_back({beyond, direction});
+    for (const std::string& tracer : screen_tracers())
+        for (const BenchEnd& end : bench.trace(tracer, rays, fine_steps(tracer)))
+            EXPECT_LT(end.fetches, 10000u) << tracer;
+}
+
+/// Of a screen of 67 x 45 level 1 has 33 x 22 cells, level 2 16 x 11, level 3 8 x 5.
+TEST_F(TracersInRoom, LevelsExistDownToTheFinest) {
+    struct Case {
+        glm::ivec2 pixel;
+        int level, existing;
+    };
+    const std::vector<Case> cases{{{0, 0}, 3, 3},  {{63, 39}, 3, 3}, {{64, 0}, 3, 1},  {{0, 44}, 3, 0},
+                                  {{66, 0}, 3, 0}, {{67, 20}, 3, 0}, {{30, 45}, 2, 0}, {{67, 45}, 0, 0}};
+    bench.view.extent = {67, 45};
+    bench.show(room);
+    const ParameterSet no_parameters;
+    PassGraph graph(device(), bench.view.extent);
+    HostImage asked({unsigned(cases.size()), 1}, 4);
+    for (unsigned i = 0; i < cases.size(); ++i)
+        for (int c = 0; c < 3; ++c) asked.pixel(i, 0)[c] = float(c < 2 ? cases[i].pixel[c] : cases[i].level);
+    const Image input = graph.image_of("asked", Format::rgba32f, asked.extent),
+                output = graph.image_of("existing", Format::r32f, asked.extent);
+    graph.upload(input, asked);
+    graph.begin_frame(bench.camera, no_parameters, {});
+    graph.compute("existing_levels.comp").read(input).write(output).run();
+    const HostImage found = graph.download(output);
+    for (unsigned i = 0; i < cases.size(); ++i)
+        EXPECT_EQ(found.values[i], float(cases[i].existing)) << cases[i].pixel.x << ", " << cases[i].pixel.y;
+}

@@ -28,9 +28,10 @@ CellExit exit_of_cell(ScreenLine line, ivec2 pixel, int level) {
     return CellExit(t, next);
 }
 
-// Levels leave out the last row or column of odd ones: what they lack is looked at on finer levels.
+// Levels leave out the last row or column of odd ones: what they lack is looked at on finer levels. No level has the
+// pixels beyond the screen that GPUs run fragment shaders for, to complete quads, and show nothing of.
 int existing_level(ivec2 pixel, int level) {
-    while (any(greaterThanEqual(pixel >> level, ivec2(camera.extent.xy) >> level))) --level;
+    while (level > 0 && any(greaterThanEqual(pixel >> level, ivec2(camera.extent.xy) >> level))) --level;
     return level;
 }
 #endif
