@@ -14,6 +14,10 @@ const ChipTimePart& bound_of(const ChipTime& times) {
     return *std::ranges::max_element(chip_time_parts, {}, [&](const ChipTimePart& p) { return times.*p.member; });
 }
 
+bool is_of_one_wave(const StageWork& stage, const ChipRates& rates) {
+    return stage.wave_latency > stage.resident_latency / (double(rates.units) * rates.simds);
+}
+
 ChipTime chip_time(const StageWork& stage, const PassCost& cost, const ChipRates& rates) {
     const double clocks_per_microsecond = rates.gigahertz * 1e3, simds = double(rates.units) * rates.simds;
     // Bytes of the mean texel. What is read from buffers is among them, so that a few texels would seem too large.
@@ -31,7 +35,7 @@ ChipTime chip_time(const StageWork& stage, const PassCost& cost, const ChipRates
                        work.buffers / rates.buffer_lanes) /
                       units;
     clocks.targets = work.exports / rates.pixels;
-    clocks.latency = std::max(stage.resident_latency / simds, stage.longest_wave);
+    clocks.latency = is_of_one_wave(stage, rates) ? stage.wave_latency : stage.resident_latency / simds;
     clocks.caches = bytes / rates.cache_bytes;
     ChipTime time;
     for (const ChipTimePart& part : chip_time_parts) time.*part.member = clocks.*part.member / clocks_per_microsecond;

@@ -7,9 +7,9 @@ struct StageWork {
     ChipWork work;
     double waves = 0;
     double resident_latency = 0;  ///< the sum of the latencies of all waves, each divided by the waves of its SIMD
-    double longest_wave = 0;  ///< clocks; the sum over passes of their longest wave's latency: they follow each other
+    double wave_latency = 0;      ///< clocks that one wave of each of its passes takes, which follow each other
 
-    /// As many waves that do `factor` times as much, but for the longest.
+    /// As many waves that do `factor` times as much, but for that one.
     StageWork times(double factor) const;
 };
 
@@ -42,6 +42,9 @@ inline constexpr std::array chip_time_parts = {
     ChipTimePart{"memory", &ChipTime::memory},
     ChipTimePart{"latency", &ChipTime::latency},
 };
+
+/// Whether the stage waits for one wave longer than its SIMDs wait for all of theirs.
+bool is_of_one_wave(const StageWork& stage, const ChipRates& rates);
 
 /// The part that takes longest.
 const ChipTimePart& bound_of(const ChipTime& times);

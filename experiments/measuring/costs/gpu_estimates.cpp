@@ -22,6 +22,7 @@ struct StageEstimate {
         std::vector<Group> groups;
     };
     StageWork all, uncertain;         ///< of all groups, as the traced ones say it
+    double wave_error = 0;            ///< standard error of all.wave_latency (clocks)
     double fetches = 0;               ///< the same, to be held against those that are counted
     std::vector<Sample> samples;      ///< of each pass
     double active = 0, possible = 0;  ///< vector clocks x lanes
@@ -29,12 +30,28 @@ struct StageEstimate {
     std::string refusal;
 };
 
+/// Clocks of a wave, and their standard error: of the longest if all groups were traced. Else of the mean one, since a
+/// longer one may have been missed, and no interval holds that.
+std::pair<double, double> wave_latency(const StageEstimate::Sample& sample) {
+    const double count = double(sample.groups.size());
+    double longest = 0, latency = 0, waves = 0;
+    for (const auto& [work, fetches] : sample.groups) {
+        latency += work.work.latency, waves += work.waves;
+        if (work.waves > 0) longest = std::max(longest, work.work.latency / work.waves);
+    }
+    if (sample.scale <= 1 || waves == 0 || count < 2) return {longest, 0};
+    const double mean = latency / waves;
+    double squares = 0;
+    for (const auto& [work, fetches] : sample.groups)
+        squares += (work.work.latency - mean * work.waves) * (work.work.latency - mean * work.waves);
+    return {mean, std::sqrt(squares / (count - 1) * count * (1 - 1 / sample.scale)) / waves};
+}
+
 void add_pass(StageEstimate& stage, const TracedFrame::Pass& pass, const ShaderWork& code) {
     const std::vector<WaveCounts>& groups = pass.traced.at(code.lanes);
     if (groups.empty()) return;
     const double scale = double(pass.groups) / double(groups.size());
     StageEstimate::Sample sample{.scale = scale, .groups = {}};
-    double longest_wave = 0;
     for (const WaveCounts& group : groups) {
         auto& [work, fetches] = sample.groups.emplace_back();
         ChipWork uncertain;
@@ -56,17 +73,17 @@ void add_pass(StageEstimate& stage, const TracedFrame::Pass& pass, const ShaderW
         stage.uncertain.resident_latency += uncertain.latency / code.resident_waves * scale;
         stage.cut += double(group.cut), stage.lanes += double(group.lanes.empty() ? 0 : group.lanes[0]);
         stage.fetches += fetches * scale;
-        if (work.waves > 0) longest_wave = std::max(longest_wave, work.work.latency / work.waves);
     }
-    stage.all.longest_wave += longest_wave;
+    const auto [of_wave, error] = wave_latency(sample);
+    stage.all.wave_latency += of_wave, stage.wave_error += error;
     stage.samples.push_back(std::move(sample));
 }
 
 /// The standard error of the time that a part takes for a stage, as the traced groups say it, and if `time_of_fetch` is
 /// taken from each of their fetches. `cost`: without traffic, which is counted and not sampled. Passes have their
 /// groups at the same places, so that they err together.
-double standard_error(const StageEstimate& stage, const ChipTimePart& part, double time_of_fetch, const PassCost& cost,
-                      const ChipRates& rates) {
+double error_of_sums(const StageEstimate& stage, const ChipTimePart& part, double time_of_fetch, const PassCost& cost,
+                     const ChipRates& rates) {
     double error = 0;
     for (const auto& [scale, groups] : stage.samples) {
         const double count = double(groups.size());
@@ -80,6 +97,18 @@ double standard_error(const StageEstimate& stage, const ChipTimePart& part, doub
         error += count * scale * std::sqrt(of_group / count * (1 - 1 / scale));
     }
     return error;
+}
+
+/// The standard error of the time that a part takes for a stage. `ratio`: of the fetches of all groups to those that
+/// the traced ones say, where the ratio estimator (Cochran 1977, "Sampling Techniques", chapter 6) is used: fetches are
+/// known of all invocations, and groups that fetch more do more. 1 where it is not.
+double standard_error(const StageEstimate& stage, const ChipTimePart& part, double ratio, const PassCost& cost,
+                      const ChipRates& rates) {
+    const double time = chip_time(stage.all, cost, rates).*part.member;
+    if (part.member == &ChipTime::latency && is_of_one_wave(stage.all, rates))
+        return stage.all.wave_latency > 0 ? time * stage.wave_error / stage.all.wave_latency : 0;
+    if (ratio == 1) return error_of_sums(stage, part, 0, cost, rates);
+    return ratio * error_of_sums(stage, part, time / stage.fetches, cost, rates);
 }
 
 /// Of a stage or a frame; microseconds.
@@ -107,18 +136,13 @@ Estimate estimate_of(const StageEstimate& stage, const PassCost& cost, const Chi
     no_traffic.unique_bytes = 0;
     Estimate estimate{.parts = chip_time(stage.all, cost, rates)};
     const ChipTimePart& sampled = bound_of(estimate.parts);
-    estimate.error = standard_error(stage, sampled, 0, no_traffic, rates);
-    double ratio = 1;
-    // The ratio estimator (Cochran 1977, "Sampling Techniques", chapter 6): fetches are known of all invocations, and
-    // groups that fetch more do more. It is used where it says more.
-    if (stage.fetches > 0 && cost.fetches > 0) {
-        const double all = double(cost.fetches) / stage.fetches;
-        const double of_fetch = chip_time(stage.all, no_traffic, rates).*sampled.member / stage.fetches;
-        const double error = all * standard_error(stage, sampled, of_fetch, no_traffic, rates);
-        if (error < estimate.error) ratio = all, estimate.error = error;
-    }
+    double ratio = stage.fetches > 0 && cost.fetches > 0 ? double(cost.fetches) / stage.fetches : 1;
+    if (standard_error(stage, sampled, ratio, no_traffic, rates) >=
+        standard_error(stage, sampled, 1, no_traffic, rates))
+        ratio = 1;
     estimate.parts = chip_time(stage.all.times(ratio), cost, rates);
     const ChipTimePart& part = bound_of(estimate.parts);
+    estimate.error = standard_error(stage, part, ratio, no_traffic, rates);
     estimate.time = estimate.parts.*part.member;
     estimate.by_bound[part.name] = estimate.time;
     estimate.uncertain = chip_time(stage.uncertain.times(ratio), no_traffic, rates).*part.member;

@@ -127,7 +127,7 @@ TEST(ChipTime, AStreamTakesWhatMemoryTakes) {
     StageWork stage;
     stage.work.loads = texels, stage.work.stores = texels, stage.waves = waves;
     stage.work.vector = waves * 20, stage.work.latency = waves * 400;
-    stage.resident_latency = stage.work.latency / 16, stage.longest_wave = 400;
+    stage.resident_latency = stage.work.latency / 16, stage.wave_latency = 400;
     const PassCost cost{
         .texels = uint64_t(texels), .bytes_read = 100000000, .bytes_written = 100000000, .unique_bytes = 200000000};
     const ChipTime time = chip_time(stage, cost, rates);
@@ -143,7 +143,7 @@ TEST(ChipTime, AStreamTakesWhatMemoryTakes) {
 /// One wave takes its time however many units there are.
 TEST(ChipTime, AFewWavesTakeAsLongAsOne) {
     StageWork stage;
-    stage.work.latency = 4500, stage.resident_latency = 4500.0 / 16, stage.longest_wave = 4500;
+    stage.work.latency = 4500, stage.resident_latency = 4500.0 / 16, stage.wave_latency = 4500;
     EXPECT_DOUBLE_EQ(chip_time(stage, {}, *chip_rates("navi21")).latency, 2);
 }
 
