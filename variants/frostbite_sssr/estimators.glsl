@@ -68,6 +68,7 @@ vec3 ratio_or_zero(vec3 a, vec3 b) { return mix(vec3(0.0), a / max(b, vec3(1e-37
 vec4 resolved(Sums sums, Surface surface) {
     float weight = luminance_bt709(sums.weight);
     float confidence = weight > 0.0 ? luminance_bt709(sums.known_weight) / weight : 0.0;
+    if (confidence > 1.0) confidence = 1.0;  // GPUs that fuse products with sums round the two sums differently
     if (!is_estimator_b) {
         vec3 radiance = ratio_or_zero(sums.weighed_radiance, sums.known_weight);
         return vec4(reflectance_after_filter ? radiance : radiance * reflectance(surface), confidence);

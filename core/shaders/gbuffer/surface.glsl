@@ -68,6 +68,7 @@ void main() {
     normal = vec4(n, m.factors.y * metalness_roughness.g);
     base_color = is_unlit ? vec4(0.0) : vec4(coloured.rgb, m.factors.x * metalness_roughness.b);
     emission = vec4(radiance, is_unlit ? 0.0 : m.emission.w);
-    motion = scene_is_still ? vec2(0.0) : 0.5 * (clip_now.xy / clip_now.w - clip_before.xy / clip_before.w);
+    precise vec2 now = clip_now.xy / clip_now.w, before = clip_before.xy / clip_before.w;  // of what is still: equal
+    motion = scene_is_still ? vec2(0.0) : 0.5 * (now - before);
     material_id = material + 1u;
 }
