@@ -1,4 +1,5 @@
 #include "core/gpu/pass_graph_impl.h"
+#include "core/gpu/resources.h"
 
 #include <algorithm>
 
@@ -90,17 +91,31 @@ void PassGraph::Impl::check(const Pass& pass, const ShaderInterface& interface) 
                  pass.shader_);
 }
 
-/// Not every device filters or stores every format.
-void PassGraph::Impl::check_features(const Image& image, ShaderInterface::Kind kind, const Sampling& sampling) {
-    using Feature = vk::FormatFeatureFlagBits;
-    const vk::FormatFeatureFlags features = image.storage->features;
-    const char* missing = kind == ShaderInterface::Kind::image
-                              ? (features & Feature::eStorageImage ? nullptr : "write it from shaders")
-                          : sampling.is_linear && !(features & Feature::eSampledImageFilterLinear) ? "filter it"
-                                                                                                   : nullptr;
-    if (missing)
+/// Not every device can do everything with every format. `what`: that it is asked to do, as in "filter it".
+void PassGraph::Impl::require(const Image& image, vk::FormatFeatureFlagBits feature, const char* what) {
+    if (!(image.storage->features & feature))
         fail_machine("image '", image.name, "' has the format ", vk::to_string(vulkan_format(image.format)),
-                     ", and the Vulkan device '", gpu.info.name, "' cannot ", missing);
+                     ", and the Vulkan device '", gpu.info.name, "' cannot ", what);
+}
+
+void PassGraph::Impl::allow_uses(const Pass& pass, const ShaderInterface& interface,
+                                 const std::vector<Image>& targets) {
+    using Use = vk::ImageUsageFlagBits;
+    using Feature = vk::FormatFeatureFlagBits;
+    for (const Image& target : targets) {
+        require(target, Feature::eColorAttachment, "draw to it");
+        allow_use(gpu, target, Use::eColorAttachment);
+    }
+    for (const Image& image : {pass.depth_.image, pass.stencil_.image})
+        if (image.storage) allow_use(gpu, image, Use::eDepthStencilAttachment);
+    for (const auto& r : interface.resources) {
+        if (r.kind != ShaderInterface::Kind::image) continue;
+        Sampling sampling;
+        const Image* image = find_image(pass, nullptr, r.name, sampling);
+        if (!image) fail_missing(pass, r.name);
+        require(*image, Feature::eStorageImage, "write it from shaders");
+        allow_use(gpu, *image, Use::eStorage);
+    }
 }
 
 void PassGraph::Impl::bind(const vk::raii::CommandBuffer& commands, const Pass& pass, const Draw* draw,
@@ -135,7 +150,8 @@ void PassGraph::Impl::bind(const vk::raii::CommandBuffer& commands, const Pass& 
             const bool is_sampled = r.kind == Kind::sampler;
             if (is_sampled && !image->storage->is_written)
                 fail("pass ", pass.label_, " reads '", r.name, "', which nothing has written yet");
-            check_features(*image, r.kind, sampling);
+            if (is_sampled && sampling.is_linear)
+                require(*image, vk::FormatFeatureFlagBits::eSampledImageFilterLinear, "filter it");
             const bool is_one_mip = !is_sampled || image->mips == 1;
             const vk::ImageView view = is_one_mip ? *image->storage->mips[image->first_mip] : *image->storage->whole;
             image_infos.push_back({is_sampled ? *sampler(sampling) : vk::Sampler{}, view, vk::ImageLayout::eGeneral});

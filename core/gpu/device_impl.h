@@ -74,7 +74,9 @@ struct DeviceBuffer {
     DeviceBuffer(Device::Impl& gpu, size_t size, vk::BufferUsageFlags usage, bool is_host_visible);
 };
 
+/// Of an image, which is made when it is first used (allow_use()).
 struct ImageStorage {
+    vk::ImageCreateInfo info;         ///< its uses grow
     vk::FormatFeatureFlags features;  ///< what the device can do with the format
     vk::raii::Image image{nullptr};
     vk::raii::DeviceMemory memory{nullptr};

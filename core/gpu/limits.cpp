@@ -48,7 +48,7 @@ void check_texture(const std::string& pass, const Image& texture, const Sampling
         if (image.storage == texture.storage)
             refuse(pass, "reads no image while it is drawn to", "reads '", texture.name, "' and draws to it as '",
                    image.name, "'");
-    const size_t mips = texture.storage->mips.size();
+    const unsigned mips = texture.storage->info.mipLevels;
     if (texture.mips != mips)
         refuse(pass, "has no views of textures and reads all mips", "reads ", texture.mips, " of the ", mips,
                " mips of '", texture.name, "'");

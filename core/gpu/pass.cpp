@@ -154,6 +154,7 @@ void PassGraph::Impl::run(Pass& pass, std::optional<glm::uvec3> groups, const Bu
         for (const Image& image : attachments) state.attachments.push_back(image.format);
     }
     check_limits(pass, shader, attachments);
+    allow_uses(pass, shader.interface, attachments);
     const auto record = [&](const vk::raii::CommandBuffer& commands, const Pipeline& pipeline) {
         commands.bindPipeline(pass.is_compute_ ? vk::PipelineBindPoint::eCompute : vk::PipelineBindPoint::eGraphics,
                               *pipeline.pipeline);

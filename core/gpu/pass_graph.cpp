@@ -81,6 +81,7 @@ PassGraph::History PassGraph::history(const std::string& name, Format format, gl
 }
 
 void PassGraph::clear(const Image& image, glm::vec4 value) {
+    allow_use(impl_->gpu, image, vk::ImageUsageFlagBits::eTransferDst);
     impl_->execute("clear", [&](const auto& commands) {
         const ImageStorage& storage = *image.storage;
         const vk::ImageSubresourceRange range{storage.aspect, image.first_mip, image.mips, 0, 1};

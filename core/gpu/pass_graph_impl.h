@@ -79,7 +79,9 @@ struct PassGraph::Impl {
     const vk::raii::Sampler& sampler(const Sampling& sampling);
     void run(Pass& pass, std::optional<glm::uvec3> groups, const Buffer* arguments, size_t arguments_offset);
     void check(const Pass& pass, const ShaderInterface& interface);
-    void check_features(const Image& image, ShaderInterface::Kind kind, const Sampling& sampling);
+    void require(const Image& image, vk::FormatFeatureFlagBits feature, const char* what);
+    /// Of what the pass stores to and draws to; before its commands are recorded.
+    void allow_uses(const Pass& pass, const ShaderInterface& interface, const std::vector<Image>& targets);
     void check_limits(const Pass& pass, const Shader& shader, const std::vector<Image>& targets);
     void check_resources(const Pass& pass, const ShaderInterface& interface, const std::vector<Image>& drawn);
     void check_limits(const Buffer& buffer);

@@ -3,7 +3,9 @@
 #include "core/error.h"
 #include "core/gpu/format.h"
 
+#include <algorithm>
 #include <cstring>
+#include <utility>
 
 Image Image::mip(unsigned level) const {
     Image view = *this;
@@ -36,17 +38,6 @@ void full_barrier(const vk::raii::CommandBuffer& commands) {
 
 namespace {
 
-/// What the device can do with the format: not every format can be stored to or rendered to.
-vk::ImageUsageFlags usage_of(vk::FormatFeatureFlags features) {
-    using Usage = vk::ImageUsageFlagBits;
-    using Feature = vk::FormatFeatureFlagBits;
-    vk::ImageUsageFlags usage = Usage::eTransferSrc | Usage::eTransferDst | Usage::eSampled;
-    if (features & Feature::eStorageImage) usage |= Usage::eStorage;
-    if (features & Feature::eColorAttachment) usage |= Usage::eColorAttachment;
-    if (features & Feature::eDepthStencilAttachment) usage |= Usage::eDepthStencilAttachment;
-    return usage;
-}
-
 vk::ImageAspectFlags copied_aspect(const Image& image) {
     return image.storage->aspect & vk::ImageAspectFlagBits::eDepth ? vk::ImageAspectFlagBits::eDepth
                                                                    : vk::ImageAspectFlagBits::eColor;
@@ -57,9 +48,54 @@ vk::BufferImageCopy whole_mip(const Image& image) {
             .imageExtent = {image.extent.x, image.extent.y, 1}};
 }
 
+/// The image that `storage.info` describes, with its views, in place of the one that it has.
+void make_image(Device::Impl& gpu, ImageStorage& storage) {
+    storage.image = {gpu.device, storage.info};
+    storage.memory = gpu.allocate(storage.image.getMemoryRequirements(), {}, vk::MemoryPropertyFlagBits::eDeviceLocal);
+    storage.image.bindMemory(*storage.memory, 0);
+
+    const bool is_depth = bool(storage.aspect & vk::ImageAspectFlagBits::eDepth);
+    const vk::ImageAspectFlags sampled = is_depth ? vk::ImageAspectFlagBits::eDepth : storage.aspect;
+    const auto view = [&](vk::ImageAspectFlags aspect, unsigned first, unsigned count) {
+        return vk::raii::ImageView(gpu.device,
+                                   vk::ImageViewCreateInfo{.image = *storage.image,
+                                                           .viewType = vk::ImageViewType::e2D,
+                                                           .format = storage.info.format,
+                                                           .subresourceRange = {aspect, first, count, 0, 1}});
+    };
+    const unsigned mips = storage.info.mipLevels;
+    storage.whole = view(sampled, 0, mips);
+    storage.mips.clear();
+    for (unsigned level = 0; level < mips; ++level) storage.mips.push_back(view(sampled, level, 1));
+    if (is_depth) storage.attachment = view(storage.aspect, 0, 1);
+    gpu.submit([&](auto& commands) {
+        const vk::ImageMemoryBarrier2 barrier{.dstStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+                                              .newLayout = vk::ImageLayout::eGeneral,
+                                              .image = *storage.image,
+                                              .subresourceRange = {storage.aspect, 0, mips, 0, 1}};
+        commands.pipelineBarrier2({.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
+    });
+}
+
+void copy_image(Device::Impl& gpu, const vk::raii::Image& from, const ImageStorage& to) {
+    std::vector<vk::ImageCopy> copies;
+    for (unsigned level = 0; level < to.info.mipLevels; ++level) {
+        const vk::Extent3D extent{std::max(to.info.extent.width >> level, 1u),
+                                  std::max(to.info.extent.height >> level, 1u), 1};
+        const vk::ImageSubresourceLayers whole{to.aspect, level, 0, 1};
+        copies.push_back({.srcSubresource = whole, .dstSubresource = whole, .extent = extent});
+    }
+    gpu.submit([&](auto& commands) {
+        full_barrier(commands);
+        commands.copyImage(*from, vk::ImageLayout::eGeneral, *to.image, vk::ImageLayout::eGeneral, copies);
+        full_barrier(commands);
+    });
+}
+
 }  // namespace
 
 std::shared_ptr<ImageStorage> create_image(Device::Impl& gpu, Format format, glm::uvec2 extent, unsigned mips) {
+    using Usage = vk::ImageUsageFlagBits;
     if (std::max(extent.x, extent.y) > gpu.largest_side)
         fail_machine("an image of ", extent.x, "x", extent.y, " pixels is larger than any of the Vulkan device '",
                      gpu.info.name, "', whose sides have ", gpu.largest_side, " at most: choose a smaller size");
@@ -67,40 +103,31 @@ std::shared_ptr<ImageStorage> create_image(Device::Impl& gpu, Format format, glm
     storage->aspect = aspect_of(format);
     const vk::Format vk_format = vulkan_format(format);
     storage->features = gpu.gpu.getFormatProperties(vk_format).optimalTilingFeatures;
-    const vk::ImageUsageFlags usage = usage_of(storage->features);
-    const bool is_depth = bool(storage->aspect & vk::ImageAspectFlagBits::eDepth);
-    if (is_depth && !(usage & vk::ImageUsageFlagBits::eDepthStencilAttachment))
-        fail_machine("the Vulkan device '", gpu.info.name, "' has no depth format ", vk::to_string(vk_format),
-                     "; choose another depth format");
-    storage->image = {gpu.device, vk::ImageCreateInfo{.imageType = vk::ImageType::e2D,
-                                                      .format = vk_format,
-                                                      .extent = {extent.x, extent.y, 1},
-                                                      .mipLevels = mips,
-                                                      .arrayLayers = 1,
-                                                      .usage = usage}};
-    storage->memory =
-        gpu.allocate(storage->image.getMemoryRequirements(), {}, vk::MemoryPropertyFlagBits::eDeviceLocal);
-    storage->image.bindMemory(*storage->memory, 0);
-
-    const vk::ImageAspectFlags sampled = is_depth ? vk::ImageAspectFlagBits::eDepth : storage->aspect;
-    const auto view = [&](vk::ImageAspectFlags aspect, unsigned first, unsigned count) {
-        return vk::raii::ImageView(gpu.device,
-                                   vk::ImageViewCreateInfo{.image = *storage->image,
-                                                           .viewType = vk::ImageViewType::e2D,
-                                                           .format = vk_format,
-                                                           .subresourceRange = {aspect, first, count, 0, 1}});
-    };
-    storage->whole = view(sampled, 0, mips);
-    for (unsigned level = 0; level < mips; ++level) storage->mips.push_back(view(sampled, level, 1));
-    if (is_depth) storage->attachment = view(storage->aspect, 0, 1);
-    gpu.submit([&](auto& commands) {
-        const vk::ImageMemoryBarrier2 barrier{.dstStageMask = vk::PipelineStageFlagBits2::eAllCommands,
-                                              .newLayout = vk::ImageLayout::eGeneral,
-                                              .image = *storage->image,
-                                              .subresourceRange = {storage->aspect, 0, mips, 0, 1}};
-        commands.pipelineBarrier2({.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
-    });
+    storage->info = {.imageType = vk::ImageType::e2D,
+                     .format = vk_format,
+                     .extent = {extent.x, extent.y, 1},
+                     .mipLevels = mips,
+                     .arrayLayers = 1,
+                     .usage = Usage::eTransferSrc | Usage::eTransferDst | Usage::eSampled};
+    if (storage->aspect & vk::ImageAspectFlagBits::eDepth) {
+        storage->info.usage |= Usage::eDepthStencilAttachment;
+        if (!(storage->features & vk::FormatFeatureFlagBits::eDepthStencilAttachment))
+            fail_machine("the Vulkan device '", gpu.info.name, "' has no depth format ", vk::to_string(vk_format),
+                         "; choose another depth format");
+    }
     return storage;
+}
+
+void allow_use(Device::Impl& gpu, const Image& image, vk::ImageUsageFlagBits use) {
+    ImageStorage& storage = *image.storage;
+    const bool is_made = *storage.image != vk::Image();
+    if (is_made && (storage.info.usage & use)) return;
+    if (is_made && gpu.flush_recording) gpu.flush_recording();  // it may use the one that is there
+    const vk::raii::Image before = std::move(storage.image);
+    const vk::raii::DeviceMemory its_memory = std::move(storage.memory);
+    storage.info.usage |= use;
+    make_image(gpu, storage);
+    if (is_made && storage.is_written) copy_image(gpu, before, storage);
 }
 
 std::shared_ptr<BufferStorage> create_buffer(Device::Impl& gpu, size_t bytes) {
@@ -129,6 +156,7 @@ uint64_t bytes_of(const Image& image) {
 void upload_texels(Device::Impl& gpu, const Image& image, std::span<const std::byte> texels) {
     const DeviceBuffer staging(gpu, texels.size(), vk::BufferUsageFlagBits::eTransferSrc, true);
     std::memcpy(staging.data, texels.data(), texels.size());
+    allow_use(gpu, image, vk::ImageUsageFlagBits::eTransferDst);
     gpu.submit([&](auto& commands) {
         full_barrier(commands);
         commands.copyBufferToImage(*staging.buffer, *image.storage->image, vk::ImageLayout::eGeneral, whole_mip(image));
@@ -140,6 +168,7 @@ void upload_texels(Device::Impl& gpu, const Image& image, std::span<const std::b
 std::vector<std::byte> download_texels(Device::Impl& gpu, const Image& image) {
     const size_t size = size_t(image.extent.x) * image.extent.y * facts_of(image.format).bytes;
     const DeviceBuffer staging(gpu, size, vk::BufferUsageFlagBits::eTransferDst, true);
+    allow_use(gpu, image, vk::ImageUsageFlagBits::eTransferSrc);
     gpu.submit([&](auto& commands) {
         full_barrier(commands);
         commands.copyImageToBuffer(*image.storage->image, vk::ImageLayout::eGeneral, *staging.buffer, whole_mip(image));

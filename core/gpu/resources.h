@@ -7,7 +7,13 @@
 // Images and buffers on the device, and their way there and back. All images stay in the general layout: ssrlab
 // compares algorithms, and one layout keeps passes free of transitions.
 
+/// An image that can be copied and sampled, and as a depth image be tested against.
 std::shared_ptr<ImageStorage> create_image(Device::Impl& gpu, Format format, glm::uvec2 extent, unsigned mips);
+
+/// Lets shaders store to an image, or draw to it, too. GPUs compress images that allow less: so each allows no more than
+/// its passes have asked for, and is made again, with what it holds, when the first one asks for more.
+void allow_use(Device::Impl& gpu, const Image& image, vk::ImageUsageFlagBits use);
+
 std::shared_ptr<BufferStorage> create_buffer(Device::Impl& gpu, size_t bytes);
 
 /// Of all mips of the view, without padding.

@@ -1,5 +1,6 @@
 #include "core/error.h"
 #include "core/gpu/device.h"
+#include "core/gpu/device_impl.h"
 #include "core/gpu/pass_graph.h"
 
 #include <gtest/gtest.h>
@@ -128,4 +129,27 @@ TEST_F(Images, MayBeReplacedWhileRecorded) {
     EXPECT_EQ(recording.download(other).values.front(), 2.0f);
     EXPECT_EQ(recording.times().size(), 1u);
     EXPECT_GE(recording.frame_milliseconds(), recording.times()[0].milliseconds * 0.5);
+}
+
+/// On either clock: with time stamps of the device, passes of the image that is replaced may only be recorded.
+TEST_F(Images, AllowNoMoreThanTheirPassesAskFor) {
+    using Use = vk::ImageUsageFlagBits;
+    const vk::ImageUsageFlags always = Use::eTransferSrc | Use::eTransferDst | Use::eSampled;
+    for (const Clock clock : {Clock::host_fence, Clock::gpu_timestamp}) {
+        PassGraph passes(device, {24, 16}, clock);
+        passes.begin_frame({}, no_parameters, {});
+        const auto uses = [](const Image& image) { return image.storage->info.usage; };
+        const Image both = passes.image("both", Format::r32f, 2), drawn = passes.image("drawn", Format::r32f),
+                    copied = passes.image("copied", Format::r32f);
+        passes.clear(copied, glm::vec4(0));
+        passes.fragment("constant_color.frag").set("value", glm::vec4(4)).write(drawn.as("color")).run();
+        passes.compute("store_value.comp").set("value", glm::vec4(5)).write(both.mip(0).as("target")).run({24, 16});
+        EXPECT_EQ(uses(copied), always);
+        EXPECT_EQ(uses(drawn), always | Use::eColorAttachment);
+        EXPECT_EQ(uses(both), always | Use::eStorage);
+        passes.fragment("constant_color.frag").set("value", glm::vec4(6)).write(both.mip(1).as("color")).run();
+        EXPECT_EQ(uses(both), always | Use::eStorage | Use::eColorAttachment);
+        EXPECT_EQ(passes.download(both.mip(0)).values.back(), 5) << "what it held before it was drawn to";
+        EXPECT_EQ(passes.download(both.mip(1)).values.back(), 6);
+    }
 }
