@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
-"""How well counted costs, and chips' estimated times, tell times: a Markdown table of a results folder that has both.
+"""How well counted costs, and chips' estimated times, order times: a Markdown table of a results folder that has both.
 
     cost_agreement.py RESULTS [--costs RESULTS]    costs.csv and estimates.csv of another folder, of the same shots and points
+    cost_agreement.py RESULTS --without STAGE ...  without stages (* stands for any text); a point is the sum of its others
 
-For each cost, over the shots: Kendall's rank correlation with the median times of the points, and of their stages; and of the pairs
-of points of a shot whose times differ by a factor of 1.5 or more, the share that the cost puts in the order of their times.
+For each cost, over the shots: Kendall's rank correlation with the median times of the points, and of their stages; of the pairs
+of points of a shot whose times differ by a factor of 1.5 or more, the share that the cost puts in the order of their times; and how
+many times an estimate the time of a stage is (median, and from the 5th to the 95th percentile of all shots' stages).
 """
 import argparse
+import fnmatch
 import itertools
 import os
 import statistics
@@ -68,20 +71,37 @@ def estimates(folder):
     return found
 
 
+def without(shots, patterns):
+    """{shot: values} without the stages that fit a pattern; totals are sums of the others then."""
+    if not patterns:
+        return shots
+    kept = {}
+    for shot, values in shots.items():
+        own = kept.setdefault(shot, {})
+        for (variant, point, stage), value in values.items():
+            if stage != "total" and not any(fnmatch.fnmatchcase(stage, pattern) for pattern in patterns):
+                own[variant, point, stage] = value
+        for (variant, point, _), value in list(own.items()):
+            own[variant, point, "total"] = own.get((variant, point, "total"), 0) + value
+    return kept
+
+
 def agreement(times, costs):
-    """[tau of totals by shot], [tau of stages by shot], pairs that are clearly apart, how many of them are in order."""
-    of_totals, of_stages, pairs, right = [], [], 0, 0
+    """[tau of totals by shot], [tau of stages by shot], pairs that are clearly apart, how many of them are in order, [time
+    over cost of each stage]."""
+    of_totals, of_stages, pairs, right, ratios = [], [], 0, 0, []
     for shot in sorted(set(times) & set(costs)):
         both = {key: (ms, costs[shot][key]) for key, ms in times[shot].items() if key in costs[shot]}
         totals = [pair for key, pair in both.items() if key[2] == "total"]
         stages = [pair for key, pair in both.items() if key[2] != "total"]
+        ratios += [ms / cost for ms, cost in stages if cost > 0]
         of_totals.append(kendall_tau([ms for ms, _ in totals], [cost for _, cost in totals]))
         of_stages.append(kendall_tau([ms for ms, _ in stages], [cost for _, cost in stages]))
         for (ms, cost), (other_ms, other_cost) in itertools.combinations(totals, 2):
             if max(ms, other_ms) >= FACTOR * min(ms, other_ms):
                 pairs += 1
                 right += (ms < other_ms) == (cost < other_cost) and cost != other_cost
-    return of_totals, of_stages, pairs, right
+    return of_totals, of_stages, pairs, right, ratios
 
 
 def spread(values):
@@ -89,19 +109,29 @@ def spread(values):
     return f"{statistics.mean(known):.2f} [{min(known):.2f}, {max(known):.2f}]" if known else "none"
 
 
+def range_of(ratios):
+    low, middle, high = (sorted(ratios)[round(share * (len(ratios) - 1))] for share in (0.05, 0.5, 0.95))
+    return f"{middle:.2f} [{low:.2f}, {high:.2f}]"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("results")
     parser.add_argument("--costs")
+    parser.add_argument("--without", nargs="+", metavar="STAGE", default=[])
     arguments = parser.parse_args()
     folder = arguments.costs or arguments.results
-    times, costs = medians(arguments.results), counts(folder) | estimates(folder)
+    estimated = estimates(folder)
+    times = without(medians(arguments.results), arguments.without)
+    costs = {name: without(shots, arguments.without) for name, shots in (counts(folder) | estimated).items()}
     if not any(set(times) & set(shots) for shots in costs.values()):
         raise ResultsError("no shot has both times and costs")
-    print("| cost | totals | stages | clearly apart, in order |\n|---|---|---|---|")
+    print("| cost | totals | stages | clearly apart, in order | time over estimate |\n|---|---|---|---|---|")
     for name, of_shots in costs.items():
-        of_totals, of_stages, pairs, right = agreement(times, of_shots)
-        print(f"| {name} | {spread(of_totals)} | {spread(of_stages)} | {right} of {pairs} |")
+        of_totals, of_stages, pairs, right, ratios = agreement(times, of_shots)
+        in_microseconds = [1e3 * ratio for ratio in ratios]
+        over = range_of(in_microseconds) if name in estimated and ratios else "-"
+        print(f"| {name} | {spread(of_totals)} | {spread(of_stages)} | {right} of {pairs} | {over} |")
 
 
 if __name__ == "__main__":

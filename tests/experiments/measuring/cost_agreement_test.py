@@ -34,12 +34,12 @@ FETCHES = {("a", "total"): 10, ("b", "total"): 30, ("c", "total"): 20, ("a", "v/
 
 
 class CostAgreement(unittest.TestCase):
-    def run_on(self, costs, estimates=None):
+    def run_on(self, costs, estimates=None, options=()):
         with tempfile.TemporaryDirectory() as folder:
             for name, text in (("times.csv", TIMES), ("costs.csv", costs), *([("estimates.csv", estimates)] if estimates else [])):
                 with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
                     file.write(text)
-            return subprocess.run([sys.executable, "-B", PROGRAM, folder], capture_output=True, text=True)
+            return subprocess.run([sys.executable, "-B", PROGRAM, folder, *options], capture_output=True, text=True)
 
     def test_ranks_and_pairs_by_hand(self):
         rows = ["shot,variant,point,stage,quantity,value"]
@@ -48,15 +48,22 @@ class CostAgreement(unittest.TestCase):
                 rows.append(f"s,v,{point},{stage},{quantity},1")
             rows.append(f"s,v,{point},{stage},fetches,{fetches}")
         done = self.run_on("\n".join(rows) + "\n")
-        self.assertIn("| fetches | 0.33 [0.33, 0.33] | -1.00 [-1.00, -1.00] | 2 of 2 |", done.stdout, done.stderr)
-        self.assertIn("| operations | none | none | 0 of 2 |", done.stdout)  # ties say nothing
+        self.assertIn("| fetches | 0.33 [0.33, 0.33] | -1.00 [-1.00, -1.00] | 2 of 2 | - |", done.stdout, done.stderr)
+        self.assertIn("| operations | none | none | 0 of 2 | - |", done.stdout)  # ties say nothing
 
     def test_estimates_of_chips_are_ranked_beside(self):
         costs = "shot,variant,point,stage,quantity,value\ns,v,a,total,fetches,1\n"
         done = self.run_on(costs, ESTIMATES)
-        self.assertIn("| navi21 estimate | 1.00 [1.00, 1.00] | -1.00 [-1.00, -1.00] | 2 of 2 |", done.stdout, done.stderr)
-        self.assertIn("| vega10 estimate | -1.00 [-1.00, -1.00] | none | 0 of 1 |", done.stdout)  # c was refused
-        self.assertNotIn("estimate", self.run_on(costs).stdout)
+        self.assertIn("| navi21 estimate | 1.00 [1.00, 1.00] | -1.00 [-1.00, -1.00] | 2 of 2 | 1000.00 [1000.00, 4000.00] |", done.stdout, done.stderr)
+        self.assertIn("| vega10 estimate | -1.00 [-1.00, -1.00] | none | 0 of 1 | - |", done.stdout)  # c was refused
+        self.assertNotIn("navi21", self.run_on(costs).stdout)
+
+    def test_totals_are_sums_of_the_stages_that_are_left(self):
+        costs = "shot,variant,point,stage,quantity,value\ns,v,a,total,fetches,1\n"
+        done = self.run_on(costs, ESTIMATES, ["--without", "w/*"])
+        self.assertIn("| navi21 estimate | -1.00 [-1.00, -1.00] | -1.00 [-1.00, -1.00] | 0 of 1 |", done.stdout, done.stderr)
+        none_left = self.run_on(costs, ESTIMATES, ["--without", "v/*"])
+        self.assertIn("| navi21 estimate | none | none | 0 of 0 | - |", none_left.stdout, none_left.stderr)
 
     def test_without_a_common_shot(self):
         done = self.run_on("shot,variant,point,stage,quantity,value\nthird,v,a,total,fetches,1\n")
