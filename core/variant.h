@@ -2,7 +2,7 @@
 #include "core/gbuffer/gbuffer.h"
 #include "core/gbuffer/scene_facts.h"
 #include "core/gpu/pass_graph.h"
-#include "core/gpu/shader.h"
+#include "core/gpu/pipelines/shader.h"
 #include "core/left_out.h"
 #include "core/parameters.h"
 #include "core/ray_probe.h"

@@ -1,7 +1,7 @@
 // The command line. Over 400 lines: the options of all commands, so that one place says what each takes.
 #include "core/error.h"
 #include "core/gpu/chips/chip_compiler.h"
-#include "core/gpu/shader_error.h"
+#include "core/gpu/pipelines/shader_error.h"
 #include "core/near_miss.h"
 #include "core/reading_limits.h"
 #include "core/scene/scene_family.h"

@@ -4,7 +4,7 @@
 # with what they include and the sources of those headers. SOURCES, if given, is a file that gets their names.
 cmake_minimum_required(VERSION 3.25)
 file(GLOB todo RELATIVE ${ROOT} ${ROOT}/groundtruth/*/*.h ${ROOT}/groundtruth/*/*.cpp ${ROOT}/core/scene/*.h
-  ${ROOT}/core/scene/*.cpp)
+  ${ROOT}/core/scene/*.cpp ${ROOT}/core/scene/*/*.h ${ROOT}/core/scene/*/*.cpp)
 set(sources "")
 while(todo)
   list(POP_FRONT todo source)

@@ -17,7 +17,7 @@ LISTED = "of the user's own folder, which was listed"
 SCENE = "scenes have a rule of their own: file_below() (core/reading_limits.h)"
 
 ALLOWED = {
-    ("core/gpu/shader.cpp", "root / name"): PROGRAM,
+    ("core/gpu/pipelines/shader.cpp", "root / name"): PROGRAM,
     ("core/path_inside.cpp", "path /= part"): "the one way",
     ("core/reading_limits.cpp", "folder / name"): SCENE,
     ("core/scene/load_scene.cpp", "folder / name"): SCENE,

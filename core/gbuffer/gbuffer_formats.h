@@ -1,5 +1,5 @@
 #pragma once
-#include "core/gpu/precision.h"
+#include "core/gpu/pipelines/precision.h"
 
 /// In which formats techniques find the G-buffer. `exact`: those of gbuffer.h. `packed`: as engines have it, in about
 /// half of the bytes: normals with their roughness, emission, lit colour and fallback rgba16f, base colour with its

@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 #include "core/gpu/device.h"
-#include "core/gpu/precision.h"
+#include "core/gpu/pipelines/precision.h"
 #include "core/shared/drawn_light.h"
 
 struct Rasterizer::Frame {

@@ -1,7 +1,7 @@
 #include "core/gpu/format.h"
 
 #include "core/error.h"
-#include "core/gpu/precision.h"
+#include "core/gpu/pipelines/precision.h"
 
 #include <Imath/half.h>
 #include <algorithm>

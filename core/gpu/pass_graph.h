@@ -2,7 +2,7 @@
 #include "core/gpu/image.h"
 #include "core/gpu/limits.h"
 #include "core/gpu/pass_cost.h"
-#include "core/gpu/precision.h"
+#include "core/gpu/pipelines/precision.h"
 #include "core/host_image.h"
 #include "core/parameters.h"
 #include "core/shared/camera.h"

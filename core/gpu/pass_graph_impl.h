@@ -2,7 +2,7 @@
 #include "core/error.h"
 #include "core/gpu/device_impl.h"
 #include "core/gpu/pass_graph.h"
-#include "core/gpu/pipeline.h"
+#include "core/gpu/pipelines/pipeline.h"
 
 #include <map>
 #include <optional>

@@ -1,7 +1,7 @@
 #include "core/gpu/pass_graph.h"
 #include "core/error.h"
 #include "core/gpu/device.h"
-#include "core/gpu/shader.h"
+#include "core/gpu/pipelines/shader.h"
 #include "tests/error_message.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
-#include "core/gpu/precision.h"
+#include "core/gpu/pipelines/precision.h"
 #include "core/gpu/device.h"
-#include "core/gpu/double_shader.h"
 #include "core/gpu/pass_graph.h"
+#include "core/gpu/pipelines/double_shader.h"
 
 #include <Imath/half.h>
 #include <gtest/gtest.h>

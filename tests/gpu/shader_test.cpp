@@ -1,4 +1,4 @@
-#include "core/gpu/shader.h"
+#include "core/gpu/pipelines/shader.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/parameters.h"

@@ -38,7 +38,7 @@ if(scalar STREQUAL vector)
 endif()
 
 file(STRINGS ${SOURCES} sources)
-foreach(source core/png.h core/shared/brdf.h core/scene/gltf_texture.cpp groundtruth/reference/reference_error.cpp)
+foreach(source core/png.h core/shared/brdf.h core/scene/gltf/gltf_texture.cpp groundtruth/reference/reference_error.cpp)
   if(NOT source IN_LIST sources)
     message(FATAL_ERROR "${source} decides what is in a reference, but is no part of its version")
   endif()

@@ -1,4 +1,4 @@
-#include "core/scene/tangents.h"
+#include "core/scene/gltf/tangents.h"
 #include "tests/scene/gltf_fixture.h"
 
 #include <cmath>

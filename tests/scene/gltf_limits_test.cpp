@@ -1,7 +1,7 @@
 // What small files may not do: take memory, read other folders, wait for ever.
 #include "core/files.h"
 #include "core/png.h"
-#include "core/scene/encoded_image.h"
+#include "core/scene/gltf/encoded_image.h"
 #include "core/scene/material_override.h"
 #include "core/scene/ranges.h"
 #include "tests/reading_limits.h"

@@ -1,5 +1,5 @@
 #include "core/error.h"
-#include "core/gpu/double_shader.h"
+#include "core/gpu/pipelines/double_shader.h"
 #include "tests/variants/variant_fixture.h"
 
 #include <filesystem>

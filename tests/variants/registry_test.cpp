@@ -1,6 +1,6 @@
 #include "core/error.h"
 #include "core/files.h"
-#include "core/gpu/shader.h"
+#include "core/gpu/pipelines/shader.h"
 #include "tests/error_message.h"
 #include "tests/variants/variant_fixture.h"
 #include "variants/tracers/tracers.h"

@@ -1,4 +1,4 @@
-#include "core/gpu/shader.h"
+#include "core/gpu/pipelines/shader.h"
 #include "tests/variants/tracer_bench.h"
 #include "tests/variants/variant_fixture.h"
 

@@ -1,6 +1,6 @@
 // Techniques that keep to the limits of WebGL 2.
 #include "core/error.h"
-#include "core/gpu/shader.h"
+#include "core/gpu/pipelines/shader.h"
 #include "tests/error_message.h"
 #include "tests/variants/amd_scenes.h"
 #include "tests/variants/variant_fixture.h"

@@ -1,7 +1,7 @@
 #pragma once
 #include "core/gbuffer/gbuffer.h"
 #include "core/gpu/pass_graph.h"
-#include "core/gpu/shader.h"
+#include "core/gpu/pipelines/shader.h"
 #include "core/ray_probe.h"
 #include "variants/tracers/tracer.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 #include "core/gpu/chips/compiled_shader.h"
-#include "core/gpu/pipeline_recipe.h"
+#include "core/gpu/pipelines/pipeline_recipe.h"
 
 #include <array>
 #include <filesystem>

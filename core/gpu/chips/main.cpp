@@ -6,7 +6,7 @@
 // process.
 #include "core/error.h"
 #include "core/files.h"
-#include "core/gpu/pipeline.h"
+#include "core/gpu/pipelines/pipeline.h"
 
 #include <cstdlib>
 #include <fstream>

@@ -1,7 +1,7 @@
 #include "core/gpu/waves/shader_flow.h"
 
 #include "core/error.h"
-#include "core/gpu/spirv_module.h"
+#include "core/gpu/pipelines/spirv_module.h"
 
 #include <algorithm>
 #include <functional>

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/gpu/pipeline_recipe.h"
+#include "core/gpu/pipelines/pipeline_recipe.h"
 #include "core/gpu/waves/flow_graph.h"
 
 // A shader as one function without constants that a pipeline decides: what is counted of its blocks where it runs, and

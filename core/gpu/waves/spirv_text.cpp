@@ -1,7 +1,7 @@
 #include "core/gpu/waves/spirv_text.h"
 
 #include "core/error.h"
-#include "core/gpu/spirv_module.h"
+#include "core/gpu/pipelines/spirv_module.h"
 
 #include <algorithm>
 #include <spirv-tools/libspirv.hpp>

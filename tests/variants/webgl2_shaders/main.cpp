@@ -1,5 +1,5 @@
 #include "core/error.h"
-#include "core/gpu/shader.h"
+#include "core/gpu/pipelines/shader.h"
 #include "variants/registry.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "core/gpu/pipeline_recipe.h"
+#include "core/gpu/pipelines/pipeline_recipe.h"
 
 #include "core/error.h"
 

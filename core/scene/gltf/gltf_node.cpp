@@ -1,5 +1,5 @@
-#include "core/scene/gltf_parts.h"
-#include "core/scene/gltf_value.h"
+#include "core/scene/gltf/gltf_parts.h"
+#include "core/scene/gltf/gltf_value.h"
 
 #include "core/error.h"
 #include "core/near_miss.h"

@@ -1,4 +1,4 @@
-#include "core/gpu/double_shader.h"
+#include "core/gpu/pipelines/double_shader.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,9 +1,9 @@
-#include "core/scene/gltf_file.h"
+#include "core/scene/gltf/gltf_file.h"
 
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
-#include "core/scene/gltf_schema.h"
+#include "core/scene/gltf/gltf_schema.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

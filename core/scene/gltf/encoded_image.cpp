@@ -1,4 +1,4 @@
-#include "core/scene/encoded_image.h"
+#include "core/scene/gltf/encoded_image.h"
 
 #include <algorithm>
 #include <array>

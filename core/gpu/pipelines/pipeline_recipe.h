@@ -1,6 +1,6 @@
 #pragma once
 #include "core/gpu/pass_graph.h"
-#include "core/gpu/shader.h"
+#include "core/gpu/pipelines/shader.h"
 
 #include <optional>
 

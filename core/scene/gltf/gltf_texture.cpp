@@ -1,11 +1,11 @@
-#include "core/scene/gltf_texture.h"
+#include "core/scene/gltf/gltf_texture.h"
 
 #include "core/error.h"
 #include "core/jpeg.h"
 #include "core/near_miss.h"
 #include "core/png.h"
-#include "core/scene/encoded_image.h"
-#include "core/scene/gltf_value.h"
+#include "core/scene/gltf/encoded_image.h"
+#include "core/scene/gltf/gltf_value.h"
 #include "core/scene/ranges.h"
 
 #include <tbb/parallel_for.h>

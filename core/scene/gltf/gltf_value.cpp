@@ -1,4 +1,4 @@
-#include "core/scene/gltf_value.h"
+#include "core/scene/gltf/gltf_value.h"
 
 #include "core/error.h"
 

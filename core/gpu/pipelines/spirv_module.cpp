@@ -1,4 +1,4 @@
-#include "core/gpu/spirv_module.h"
+#include "core/gpu/pipelines/spirv_module.h"
 
 #include <algorithm>
 

@@ -1,9 +1,9 @@
-#include "core/gpu/shader.h"
+#include "core/gpu/pipelines/shader.h"
 
 #include "core/error.h"
-#include "core/gpu/double_shader.h"
-#include "core/gpu/shader_error.h"
-#include "core/gpu/spirv_module.h"
+#include "core/gpu/pipelines/double_shader.h"
+#include "core/gpu/pipelines/shader_error.h"
+#include "core/gpu/pipelines/spirv_module.h"
 #include "core/parameters.h"
 
 #include <SPIRV/GlslangToSpv.h>

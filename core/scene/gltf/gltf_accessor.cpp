@@ -1,4 +1,4 @@
-#include "core/scene/gltf_file.h"
+#include "core/scene/gltf/gltf_file.h"
 
 #include "core/error.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/scene/gltf_file.h"
+#include "core/scene/gltf/gltf_file.h"
 
 #include <glm/glm.hpp>
 

@@ -1,4 +1,4 @@
-#include "core/scene/gltf_parts.h"
+#include "core/scene/gltf/gltf_parts.h"
 
 #include "core/error.h"
 

@@ -1,6 +1,6 @@
 #include "core/scene/animation.h"
 #include "core/scene/content_hash.h"
-#include "core/scene/gltf_parts.h"
+#include "core/scene/gltf/gltf_parts.h"
 #include "core/scene/load_scene.h"
 
 #include <map>

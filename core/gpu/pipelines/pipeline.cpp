@@ -1,4 +1,4 @@
-#include "core/gpu/pipeline.h"
+#include "core/gpu/pipelines/pipeline.h"
 
 #include "core/error.h"
 

@@ -1,4 +1,4 @@
-#include "core/scene/tangents.h"
+#include "core/scene/gltf/tangents.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
-#include "core/scene/gltf_parts.h"
-#include "core/scene/gltf_texture.h"
-#include "core/scene/gltf_value.h"
+#include "core/scene/gltf/gltf_parts.h"
+#include "core/scene/gltf/gltf_texture.h"
+#include "core/scene/gltf/gltf_value.h"
 
 #include "core/error.h"
 #include "core/near_miss.h"
@@ -59,7 +59,8 @@ Material read_material(GltfFile& file, const tinygltf::Material& source, size_t 
     material.metalness = checked_number(file, pbr.metallicFactor, 0.0, 1.0, what + ": metallicFactor");
     material.roughness = checked_number(file, pbr.roughnessFactor, 0.0, 1.0, what + ": roughnessFactor");
     material.emission = fixed_vector<3>(file, source.emissiveFactor, glm::vec3(0.0f), what + ": emissiveFactor");
-    for (int i = 0; i < 3; ++i) checked_number(file, material.emission[i], 0.0, any_radiance, what + ": emissiveFactor");
+    for (int i = 0; i < 3; ++i)
+        checked_number(file, material.emission[i], 0.0, any_radiance, what + ": emissiveFactor");
     material.normal_scale =
         checked_number(file, source.normalTexture.scale, -any_length, any_length, what + ": normal scale");
     material.is_double_sided = source.doubleSided;

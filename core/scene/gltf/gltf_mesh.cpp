@@ -1,8 +1,8 @@
-#include "core/scene/gltf_parts.h"
+#include "core/scene/gltf/gltf_parts.h"
 
 #include "core/error.h"
+#include "core/scene/gltf/tangents.h"
 #include "core/scene/ranges.h"
-#include "core/scene/tangents.h"
 
 #include <tbb/parallel_for.h>
 #include <algorithm>

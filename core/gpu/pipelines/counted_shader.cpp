@@ -1,7 +1,7 @@
-#include "core/gpu/counted_shader.h"
+#include "core/gpu/pipelines/counted_shader.h"
 
 #include "core/error.h"
-#include "core/gpu/spirv_module.h"
+#include "core/gpu/pipelines/spirv_module.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "core/scene/gltf_schema.h"
+#include "core/scene/gltf/gltf_schema.h"
 
 #include "core/error.h"
 #include "core/json.h"

@@ -1,6 +1,6 @@
 #pragma once
 #include "core/gpu/device_impl.h"
-#include "core/gpu/pipeline_recipe.h"
+#include "core/gpu/pipelines/pipeline_recipe.h"
 
 #include <map>
 
