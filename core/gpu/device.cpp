@@ -180,6 +180,7 @@ std::vector<std::string> missing_features(const vk::PhysicalDeviceFeatures& v10,
 NeededFeatures needed_features() {
     return {
         .v13 = {.robustImageAccess = true, .synchronization2 = true, .dynamicRendering = true, .maintenance4 = true},
+        .v12 = {},
         .v10 = {.robustBufferAccess = true,
                 .independentBlend = true,
                 .fragmentStoresAndAtomics = true,
@@ -237,7 +238,8 @@ Device::Device(const std::string& choice, bool validate) : impl_(translated([] {
         d.queue_family = uint32_t(family - families.begin());
         d.timestamp_bits = family->timestampValidBits;
 
-        const auto has = d.gpu.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan13Features>();
+        const auto has = d.gpu.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features,
+                                            vk::PhysicalDeviceVulkan13Features>();
         const std::vector<std::string> missing =
             missing_features(has.get<vk::PhysicalDeviceFeatures2>().features,
                              has.get<vk::PhysicalDeviceVulkan13Features>(), d.gpu.enumerateDeviceExtensionProperties());
@@ -253,10 +255,13 @@ Device::Device(const std::string& choice, bool validate) : impl_(translated([] {
             .queueFamilyIndex = d.queue_family, .queueCount = 1, .pQueuePriorities = &priority};
         const char* const extensions[] = {VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
         d.has_doubles = has.get<vk::PhysicalDeviceFeatures2>().features.shaderFloat64;
+        d.has_half_floats = has.get<vk::PhysicalDeviceVulkan12Features>().shaderFloat16;
         d.has_statistics = has.get<vk::PhysicalDeviceFeatures2>().features.pipelineStatisticsQuery;
         NeededFeatures needed = needed_features();
         needed.v10.pipelineStatisticsQuery = d.has_statistics;
         needed.v10.shaderFloat64 = d.has_doubles;
+        needed.v12.shaderFloat16 = d.has_half_floats;
+        needed.v13.pNext = &needed.v12;
         d.device = {d.gpu, vk::DeviceCreateInfo{.pNext = &needed.v13,
                                                 .queueCreateInfoCount = 1,
                                                 .pQueueCreateInfos = &queue,
@@ -285,6 +290,8 @@ std::vector<std::string> Device::validation_messages() const {
 }
 
 bool Device::has_doubles() const { return impl_->has_doubles; }
+
+bool Device::has_half_floats() const { return impl_->has_half_floats; }
 
 bool Device::supports(Format format) const {
     const auto features = impl_->gpu.getFormatProperties(vulkan_format(format)).optimalTilingFeatures;

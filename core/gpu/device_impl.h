@@ -20,6 +20,7 @@ std::vector<std::string> missing_features(const vk::PhysicalDeviceFeatures& v10,
 /// techniques expect.
 struct NeededFeatures {
     vk::PhysicalDeviceVulkan13Features v13;
+    vk::PhysicalDeviceVulkan12Features v12;  ///< of those that are not needed, but used where they are there
     vk::PhysicalDeviceFeatures v10;
 };
 NeededFeatures needed_features();
@@ -40,6 +41,7 @@ struct Device::Impl {
     uint32_t queue_family = 0;
     float nanoseconds_per_tick = 1;  ///< of time stamps
     bool has_doubles = false;        ///< in shaders
+    bool has_half_floats = false;    ///< in shaders, as numbers to calculate with
     bool has_statistics = false;     ///< counts invocations
     uint32_t timestamp_bits = 0;     ///< 0: the queue cannot write time stamps
     uint32_t largest_side = 0;       ///< of an image, pixels

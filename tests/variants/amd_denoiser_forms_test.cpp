@@ -2,6 +2,8 @@
 #include "tests/variants/denoiser_tolerance.h"
 #include "tests/variants/variant_fixture.h"
 
+#include <cmath>
+
 // The fast form of the denoiser against the faithful one, where golden data does not reach: sizes that are no multiples
 // of a tile, reversed depth, the corrections.
 
@@ -80,3 +82,62 @@ INSTANTIATE_TEST_SUITE_P(amd_denoiser, AmdDenoiserForms,
                                          Case{"reversed_depth", {125, 83}, DepthDirection::reversed},
                                          Case{"corrected", {125, 83}, DepthDirection::standard, all_corrections}),
                          [](const auto& info) { return std::string(info.param.name); });
+
+namespace {
+
+struct AmdDenoiserFloat16 : VariantTest {
+    /// What the denoiser shows of the last of some frames, each fed by the form's own.
+    HostImage resolved(const char* form, const std::vector<DenoiserInputs>& frames) {
+        DenoiserBench bench(device(), frames.front().depth.extent, with_form({}, form));
+        HostImage image;
+        for (size_t i = 0; i < frames.size(); ++i) {
+            bench.begin_frame(frames[i], i > 0 ? &frames[i - 1] : nullptr);
+            amd_denoise(bench.graph, bench.gbuffer, bench.work, bench.histories, bench.denoiser);
+            image = bench.graph.download(bench.histories.radiance.current);
+        }
+        return image;
+    }
+};
+
+}  // namespace
+
+/// Sums of 81 halves are off by some 2^-11 sqrt(81) = 0.4 % of themselves, and most of that cancels in their ratio.
+/// They decide only where history is clipped.
+TEST_F(AmdDenoiserFloat16, ComesCloseToTheFaithfulForm) {
+    std::vector<DenoiserInputs> frames;
+    for (unsigned index = 0; index < 6; ++index)
+        frames.push_back(floor_and_ball({125, 83}, DepthDirection::standard, index, index > 0 ? index - 1 : 0));
+    const HostImage expected = resolved("faithful", frames), found = resolved("float16", frames);
+    double difference = 0, size = 0;
+    for (size_t i = 0; i < expected.pixel_count(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            const double value = expected.rgb(i)[c];
+            difference += (found.rgb(i)[c] - value) * (found.rgb(i)[c] - value), size += value * value;
+        }
+    EXPECT_LT(std::sqrt(difference / size), 0.004);
+    EXPECT_GT(difference, 0) << "in the same arithmetic";
+}
+
+/// Where the squares of colours are halves, history is clipped as in floats, to within what the difference of two
+/// rounded sums leaves of their variance: 2^-9 of 200^2 is 9^2.
+TEST_F(AmdDenoiserFloat16, ClipsBrightHistory) {
+    FacingWall before, now;
+    before.color = [](unsigned, unsigned) { return glm::vec3(280); };
+    now.color = [](unsigned, unsigned) { return glm::vec3(200); };
+    std::vector<DenoiserInputs> frames(8, facing_wall(before));
+    frames.push_back(facing_wall(now));
+    const HostImage expected = resolved("faithful", frames), found = resolved("float16", frames);
+    for (size_t i = 0; i < found.pixel_count(); ++i) ASSERT_NEAR(found.rgb(i).g, expected.rgb(i).g, 18) << i;
+}
+
+/// Squares of 400 are no halves: no history is clipped, and nothing becomes infinite. Averages of tiles, which colours
+/// are mixed with, have 6 bits.
+TEST_F(AmdDenoiserFloat16, KeepsWhatIsTooBrightForItsSquares) {
+    for (const float brightness : {0.5f, 400.0f, 60000.0f}) {
+        FacingWall wall;
+        wall.color = [=](unsigned, unsigned) { return glm::vec3(brightness); };
+        const HostImage found = resolved("float16", std::vector(3, facing_wall(wall)));
+        for (size_t i = 0; i < found.pixel_count(); ++i)
+            ASSERT_NEAR(found.rgb(i).g, brightness, brightness * 0x1p-6f) << i;
+    }
+}

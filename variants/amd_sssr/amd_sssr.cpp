@@ -14,6 +14,7 @@ class AmdSssr final : public TracingVariant {
 public:
     bool depends_on_seed() const override;
     std::string not_repeatable() const override;
+    ShaderIncludes shader_includes() const override;
 
 private:
     Reflections render_passes(PassGraph& graph, const GBuffer& gbuffer) override;
@@ -83,13 +84,21 @@ bool AmdSssr::depends_on_seed() const {
     return tracing_.roughness_threshold_alpha > 0 && (tracing_.draw_directions || tracing_.tracers.needs().random);
 }
 
+ShaderIncludes AmdSssr::shader_includes() const {
+    ShaderIncludes includes = TracingVariant::shader_includes();
+    includes.merge(amd_denoiser_includes(denoiser_));
+    return includes;
+}
+
 std::string AmdSssr::not_repeatable() const {
     // Pixels enter the ray list in the order in which atomics let them.
     std::string why = tracing_.tracers.not_repeatable();
-    if (denoiser_.denoise && denoiser_.denoiser_form.is("faithful") && !denoiser_.barrier_before_average)
+    const bool is_as_original = denoiser_.denoiser_form.is("faithful") || denoiser_.denoiser_form.is("float16");
+    if (denoiser_.denoise && is_as_original && !denoiser_.barrier_before_average)
         why += std::string(why.empty() ? "" : "; ") +
-               "denoiser_form = faithful without barrier_before_average: a tile's average may overwrite moments that "
-               "other threads have still to read";
+               "denoiser_form = " + (denoiser_.denoiser_form.is("float16") ? "float16" : "faithful") +
+               " without barrier_before_average: a tile's average may overwrite moments that other threads have still "
+               "to read";
     return why;
 }
 

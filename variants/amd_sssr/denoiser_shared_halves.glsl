@@ -8,13 +8,4 @@ shared uvec2 shared_color[16][16];  // row, column; rgb and one more
 
 void share_color(ivec2 at, vec4 color) { shared_color[at.y][at.x] = packed_halves(color); }
 vec4 shared_color_at(ivec2 at) { return unpacked_halves(shared_color[at.y][at.x]); }
-
-// `at`: of the pixel in shared memory.
-Neighborhood neighborhood_at(ivec2 at) {
-    Moments sum = no_moments;
-    for (int y = -reach; y <= reach; ++y)
-        for (int x = -reach; x <= reach; ++x)
-            add_neighbor(shared_color_at(at + ivec2(x, y)), kernel_weight(x) * kernel_weight(y), sum);
-    return neighborhood_of(sum);
-}
 #endif

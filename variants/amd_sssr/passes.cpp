@@ -1,6 +1,8 @@
 #include "variants/amd_sssr/passes.h"
 
+#include "core/error.h"
 #include "core/gbuffer/environment_images.h"
+#include "core/gpu/device.h"
 
 #include <cmath>
 
@@ -64,9 +66,16 @@ bool is_fast_form(const PassGraph& graph, const AmdDenoiserParameters& parameter
     return parameters.denoiser_form.is("fast") || (parameters.denoiser_form.is("by_device") && !graph.uses_gpu_forms());
 }
 
-/// Each form has shaders of its own. A group of the faithful form denoises one tile, of the fast form eight.
+/// Each form has shaders of its own. A group of the fast form denoises eight tiles, of the others one.
 PassGraph::Pass denoiser_pass(PassGraph& graph, const std::string& name, bool is_fast) {
     return graph.compute("amd_sssr/" + name + (is_fast ? "_fast.comp" : ".comp")).label("amd_sssr/" + name);
+}
+
+void include_neighborhood(PassGraph::Pass& pass, PassGraph& graph, const AmdDenoiserParameters& parameters) {
+    if (parameters.denoiser_form.is("float16") && !graph.device().has_half_floats())
+        fail_machine("denoiser_form = float16: the Vulkan device '", graph.device().info().name,
+                     "' has no half floats in shaders");
+    for (const auto& [name, glsl] : amd_denoiser_includes(parameters)) pass.include(name, glsl);
 }
 
 void dispatch_tiles(PassGraph::Pass& pass, const AmdWork& work, bool is_fast) {
@@ -88,6 +97,12 @@ Image average_image(const AmdHistories& histories, const AmdDenoiserParameters& 
 
 }  // namespace
 
+ShaderIncludes amd_denoiser_includes(const AmdDenoiserParameters& parameters) {
+    const bool is_half = parameters.denoiser_form.is("float16");
+    return {{"neighborhood",
+             std::string("#include \"amd_sssr/denoiser_neighborhood") + (is_half ? "_float16" : "") + ".glsl\"\n"}};
+}
+
 void amd_reproject(PassGraph& graph, const GBuffer& gbuffer, const AmdWork& work, const AmdHistories& histories,
                    const AmdDenoiserParameters& parameters) {
     const Image reprojected = reprojected_image(graph, histories);
@@ -97,6 +112,7 @@ void amd_reproject(PassGraph& graph, const GBuffer& gbuffer, const AmdWork& work
     if (parameters.fresh_neighborhood) graph.clear(histories.average_radiance.current, glm::vec4(unlisted_average));
     const bool is_fast = is_fast_form(graph, parameters);
     PassGraph::Pass pass = denoiser_pass(graph, "reproject", is_fast);
+    if (!is_fast) include_neighborhood(pass, graph, parameters);
     pass.read(histories.radiance.current.as("radiance"))
         .read(histories.roughness.current.as("roughness"))
         .read_linear(histories.radiance.previous.as("previous_radiance"))
@@ -130,6 +146,7 @@ void amd_resolve_temporal(PassGraph& graph, const AmdWork& work, const AmdHistor
     const PassGraph::History& samples = histories.sample_count;
     const bool is_fast = is_fast_form(graph, parameters);
     PassGraph::Pass pass = denoiser_pass(graph, "resolve_temporal", is_fast);
+    if (!is_fast) include_neighborhood(pass, graph, parameters);
     pass.read(histories.radiance.current.as("traced_radiance"))
         .read(histories.radiance.previous.as("prefiltered_radiance"))
         .read(histories.variance.previous.as("prefiltered_variance"))

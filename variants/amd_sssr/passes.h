@@ -54,6 +54,9 @@ void amd_intersect(PassGraph& graph, const GBuffer& gbuffer, const Tracers::Imag
 void amd_denoise(PassGraph& graph, const GBuffer& gbuffer, const AmdWork& work, const AmdHistories& histories,
                  const AmdDenoiserParameters& parameters);
 
+/// What the shaders of the form that parameters choose include: how moments are summed.
+ShaderIncludes amd_denoiser_includes(const AmdDenoiserParameters& parameters);
+
 // Its three passes, in their order.
 void amd_reproject(PassGraph& graph, const GBuffer& gbuffer, const AmdWork& work, const AmdHistories& histories,
                    const AmdDenoiserParameters& parameters);

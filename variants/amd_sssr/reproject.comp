@@ -3,6 +3,7 @@
 #include "amd_sssr/denoiser_history.glsl"
 #include "amd_sssr/denoiser_history_output.glsl"
 #include "amd_sssr/denoiser_shared_halves.glsl"
+#include "neighborhood"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 uniform sampler2D radiance;

@@ -2,6 +2,7 @@
 // around the pixel and accumulated.
 #include "amd_sssr/denoiser_resolve.glsl"
 #include "amd_sssr/denoiser_shared_halves.glsl"
+#include "neighborhood"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 

@@ -38,7 +38,9 @@ vk::raii::Device make_device(const vk::raii::PhysicalDevice& chip) {
     const vk::DeviceQueueCreateInfo queue{.queueFamilyIndex = 0, .queueCount = 1, .pQueuePriorities = &priority};
     vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR executables{.pipelineExecutableInfo = true};
     NeededFeatures needed = needed_features();
-    needed.v13.pNext = &executables;
+    needed.v12.shaderFloat16 = true;
+    needed.v13.pNext = &needed.v12;
+    needed.v12.pNext = &executables;
     needed.v10.shaderFloat64 = true;
     const char* const extensions[] = {VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME,
                                       VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME};
