@@ -2,8 +2,8 @@
 summary of the study. `<!-- table STUDY NAME {"rows": [...], "columns": [...], "caption": "..."} -->` shows an excerpt: the
 named rows and columns in that order (all, where a key is left out).
 
-Numbers and names in prose are made in the same way: `<!--= EXPRESSION -->0.18<!--/-->`, with cell(), cells(), shown(), most(), first(), shots() and
-over_scenes() of kept tables (Numbers), ratios() and number(value) of three digits, fixed(value, places), span(values, places), min, max, sum, len, zip and abs."""
+Numbers and names in prose are made in the same way: `<!--= EXPRESSION -->0.18<!--/-->`, with cell(), cells(), shown(), most(), first(), shots(),
+rank_correlation() and over_scenes() of kept tables (Numbers), ratios() and number(value) of three digits, fixed(value, places), span(values, places), min, max, sum, len, zip and abs."""
 
 import functools
 import math
@@ -15,6 +15,7 @@ from ssrlab.json_files import parse_json
 from ssrlab.mistakes import ResultsError
 from ssrlab.text_files import path_inside, read_text
 from paper_tables import summary_file
+from paper_tables.agreement import kendall_tau
 from paper_tables.markdown import markdown, number, with_interval
 
 BLOCK = re.compile(r"(?P<head><!-- table (?P<study>\S+) (?P<name>\S+)(?: (?P<excerpt>\{[^\n]*\}))? -->\n)(?P<text>.*?)(?P<end><!-- end of table -->)", re.DOTALL)
@@ -83,6 +84,12 @@ class Numbers:
             raise ResultsError(f"{self.file}: '{row or column}' is not one line of {study} {table}")
         return getattr(min(found, key=lambda c: c.value), of)
 
+    def rank_correlation(self, first, second):
+        """Kendall's of two columns, each (study, table, column), over the rows that both have."""
+        columns = [{c.row: c.value for c in self._found(study, table, None, column)} for study, table, column in (first, second)]
+        rows = [row for row in columns[0] if row in columns[1]]
+        return kendall_tau(*([column[row] for row in rows] for column in columns))
+
     def shots(self, study, table):
         return self._table(study, table)[0]["shots"]
 
@@ -103,7 +110,7 @@ class Numbers:
         return mean if low is None else f"{mean} [{low}, {high}]"
 
     def text(self, expression):
-        names = {"cell": self.cell, "cells": self.cells, "shown": self.shown, "most": self.most, "first": self.first, "shots": self.shots, "over_scenes": self.over_scenes}
+        names = {"cell": self.cell, "cells": self.cells, "shown": self.shown, "most": self.most, "first": self.first, "shots": self.shots, "rank_correlation": self.rank_correlation, "over_scenes": self.over_scenes}
         names |= {"ratios": self.ratios, "number": number, "fixed": lambda value, places: f"{value:.{places}f}"}
         names["span"] = lambda values, places=2: f"{min(values):.{places}f} to {max(values):.{places}f}"
         names |= {"min": min, "max": max, "sum": sum, "len": len, "zip": zip, "abs": abs}

@@ -102,6 +102,7 @@ def test_names_in_prose(temporary):
         'shown("made_up", "levels", "default", "floor")': "0.0123 [0.0111, 0.0135]",
         'number(most("made_up", "changes", "taps = 4", "mse"))': "2.00",
         'len(shots("made_up", "levels"))': "2",
+        'number(rank_correlation(("made_up", "levels", "floor"), ("made_up", "levels", "wall")))': "1.00",
     }
     write(document, "".join(f"<!-- table made_up {name} -->\n<!-- end of table -->\n" for name in ("levels", "changes")) + "".join(f"<!--= {asked} -->?<!--/-->\n" for asked in said))
     result = tables(folder, "--keep", "--root", root)
