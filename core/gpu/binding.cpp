@@ -110,7 +110,7 @@ void PassGraph::Impl::allow_uses(const Pass& pass, const ShaderInterface& interf
         if (image.storage) allow_use(gpu, image, Use::eDepthStencilAttachment);
     for (const auto& r : interface.resources) {
         if (r.kind != ShaderInterface::Kind::image) continue;
-        Sampling sampling;
+        Sampling sampling;  // draws have images of their own only to sample them
         const Image* image = find_image(pass, nullptr, r.name, sampling);
         if (!image) fail_missing(pass, r.name);
         require(*image, Feature::eStorageImage, "write it from shaders");

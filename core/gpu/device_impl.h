@@ -6,7 +6,7 @@
 #include <mutex>
 #include <vulkan/vulkan_raii.hpp>
 
-// The Vulkan side of Device, seen by core/gpu/*.cpp only: vulkan_raii.hpp costs seconds per source file.
+// The Vulkan side of Device, seen by core/gpu only: vulkan_raii.hpp costs seconds per source file.
 
 vk::Format vulkan_format(Format format);
 vk::ImageAspectFlags aspect_of(Format format);

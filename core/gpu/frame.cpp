@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstring>
+#include <set>
 
 namespace {
 
@@ -139,8 +140,8 @@ void PassGraph::Impl::flush() {
         gpu.submit_and_wait(commands, fence);
     } catch (const MachineError& e) {
         std::string names;
-        for (const std::string& stage : stages) names += (names.empty() ? "" : ", ") + stage;
-        fail_machine(e.what(), "; its stages were: ", names);
+        for (const std::string& stage : std::set(stages.begin(), stages.end())) names += " " + stage;
+        fail_machine(e.what(), "; its stages were:", names);
     }
     auto [result, ticks] =
         queries.getResults<uint64_t>(0, uint32_t(2 * stages.size()), 2 * stages.size() * sizeof(uint64_t),

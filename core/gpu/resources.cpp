@@ -123,11 +123,13 @@ void allow_use(Device::Impl& gpu, const Image& image, vk::ImageUsageFlagBits use
     const bool is_made = *storage.image != vk::Image();
     if (is_made && (storage.info.usage & use)) return;
     if (is_made && gpu.flush_recording) gpu.flush_recording();  // it may use the one that is there
-    const vk::raii::Image before = std::move(storage.image);
-    const vk::raii::DeviceMemory its_memory = std::move(storage.memory);
-    storage.info.usage |= use;
-    make_image(gpu, storage);
-    if (is_made && storage.is_written) copy_image(gpu, before, storage);
+    ImageStorage made;  // beside the one that is there, which stays if there is no memory for two
+    made.info = storage.info, made.features = storage.features, made.aspect = storage.aspect;
+    made.info.usage |= use;
+    made.is_written = storage.is_written;
+    make_image(gpu, made);
+    if (is_made && made.is_written) copy_image(gpu, storage.image, made);
+    std::swap(storage, made);
 }
 
 std::shared_ptr<BufferStorage> create_buffer(Device::Impl& gpu, size_t bytes) {

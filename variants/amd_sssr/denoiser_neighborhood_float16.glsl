@@ -1,6 +1,8 @@
-// Moments of the 9x9 pixels in shared memory around one, summed in half floats, of which GPUs take two at a time.
-// Weights are a 32nd, so that sums of colours stay below the largest half; squares of colours above 290 do not, and the
-// variance is infinite there: history is not clipped.
+// Moments of the 9x9 pixels in shared memory around one, summed in half floats, of which GPUs take two at a time: of
+// differences from the pixel, so that neither its brightness nor the rounding of squares of nearly the same colours
+// matters. Weights are an eighth: squares of differences above 145 are no halves, and variance is infinite there, so that
+// history is not clipped. Below 0.02 squares lose bits, and variance is too small or too large by what 0.001 is in
+// clip_to_box().
 #ifndef AMD_SSSR_DENOISER_NEIGHBORHOOD_FLOAT16_GLSL
 #define AMD_SSSR_DENOISER_NEIGHBORHOOD_FLOAT16_GLSL
 #extension GL_EXT_shader_explicit_arithmetic_types_float16 : require
@@ -13,17 +15,22 @@ f16vec4 shared_half_color_at(ivec2 at) {
 
 // `at`: of the pixel in shared memory.
 Neighborhood neighborhood_at(ivec2 at) {
-    f16vec4 color_and_weight = f16vec4(0.0);
+    f16vec3 center = shared_half_color_at(at).rgb;
+    f16vec4 difference_and_weight = f16vec4(0.0);
     f16vec3 square = f16vec3(0.0);
     for (int y = -reach; y <= reach; ++y)
         for (int x = -reach; x <= reach; ++x) {
             f16vec4 color = shared_half_color_at(at + ivec2(x, y));
-            float16_t weight = float16_t(kernel_weight(x) * kernel_weight(y) / 32.0);
+            f16vec3 difference = color.rgb - center;
+            float16_t weight = float16_t(kernel_weight(x) * kernel_weight(y) / 8.0);
             if (finite_neighborhood) weight *= color.w;
-            f16vec3 weighted = weight * color.rgb;
-            color_and_weight += f16vec4(weighted, weight);
-            square += weighted * color.rgb;
+            f16vec3 weighted = weight * difference;
+            difference_and_weight += f16vec4(weighted, weight);
+            square += weighted * difference;
         }
-    return neighborhood_of(Moments(vec3(color_and_weight.rgb), vec3(square), float(color_and_weight.w)));
+    Moments sum = Moments(vec3(difference_and_weight.rgb), vec3(square), float(difference_and_weight.w));
+    Neighborhood around = neighborhood_of(sum);
+    around.mean += vec3(center);
+    return around;
 }
 #endif

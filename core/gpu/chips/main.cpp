@@ -38,7 +38,8 @@ vk::raii::Device make_device(const vk::raii::PhysicalDevice& chip) {
     const vk::DeviceQueueCreateInfo queue{.queueFamilyIndex = 0, .queueCount = 1, .pQueuePriorities = &priority};
     vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR executables{.pipelineExecutableInfo = true};
     NeededFeatures needed = needed_features();
-    needed.v12.shaderFloat16 = true;
+    const auto has = chip.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features>();
+    needed.v12.shaderFloat16 = has.get<vk::PhysicalDeviceVulkan12Features>().shaderFloat16;  // before GFX9 none has it
     needed.v13.pNext = &needed.v12;
     needed.v12.pNext = &executables;
     needed.v10.shaderFloat64 = true;

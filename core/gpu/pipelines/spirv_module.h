@@ -9,7 +9,7 @@
 #define SPV_ENABLE_UTILITY_CODE
 #include <SPIRV/spirv.hpp>
 
-// SPIR-V as its instructions, for those that change it: core/gpu/*.cpp and core/gpu/waves/*.cpp only.
+// SPIR-V as its instructions, for those that change it: core/gpu only.
 
 struct SpirvInstruction {
     spv::Op op;

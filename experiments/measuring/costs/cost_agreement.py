@@ -72,26 +72,30 @@ def estimates(folder):
 
 
 def without(shots, patterns):
-    """{shot: values} without the stages that fit a pattern; totals are sums of the others then."""
-    if not patterns:
-        return shots
-    kept = {}
-    for shot, values in shots.items():
-        own = kept.setdefault(shot, {})
-        for (variant, point, stage), value in values.items():
-            if stage != "total" and not any(fnmatch.fnmatchcase(stage, pattern) for pattern in patterns):
-                own[variant, point, stage] = value
-        for (variant, point, _), value in list(own.items()):
-            own[variant, point, "total"] = own.get((variant, point, "total"), 0) + value
-    return kept
+    """{shot: values} without the stages that fit a pattern, and without totals."""
+    is_left = lambda stage: stage != "total" and not any(fnmatch.fnmatchcase(stage, pattern) for pattern in patterns)  # noqa: E731
+    return {shot: {key: value for key, value in values.items() if is_left(key[2])} for shot, values in shots.items()}
 
 
-def agreement(times, costs):
+def add_totals(both):
+    """To {(variant, point, stage): (ms, cost or None)}: sums over the stages of each point whose stages all have a cost."""
+    points = {}
+    for (variant, point, _), pair in both.items():
+        points.setdefault((variant, point), []).append(pair)
+    for (variant, point), pairs in points.items():
+        if all(cost is not None for _, cost in pairs):
+            both[variant, point, "total"] = tuple(map(sum, zip(*pairs)))
+
+
+def agreement(times, costs, has_totals):
     """[tau of totals by shot], [tau of stages by shot], pairs that are clearly apart, how many of them are in order, [time
     over cost of each stage]."""
     of_totals, of_stages, pairs, right, ratios = [], [], 0, 0, []
     for shot in sorted(set(times) & set(costs)):
-        both = {key: (ms, costs[shot][key]) for key, ms in times[shot].items() if key in costs[shot]}
+        both = {key: (ms, costs[shot].get(key)) for key, ms in times[shot].items()}
+        if not has_totals:
+            add_totals(both)
+        both = {key: pair for key, pair in both.items() if pair[1] is not None}
         totals = [pair for key, pair in both.items() if key[2] == "total"]
         stages = [pair for key, pair in both.items() if key[2] != "total"]
         ratios += [ms / cost for ms, cost in stages if cost > 0]
@@ -122,13 +126,15 @@ def main():
     arguments = parser.parse_args()
     folder = arguments.costs or arguments.results
     estimated = estimates(folder)
-    times = without(medians(arguments.results), arguments.without)
-    costs = {name: without(shots, arguments.without) for name, shots in (counts(folder) | estimated).items()}
+    times, costs = medians(arguments.results), counts(folder) | estimated
+    if arguments.without:
+        times = without(times, arguments.without)
+        costs = {name: without(shots, arguments.without) for name, shots in costs.items()}
     if not any(set(times) & set(shots) for shots in costs.values()):
         raise ResultsError("no shot has both times and costs")
     print("| cost | totals | stages | clearly apart, in order | time over estimate |\n|---|---|---|---|---|")
     for name, of_shots in costs.items():
-        of_totals, of_stages, pairs, right, ratios = agreement(times, of_shots)
+        of_totals, of_stages, pairs, right, ratios = agreement(times, of_shots, not arguments.without)
         in_microseconds = [1e3 * ratio for ratio in ratios]
         over = range_of(in_microseconds) if name in estimated and ratios else "-"
         print(f"| {name} | {spread(of_totals)} | {spread(of_stages)} | {right} of {pairs} | {over} |")

@@ -15,6 +15,7 @@ namespace {
 struct StageEstimate {
     struct Group {
         StageWork work;
+        double uncertain_latency = 0;  ///< clocks of its waves in blocks of which runs are known at most
         double fetches = 0;
     };
     struct Sample {
@@ -30,21 +31,31 @@ struct StageEstimate {
     std::string refusal;
 };
 
-/// Clocks of a wave, and their standard error: of the longest if all groups were traced. Else of the mean one, since a
-/// longer one may have been missed, and no interval holds that.
-std::pair<double, double> wave_latency(const StageEstimate::Sample& sample) {
+/// Clocks of a wave of a pass: of the longest if all groups were traced. Else of the mean one, since a longer one may
+/// have been missed, and no interval holds that.
+struct WaveLatency {
+    double clocks = 0, uncertain = 0;  ///< in blocks of which runs are known at most
+    double error = 0;                  ///< standard error of sampling
+};
+
+WaveLatency wave_latency(const StageEstimate::Sample& sample) {
     const double count = double(sample.groups.size());
-    double longest = 0, latency = 0, waves = 0;
-    for (const auto& [work, fetches] : sample.groups) {
-        latency += work.work.latency, waves += work.waves;
-        if (work.waves > 0) longest = std::max(longest, work.work.latency / work.waves);
+    WaveLatency longest, mean;
+    double waves = 0;
+    for (const auto& [work, uncertain, fetches] : sample.groups) {
+        mean.clocks += work.work.latency, mean.uncertain += uncertain, waves += work.waves;
+        if (work.waves > 0 && work.work.latency / work.waves > longest.clocks)
+            longest = {.clocks = work.work.latency / work.waves, .uncertain = uncertain / work.waves};
     }
-    if (sample.scale <= 1 || waves == 0 || count < 2) return {longest, 0};
-    const double mean = latency / waves;
+    if (sample.scale <= 1 || waves == 0 || count < 2) return longest;
+    mean.clocks /= waves, mean.uncertain /= waves;
     double squares = 0;
-    for (const auto& [work, fetches] : sample.groups)
-        squares += (work.work.latency - mean * work.waves) * (work.work.latency - mean * work.waves);
-    return {mean, std::sqrt(squares / (count - 1) * count * (1 - 1 / sample.scale)) / waves};
+    for (const StageEstimate::Group& group : sample.groups) {
+        const double residual = group.work.work.latency - mean.clocks * group.work.waves;
+        squares += residual * residual;
+    }
+    mean.error = std::sqrt(squares / (count - 1) * count * (1 - 1 / sample.scale)) / waves;
+    return mean;
 }
 
 void add_pass(StageEstimate& stage, const TracedFrame::Pass& pass, const ShaderWork& code) {
@@ -53,7 +64,7 @@ void add_pass(StageEstimate& stage, const TracedFrame::Pass& pass, const ShaderW
     const double scale = double(pass.groups) / double(groups.size());
     StageEstimate::Sample sample{.scale = scale, .groups = {}};
     for (const WaveCounts& group : groups) {
-        auto& [work, fetches] = sample.groups.emplace_back();
+        auto& [work, uncertain_latency, fetches] = sample.groups.emplace_back();
         ChipWork uncertain;
         for (size_t b = 0; b < group.waves.size(); ++b) {
             const double runs = double(group.waves[b]);
@@ -65,7 +76,7 @@ void add_pass(StageEstimate& stage, const TracedFrame::Pass& pass, const ShaderW
             stage.active += clocks * double(group.lanes[b]) * scale;
             stage.possible += clocks * runs * code.lanes * scale;
         }
-        work.waves = double(group.started);
+        work.waves = double(group.started), uncertain_latency = uncertain.latency;
         work.resident_latency = work.work.latency / code.resident_waves;
         stage.all.work.add(work.work, scale), stage.uncertain.work.add(uncertain, scale);
         stage.all.waves += work.waves * scale;
@@ -74,8 +85,9 @@ void add_pass(StageEstimate& stage, const TracedFrame::Pass& pass, const ShaderW
         stage.cut += double(group.cut), stage.lanes += double(group.lanes.empty() ? 0 : group.lanes[0]);
         stage.fetches += fetches * scale;
     }
-    const auto [of_wave, error] = wave_latency(sample);
-    stage.all.wave_latency += of_wave, stage.wave_error += error;
+    const WaveLatency wave = wave_latency(sample);
+    stage.all.wave_latency += wave.clocks, stage.uncertain.wave_latency += wave.uncertain;
+    stage.wave_error += wave.error;
     stage.samples.push_back(std::move(sample));
 }
 
@@ -105,7 +117,7 @@ double error_of_sums(const StageEstimate& stage, const ChipTimePart& part, doubl
 double standard_error(const StageEstimate& stage, const ChipTimePart& part, double ratio, const PassCost& cost,
                       const ChipRates& rates) {
     const double time = chip_time(stage.all, cost, rates).*part.member;
-    if (part.member == &ChipTime::latency && is_of_one_wave(stage.all, rates))
+    if (part.member == &ChipTime::latency && is_of_one_wave(stage.all.times(ratio), rates))
         return stage.all.wave_latency > 0 ? time * stage.wave_error / stage.all.wave_latency : 0;
     if (ratio == 1) return error_of_sums(stage, part, 0, cost, rates);
     return ratio * error_of_sums(stage, part, time / stage.fetches, cost, rates);
