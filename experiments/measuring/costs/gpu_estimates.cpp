@@ -116,9 +116,10 @@ double error_of_sums(const StageEstimate& stage, const ChipTimePart& part, doubl
 /// known of all invocations, and groups that fetch more do more. 1 where it is not.
 double standard_error(const StageEstimate& stage, const ChipTimePart& part, double ratio, const PassCost& cost,
                       const ChipRates& rates) {
+    if (const StageWork all = stage.all.times(ratio);
+        part.member == &ChipTime::latency && is_of_one_wave(all, rates))  // so of more than 0 clocks
+        return chip_time(all, cost, rates).latency * stage.wave_error / all.wave_latency;
     const double time = chip_time(stage.all, cost, rates).*part.member;
-    if (part.member == &ChipTime::latency && is_of_one_wave(stage.all.times(ratio), rates))
-        return stage.all.wave_latency > 0 ? time * stage.wave_error / stage.all.wave_latency : 0;
     if (ratio == 1) return error_of_sums(stage, part, 0, cost, rates);
     return ratio * error_of_sums(stage, part, time / stage.fetches, cost, rates);
 }
