@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/near_miss.h"
+#include "core/scene/gltf/load_gltf.h"
 #include "core/scene/scene_family.h"
 #include "core/scene/scene_file.h"
 

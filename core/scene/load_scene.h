@@ -16,6 +16,3 @@ std::vector<std::string> list_scenes(const std::vector<std::filesystem::path>& s
 /// cameras, a default one that sees all of it, and a white environment. Fails with Error if something is missing,
 /// truncated or malformed.
 Scene load_scene(const std::string& name, const std::vector<std::filesystem::path>& search_path);
-
-/// Only the glTF 2.0 file (.gltf or .glb): meshes, materials, nodes, animation, lights, cameras.
-Scene load_gltf(const std::filesystem::path& file);

@@ -7,6 +7,7 @@
 #include "core/scene/camera_planes.h"
 #include "core/scene/camera_reader.h"
 #include "core/scene/content_hash.h"
+#include "core/scene/gltf/load_gltf.h"
 #include "core/scene/load_scene.h"
 #include "core/scene/material_override.h"
 #include "core/scene/ranges.h"

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/error.h"
+#include "core/scene/gltf/load_gltf.h"
 #include "core/scene/load_scene.h"
 #include "tests/error_message.h"
 #include "tests/scene/gltf_writer.h"

@@ -1,7 +1,8 @@
+#include "core/scene/gltf/load_gltf.h"
+
 #include "core/scene/animation.h"
 #include "core/scene/content_hash.h"
 #include "core/scene/gltf/gltf_parts.h"
-#include "core/scene/load_scene.h"
 
 #include <map>
 #include <set>

@@ -82,9 +82,10 @@ TEST_F(StudyPlanTest, AnEditRedoesTheCellsThatItMayChange) {
     EXPECT_EQ(changed("variants/mcguire_dda/shade.comp"), Cells({dda, hierarchy, "times"}));
     EXPECT_EQ(changed("experiments/measuring/times/timing.cpp"), Cells({"times"}));
     EXPECT_EQ(changed("experiments/measuring/rays/judged_hits.cpp"), renders);
-    for (const char* file : {"core/gpu/frame.cpp", "core/shaders/gbuffer/background.frag",
-                             "core/scene/gltf/gltf_mesh.cpp", "groundtruth/paths/path_tracer.cpp", "metrics/flip.cpp",
-                             "experiments/measuring/shot_truth.cpp", "experiments/config/targets.cpp"})
+    for (const char* file :
+         {"core/gpu/frame.cpp", "core/shaders/gbuffer/background.frag", "core/scene/gltf/gltf_mesh.cpp",
+          "core/gpu/pipelines/shader.cpp", "groundtruth/paths/path_tracer.cpp", "metrics/flip.cpp",
+          "experiments/measuring/shot_truth.cpp", "experiments/config/targets.cpp"})
         EXPECT_EQ(changed(file), all) << file;
     EXPECT_THROW(SourceCode(read_sources(tree.root)).needed_by({"variants/frostbyte_sssr/"}), Error);
 }
