@@ -10,9 +10,9 @@
 /// An image that can be copied and sampled, and as a depth image be tested against.
 std::shared_ptr<ImageStorage> create_image(Device::Impl& gpu, Format format, glm::uvec2 extent, unsigned mips);
 
-/// Lets shaders store to an image, or draw to it, too. Drivers compress no image, or less, that may be stored to: so
-/// each allows no more than its passes have asked for, and is made again, with what it holds, when the first one asks
-/// for more.
+/// Lets shaders store to an image, or draw to it, too. Drivers compress less of what may be stored to (Mesa's
+/// radv: radv_use_dcc_for_image_early() in src/amd/vulkan/radv_image.c): so each allows no more than its passes have
+/// asked for, and is made again, with what it holds, when the first one asks for more.
 void allow_use(Device::Impl& gpu, const Image& image, vk::ImageUsageFlagBits use);
 
 std::shared_ptr<BufferStorage> create_buffer(Device::Impl& gpu, size_t bytes);

@@ -1,5 +1,5 @@
 """Tables of a made-up study, from its results folder to the documents that show them. All checks read that one study,
-and so stand in one file.
+and so stand in one file of over 400 lines.
 
 usage: tables_test.py TABLES_SCRIPT
 """

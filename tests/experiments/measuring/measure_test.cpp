@@ -4,6 +4,23 @@
 #include <cmath>
 #include <random>
 
+namespace {
+
+ResultRow frame_row(const std::string& frame, const std::string& metric, double value) {
+    ResultRow row{.shot = "s",
+                  .frame = frame,
+                  .variant = "v",
+                  .point = "p",
+                  .target = "specular",
+                  .metric = metric,
+                  .formula = metric,
+                  .mask = "all"};
+    row.value = value;
+    return row;
+}
+
+}  // namespace
+
 TEST(Measure, ImageIsAllLightOfTheTruth) {
     const auto constant = [](float value) {
         const HostImage image({16, 16}, 3, value);
@@ -79,4 +96,54 @@ TEST(Measure, MeansOverFramesOfExtrapolatedErrorsHaveTheirInterval) {
         EXPECT_NEAR(*row.low, *of_frame->low, 1e-5 * *row.value) << row.metric;  // sums in float32
         EXPECT_NEAR(*row.high, *of_frame->high, 1e-5 * *row.value) << row.metric;
     }
+}
+
+TEST(Measure, AveragesOverFrames) {
+    std::vector<ResultRow> rows = {frame_row("0", "mse", 1), frame_row("1", "mse", 4), frame_row("0", "bias", 2),
+                                   frame_row("1", "bias", 2)};
+    rows[0].low = 0.5, rows[0].high = 1.5, rows[0].pixels = 10;
+    rows[1].low = 3.0, rows[1].high = 5.0, rows[1].pixels = 20;
+    rows[3].value.reset();
+    FrameMeans frames;
+    for (const ResultRow& r : rows) frames.add({{r}, {NoiseTerms({4, 4}, 16)}});
+    const std::vector<ResultRow> means = frames.rows();
+    ASSERT_EQ(means.size(), 2u);
+    for (const ResultRow& m : means) {
+        EXPECT_EQ(m.frame, over_frames);
+        if (m.metric == "bias") {
+            EXPECT_FALSE(m.value) << "a frame without a value leaves the mean without one";
+            continue;
+        }
+        EXPECT_EQ(m.value, 2.5);
+        EXPECT_EQ(m.pixels, 30u);
+    }
+}
+
+TEST(Measure, NoiseThatFramesShareAddsUp) {
+    // Two frames of 64 pixels whose parts of the value move by 0.5 each: with the same noise their mean moves as one of
+    // them, with noises of its own by 1 / sqrt(2) of that, and with opposite ones not at all.
+    std::mt19937 random(1);
+    const glm::uvec2 extent(8, 8);
+    const auto width = [&](int relation) {
+        FrameRows frames[2];
+        for (FrameRows& frame : frames) {
+            frame.rows = {frame_row("0", "mse", 1)};
+            frame.noise = {NoiseTerms(extent, 64)};
+            frame.noise[0].variance.values.assign(64, 0.25);
+        }
+        for (size_t p = 0; p < 64; ++p) {
+            frames[0].noise[0].swapped.values[p] = random() % 2 ? 0.5 : -0.5;
+            frames[1].noise[0].swapped.values[p] = relation != 0  ? relation * frames[0].noise[0].swapped.values[p]
+                                                   : random() % 2 ? 0.5
+                                                                  : -0.5;
+        }
+        FrameMeans means;
+        for (const FrameRows& frame : frames) means.add(frame);
+        const ResultRow mean = means.rows().at(0);
+        return (*mean.high - *mean.low) / 2;
+    };
+    const double one = 1.9977 * 0.5 * 8;  // Student's t of 64 degrees
+    EXPECT_NEAR(width(1), one, 1e-3);
+    EXPECT_EQ(width(-1), 0);
+    EXPECT_NEAR(width(0), one / std::sqrt(2), 0.25 * one);  // 64 signs: 1/8 of the square, 4 of that
 }

@@ -1,3 +1,4 @@
+// Over 400 lines: one made-up study, every part of which the report shows beside the others.
 #include "tests/experiments/report/report_study_fixture.h"
 
 #include "core/exr.h"

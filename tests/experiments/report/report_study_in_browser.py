@@ -1,4 +1,5 @@
 """Opens the report of a made-up study of changes in headless Chromium, and compares what it shows with the CSV files.
+Over 400 lines, as all sections are checked on one page that is opened once.
 
 usage: report_study_in_browser.py REPORT_PAGE_PROGRAM
 """
