@@ -55,6 +55,16 @@ struct Environment {
 
 }  // namespace
 
+/// Chips before GFX9 have no half floats in shaders: what a device may have is not asked of them.
+TEST_F(ChipCompiler, CompilesForEachGeneration) {
+    store("shared_memory.comp");
+    for (const char* chip : {"pitcairn", "polaris10", "vega10", "navi21", "gfx1100"}) {
+        const std::vector<CompiledPipeline> compiled = compile(chip);
+        ASSERT_EQ(compiled.size(), 1u);
+        EXPECT_EQ(compiled[0].refusal, "") << chip;
+    }
+}
+
 /// 16 KiB in each workgroup of one wave: a compute unit of vega10 has 64 KiB for four SIMDs, a pair of units of RDNA
 /// 128 KiB for four (AMD, RDNA 2 and Vega instruction set architectures, chapters on the local data share).
 TEST_F(ChipCompiler, StatesSharedMemoryAndWhatItLimits) {
