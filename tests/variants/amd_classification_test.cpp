@@ -6,6 +6,9 @@
 
 namespace {
 
+/// Both forms have the same rules.
+const std::vector<std::string> forms = {"faithful", "fast"};
+
 struct AmdClassification : VariantTest {};
 
 /// A G-buffer whose pixels have each their own kind: background, no specular term, mirror, below and above the
@@ -84,32 +87,37 @@ TEST_F(AmdClassification, ListsWhatTheRulesSay) {
             for (const unsigned rays : {1u, 2u, 4u})
                 for (const bool is_guided : {false, true})
                     for (const bool serves_orphans : {false, true}) {
-                        SCOPED_TRACE(testing::Message()
-                                     << extent.x << "x" << extent.y << ", " << rays << " rays, guided " << is_guided
-                                     << ", orphans " << serves_orphans);
-                        const AmdTraced found = amd_classify_frame(device(), gbuffer,
-                                                                   {{"samples_per_quad", rays},
-                                                                    {"guided_tracing", is_guided},
-                                                                    {"variance_threshold", 0.5},
-                                                                    {"trace_orphans", serves_orphans}},
-                                                                   &variance);
                         const Expected expected =
                             classify(gbuffer, rays, is_guided ? &variance : nullptr, serves_orphans);
-                        EXPECT_EQ(map_of_rays(found, extent).values, expected.rays.values);
-                        EXPECT_EQ(map_of_tiles(found, extent).values, expected.tiles.values);
-                        EXPECT_EQ(found.confidence.values, expected.glossy.values);
+                        for (const std::string& form : forms) {
+                            SCOPED_TRACE(testing::Message()
+                                         << extent.x << "x" << extent.y << ", " << rays << " rays, guided " << is_guided
+                                         << ", orphans " << serves_orphans << ", " << form);
+                            const AmdTraced found = amd_classify_frame(device(), gbuffer,
+                                                                       {{"samples_per_quad", rays},
+                                                                        {"guided_tracing", is_guided},
+                                                                        {"variance_threshold", 0.5},
+                                                                        {"trace_orphans", serves_orphans},
+                                                                        {"denoiser_form", form}},
+                                                                       &variance);
+                            EXPECT_EQ(map_of_rays(found, extent).values, expected.rays.values);
+                            EXPECT_EQ(map_of_tiles(found, extent).values, expected.tiles.values);
+                            EXPECT_EQ(found.confidence.values, expected.glossy.values);
+                        }
                     }
         }
 }
 
 TEST_F(AmdClassification, GivesRoughSurfacesTheFallbackAndAllOthersBlack) {
     const HostGBuffer gbuffer = patchwork({96, 64}, false);
-    const AmdTraced found = amd_classify_frame(device(), gbuffer, {{"ibl_factor", 3.0}});
-    for (unsigned y = 0; y < 64; ++y)
-        for (unsigned x = 0; x < 96; ++x) {
-            const bool is_rough_surface = *gbuffer.depth.pixel(x, y) != 1.0f && *found.confidence.pixel(x, y) == 0;
-            EXPECT_EQ(found.radiance.pixel(x, y)[1], is_rough_surface ? 0.75f : 0.0f) << x << ", " << y;
-        }
+    for (const std::string& form : forms) {
+        const AmdTraced found = amd_classify_frame(device(), gbuffer, {{"ibl_factor", 3.0}, {"denoiser_form", form}});
+        for (unsigned y = 0; y < 64; ++y)
+            for (unsigned x = 0; x < 96; ++x) {
+                const bool is_rough_surface = *gbuffer.depth.pixel(x, y) != 1.0f && *found.confidence.pixel(x, y) == 0;
+                EXPECT_EQ(found.radiance.pixel(x, y)[1], is_rough_surface ? 0.75f : 0.0f) << x << ", " << y;
+            }
+    }
 }
 
 /// Widths that 8 bits round across a limit. What later passes make of a pixel hangs on the alpha that they read: a
@@ -151,9 +159,14 @@ struct AmdClassificationOf : VariantTest, testing::WithParamInterface<std::strin
     const HostGBuffer gbuffer = amd_golden_gbuffer(GetParam());
 
     void expect_equal(unsigned rays_per_quad, const std::string& file) {
-        SCOPED_TRACE(file);
-        const AmdTraced found =
-            amd_classify_frame(device(), gbuffer, {{"samples_per_quad", rays_per_quad}, {"guided_tracing", false}});
+        for (const std::string& form : forms) expect_equal(rays_per_quad, file, form);
+    }
+
+    void expect_equal(unsigned rays_per_quad, const std::string& file, const std::string& form) {
+        SCOPED_TRACE(file + ", " + form);
+        const AmdTraced found = amd_classify_frame(
+            device(), gbuffer,
+            {{"samples_per_quad", rays_per_quad}, {"guided_tracing", false}, {"denoiser_form", form}});
         const LayeredImage golden = read_golden(GetParam() + "/" + file);
         HostImage rays = golden_layer(golden, "ray");
         for (size_t i = 0; i < rays.values.size(); ++i)

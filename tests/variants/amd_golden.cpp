@@ -56,7 +56,7 @@ struct TracedFrame {
         images = parameters.tracing.tracers.images(graph, gbuffer.depth);
     }
 
-    void classify() { work = amd_classify(graph, gbuffer, histories, confidence); }
+    void classify() { work = amd_classify(graph, gbuffer, histories, confidence, parameters.denoiser); }
 
     /// Puts the listed rays into the order in which one thread lists them, tile after tile. Several threads interleave
     /// tiles, so that rays of others share a subgroup.

@@ -32,7 +32,7 @@ Reflections AmdSssr::render_passes(PassGraph& graph, const GBuffer& gbuffer) {
     const Image confidence = graph.image("confidence", Format::r8);
     const AmdHistories histories = amd_histories(graph, denoiser_.float_histories, tracing_.float_roughness);
     const Tracers::Images traced_images = tracing_.tracers.images(graph, gbuffer.depth);
-    const AmdWork work = amd_classify(graph, gbuffer, histories, confidence);
+    const AmdWork work = amd_classify(graph, gbuffer, histories, confidence, denoiser_);
     const Image noise = draws_nothing_ ? noise_.table(graph) : this->noise(graph);
     amd_prepare_arguments(graph, work);
     amd_intersect(graph, gbuffer, traced_images, noise, work, histories, tracing_, ray_probe);

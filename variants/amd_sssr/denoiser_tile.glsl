@@ -6,8 +6,6 @@
 #include "common/luminance.glsl"
 #include "core/shaders/view.glsl"
 
-buffer tile_list { uint listed_tile[]; };
-
 const int reach = 4;  // pixels around the tile that its filters see
 
 // With fresh_neighborhood averages of tiles that were not listed are the first of these two numbers, and no other is: the
@@ -19,8 +17,7 @@ uint group_index() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroup
 // First pixel of a listed tile; behind the end of the list a place outside of the image, where nothing is stored.
 ivec2 tile_start(uint index) {
     if (index >= tile_count) return ivec2(camera.extent.xy);
-    uint word = listed_tile[index];
-    return ivec2(word & 0xffffu, word >> 16);
+    return start_of_tile(listed_tile[index]);
 }
 
 ivec2 last_pixel() { return ivec2(camera.extent.xy) - 1; }

@@ -20,13 +20,28 @@ AmdHistories amd_histories(PassGraph& graph, bool is_float, bool is_float_roughn
 
 float amd_alpha_of_8_bits(float alpha) { return std::floor(alpha * 255.0f + 0.5f) / 255.0f; }  // as lists.glsl
 
-AmdWork amd_classify(PassGraph& graph, const GBuffer& gbuffer, const AmdHistories& histories, const Image& confidence) {
+namespace {
+
+bool is_fast_form(const PassGraph& graph, const AmdDenoiserParameters& parameters) {
+    return parameters.denoiser_form.is("fast") || (parameters.denoiser_form.is("by_device") && !graph.uses_gpu_forms());
+}
+
+/// Each form has shaders of its own. A group of the fast form takes eight tiles, of the others one.
+PassGraph::Pass pass_over_tiles(PassGraph& graph, const std::string& name, bool is_fast) {
+    return graph.compute("amd_sssr/" + name + (is_fast ? "_fast.comp" : ".comp")).label("amd_sssr/" + name);
+}
+
+}  // namespace
+
+AmdWork amd_classify(PassGraph& graph, const GBuffer& gbuffer, const AmdHistories& histories, const Image& confidence,
+                     const AmdDenoiserParameters& parameters) {
     const glm::uvec2 extent = graph.extent(), tiles = (extent + 7u) / 8u;
     const AmdWork work{.ray_list = graph.buffer("ray_list", size_t(extent.x) * extent.y * 4),
                        .tile_list = graph.buffer("tile_list", size_t(tiles.x) * tiles.y * 4),
                        .counters = graph.buffer("counters", 16),
                        .indirect_arguments = graph.buffer("indirect_arguments", 36)};
-    graph.compute("amd_sssr/classify.comp")
+    const bool is_fast = is_fast_form(graph, parameters);
+    pass_over_tiles(graph, "classify", is_fast)
         .read(gbuffer.fallback)
         .read(histories.variance.previous)
         .write(histories.radiance.current)
@@ -35,7 +50,7 @@ AmdWork amd_classify(PassGraph& graph, const GBuffer& gbuffer, const AmdHistorie
         .use(work.ray_list)
         .use(work.tile_list)
         .use(work.counters)
-        .dispatch_groups({tiles, 1});
+        .dispatch_groups({is_fast ? (tiles.x + 7) / 8 : tiles.x, tiles.y, 1});
     return work;
 }
 
@@ -61,15 +76,6 @@ void amd_intersect(PassGraph& graph, const GBuffer& gbuffer, const Tracers::Imag
 }
 
 namespace {
-
-bool is_fast_form(const PassGraph& graph, const AmdDenoiserParameters& parameters) {
-    return parameters.denoiser_form.is("fast") || (parameters.denoiser_form.is("by_device") && !graph.uses_gpu_forms());
-}
-
-/// Each form has shaders of its own. A group of the fast form denoises eight tiles, of the others one.
-PassGraph::Pass denoiser_pass(PassGraph& graph, const std::string& name, bool is_fast) {
-    return graph.compute("amd_sssr/" + name + (is_fast ? "_fast.comp" : ".comp")).label("amd_sssr/" + name);
-}
 
 void include_neighborhood(PassGraph::Pass& pass, PassGraph& graph, const AmdDenoiserParameters& parameters) {
     if (parameters.denoiser_form.is("float16") && !graph.device().has_half_floats())
@@ -111,7 +117,7 @@ void amd_reproject(PassGraph& graph, const GBuffer& gbuffer, const AmdWork& work
     constexpr float unlisted_average = 64512;  // as in denoiser_tile.glsl
     if (parameters.fresh_neighborhood) graph.clear(histories.average_radiance.current, glm::vec4(unlisted_average));
     const bool is_fast = is_fast_form(graph, parameters);
-    PassGraph::Pass pass = denoiser_pass(graph, "reproject", is_fast);
+    PassGraph::Pass pass = pass_over_tiles(graph, "reproject", is_fast);
     if (!is_fast) include_neighborhood(pass, graph, parameters);
     pass.read(histories.radiance.current.as("radiance"))
         .read(histories.roughness.current.as("roughness"))
@@ -131,7 +137,7 @@ void amd_reproject(PassGraph& graph, const GBuffer& gbuffer, const AmdWork& work
 void amd_prefilter(PassGraph& graph, const AmdWork& work, const AmdHistories& histories,
                    const AmdDenoiserParameters& parameters) {
     const bool is_fast = is_fast_form(graph, parameters);
-    PassGraph::Pass pass = denoiser_pass(graph, "prefilter", is_fast);
+    PassGraph::Pass pass = pass_over_tiles(graph, "prefilter", is_fast);
     pass.read(histories.radiance.current.as("radiance"))
         .read(histories.variance.current.as("variance"))
         .read(histories.roughness.current.as("roughness"))
@@ -145,7 +151,7 @@ void amd_resolve_temporal(PassGraph& graph, const AmdWork& work, const AmdHistor
                           const AmdDenoiserParameters& parameters) {
     const PassGraph::History& samples = histories.sample_count;
     const bool is_fast = is_fast_form(graph, parameters);
-    PassGraph::Pass pass = denoiser_pass(graph, "resolve_temporal", is_fast);
+    PassGraph::Pass pass = pass_over_tiles(graph, "resolve_temporal", is_fast);
     if (!is_fast) include_neighborhood(pass, graph, parameters);
     pass.read(histories.radiance.current.as("traced_radiance"))
         .read(histories.radiance.previous.as("prefiltered_radiance"))

@@ -36,8 +36,10 @@ struct AmdWork {
 };
 
 /// Lists rays and tiles; writes alpha, clears histories.radiance.current (environment where too rough) and writes
-/// `confidence`: 1 where the technique is responsible.
-AmdWork amd_classify(PassGraph& graph, const GBuffer& gbuffer, const AmdHistories& histories, const Image& confidence);
+/// `confidence`: 1 where the technique is responsible. `parameters`: in which form, since tiles are what a denoiser's
+/// passes are divided into; both forms list the same, in another order.
+AmdWork amd_classify(PassGraph& graph, const GBuffer& gbuffer, const AmdHistories& histories, const Image& confidence,
+                     const AmdDenoiserParameters& parameters);
 
 /// Turns counters into indirect arguments and rewinds them.
 void amd_prepare_arguments(PassGraph& graph, const AmdWork& work);
