@@ -30,10 +30,16 @@ glm::vec2 channel_range(const Scene& scene, const TextureSlot& slot, unsigned ch
     return glm::vec2(least, most) / 255.0f;
 }
 
-bool is_reflective(const Scene& scene, const Material& material) {
-    if (material.is_unlit) return false;
-    return material.specular > 0 ||
-           material.metalness * channel_range(scene, material.metalness_roughness_texture, 2).y > 0;
+/// Smallest and largest of what a surface's specular term is not zero for: the larger of its specular factor and its
+/// metalness.
+glm::vec2 specular_range(const Scene& scene, const Material& material) {
+    if (material.is_unlit) return glm::vec2(0);
+    return glm::max(glm::vec2(material.specular),
+                    material.metalness * channel_range(scene, material.metalness_roughness_texture, 2));
+}
+
+bool is_matte(const Scene& scene, const Material& material) {
+    return !is_stored_as_reflective(specular_range(scene, material).x);
 }
 
 bool has_texture(const Material& m) {
@@ -47,7 +53,8 @@ void add_material(SceneFacts& facts, const Scene& scene, const Material& materia
     facts.has_textures |= has_texture(material);
     facts.has_alpha_masks |= material.alpha_mode == AlphaMode::mask;
     facts.has_normal_maps |= material.normal_texture.texture >= 0;
-    if (!is_reflective(scene, material)) return;
+    facts.has_matte |= is_matte(scene, material);
+    if (!(specular_range(scene, material).y > 0)) return;
     const glm::vec2 roughness = material.roughness * channel_range(scene, material.metalness_roughness_texture, 1);
     facts.has_reflective = true;
     facts.min_roughness = std::min(facts.min_roughness, roughness.x);
@@ -74,7 +81,7 @@ void add_motion(SceneFacts& facts, const Scene& scene, const SceneCamera& camera
     }
 }
 
-std::string names_of(const Scene& scene, bool (*has)(const Material&)) {
+std::string names_of(const Scene& scene, const std::function<bool(const Material&)>& has) {
     std::string names;
     unsigned count = 0;
     for (unsigned material : drawn_materials(scene)) {
@@ -94,7 +101,7 @@ std::string decimal(float value) {
 }  // namespace
 
 SceneFacts material_facts(const Scene& scene) {
-    SceneFacts facts;
+    SceneFacts facts{.has_matte = false};
     const std::set<unsigned> materials = drawn_materials(scene);
     facts.has_geometry = !materials.empty();
     for (unsigned material : materials) add_material(facts, scene, scene.materials[material]);
@@ -117,6 +124,7 @@ std::vector<SceneFact> list_facts(const Scene& scene, const SceneFacts& f) {
     return {
         {"has_geometry", yes(f.has_geometry), std::to_string(scene.triangle_count()) + " triangles"},
         {"has_reflective", yes(f.has_reflective), roughness},
+        {"has_matte", yes(f.has_matte), names_of(scene, [&](const Material& m) { return is_matte(scene, m); })},
         {"min_roughness", decimal(f.min_roughness), roughness},
         {"max_roughness", decimal(f.max_roughness), roughness},
         {"camera_moves", yes(f.camera_moves), "camera poses of successive frames of the shot"},

@@ -10,6 +10,7 @@
 struct SceneFacts {
     bool has_geometry = false;
     bool has_reflective = false;  ///< a surface whose specular reflectance is not zero
+    bool has_matte = true;        ///< a surface of which that is zero, or that 8 bits may round to it; true until known
     float min_roughness = 1.0f,
           max_roughness = 0.0f;  ///< perceptual, over reflective surfaces and all texels of their textures
     bool camera_moves = false,   ///< also by jitter
@@ -28,6 +29,10 @@ SceneFacts derive_facts(const Scene& scene, const SceneCamera& camera, std::span
 
 /// The same without what depends on a shot: nothing moves.
 SceneFacts material_facts(const Scene& scene);
+
+/// Whether a surface has a specular term in every format that a G-buffer may have: the larger of its specular factor
+/// and its metalness, which 8 bits keep in the packed one.
+inline bool is_stored_as_reflective(float factor) { return factor >= 1.0f / 255.0f; }
 
 /// What the pixels of one frame show, as shares of all pixels.
 struct PixelFacts {

@@ -21,6 +21,7 @@ json values_of(const Shot& shot) {
                    {"shot.frames", shot.config.frames.size()},
                    {"shot.has_geometry", facts.has_geometry},
                    {"shot.has_reflective", facts.has_reflective},
+                   {"shot.has_matte", facts.has_matte},
                    {"shot.min_roughness", json_number(facts.min_roughness)},
                    {"shot.max_roughness", json_number(facts.max_roughness)},
                    {"shot.camera_moves", facts.camera_moves},

@@ -14,7 +14,7 @@ TEST(scene_facts, of_a_scene_that_has_everything) {
     EXPECT_FALSE(f.is_still());
     EXPECT_FALSE(f.has_vertex_colors);
     EXPECT_EQ(f.max_roughness, 1.0f);
-    EXPECT_EQ(list_facts(scene, f).size(), 12u);
+    EXPECT_EQ(list_facts(scene, f).size(), 13u);
 }
 
 TEST(scene_facts, only_what_is_drawn_counts) {
@@ -23,8 +23,7 @@ TEST(scene_facts, only_what_is_drawn_counts) {
     const SceneFacts f = derive_facts(scene, scene.camera("main"), std::array{0u});
     EXPECT_FLOAT_EQ(f.min_roughness, 0.2f);
     EXPECT_FLOAT_EQ(f.max_roughness, 0.2f);
-    for (const bool fact :
-         {f.has_textures, f.has_alpha_masks, f.has_normal_maps, f.camera_moves, f.objects_move})
+    for (const bool fact : {f.has_textures, f.has_alpha_masks, f.has_normal_maps, f.camera_moves, f.objects_move})
         EXPECT_FALSE(fact);
     EXPECT_TRUE(f.is_still());
 }
@@ -44,6 +43,28 @@ TEST(scene_facts, nothing_is_reflective_without_specular) {
     EXPECT_FALSE(material_facts(scene).has_reflective);
     scene.materials[0].metalness = 0.1f;
     EXPECT_TRUE(material_facts(scene).has_reflective);
+}
+
+/// Metalness of the texture's least texel counts, and what 8 bits round to 0 is none.
+TEST(scene_facts, a_surface_is_matte_where_neither_factor_is_stored) {
+    Scene scene = varied_scene();
+    scene.instances = {scene.instances[1]};
+    Material& material = scene.materials[scene.meshes[scene.instances[0].mesh].material];
+    ASSERT_GE(material.metalness_roughness_texture.texture, 0);
+    EXPECT_FALSE(material_facts(scene).has_matte);
+    material.specular = 0.001f;
+    material.metalness = 1;
+    std::vector<uint8_t> texels(4 * 4, 200);
+    Texture& texture = scene.textures[size_t(material.metalness_roughness_texture.texture)];
+    for (const auto& [blue, is_matte] : {std::pair(uint8_t(1), false), {uint8_t(0), true}}) {
+        texels[2] = blue;
+        texture.rgba = std::make_shared<std::vector<uint8_t>>(texels);
+        EXPECT_EQ(material_facts(scene).has_matte, is_matte) << int(blue);
+    }
+    material.specular = 0.5f;
+    EXPECT_FALSE(material_facts(scene).has_matte);
+    material.is_unlit = true;
+    EXPECT_TRUE(material_facts(scene).has_matte);
 }
 
 TEST(leading_vertices, each_triangle_leads_with_a_vertex_of_its_own) {

@@ -74,6 +74,7 @@ TracingVariant::Needless AmdSssr::find_needless(const SceneFacts& facts) {
         needless.parts.push_back({"neighbours", fact, "mirrors are not filtered in space", "amd_sssr/prefilter"});
         needless.constants["prefilter"] = false;
     }
+    needless.specular_readers = {"amd_sssr/classify"};
     if (denoiser_.denoise) needless.motion_readers = {"amd_sssr/reproject"};
     if (tracing_.misses.is("fallback")) needless.environment_readers = {"amd_sssr/intersect"};
     return needless;

@@ -11,7 +11,7 @@ ivec2 pixel_from_screen(vec2 position) { return ivec2(floor(position - camera.ji
 
 // For pixels that show a surface.
 bool has_specular(ivec2 pixel) {
-    return texelFetch(emission, pixel, 0).w > 0.0 || texelFetch(base_color, pixel, 0).w > 0.0;
+    return !scene_has_matte || texelFetch(emission, pixel, 0).w > 0.0 || texelFetch(base_color, pixel, 0).w > 0.0;
 }
 
 // True for a surface with a specular term at all, and at most of that perceptual roughness.

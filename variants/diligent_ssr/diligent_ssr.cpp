@@ -88,6 +88,7 @@ TracingVariant::Needless DiligentSsr::find_needless(const SceneFacts& facts) {
             needless.constants["bilateral_cleanup"] = false;
         }
     }
+    needless.specular_readers = {"diligent_ssr/mask"};
     if (filter_.temporal_accumulation) needless.motion_readers = {"diligent_ssr/temporal_accumulation"};
     if (tracing_.previous_frame) needless.motion_readers.push_back("diligent_ssr/intersection");
     if (tracing_.misses.is("fallback")) needless.environment_readers = {"diligent_ssr/intersection"};

@@ -134,6 +134,7 @@ TracingVariant::Needless FourModeSsr::find_needless(const SceneFacts& facts) {
     Needless needless{.such_a_surface = "smoother than roughness_fade",
                       .stages = {mode.is("simple_linear") ? "four_mode_ssr/trace_linear" : "four_mode_ssr/trace"}};
     needless.rays = !facts.has_reflective || facts.min_roughness >= roughness_fade;
+    needless.specular_readers = needless.stages;
     if (tracers.needs(slot()).nearest_mips > 0) needless.stages.insert(needless.stages.begin(), "common/depth_pyramid");
     if (mode.is("temporal")) {
         needless.stages.push_back("four_mode_ssr/blend");

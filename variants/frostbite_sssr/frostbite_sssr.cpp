@@ -68,6 +68,8 @@ TracingVariant::Needless FrostbiteSssr::find_needless(const SceneFacts& facts) {
             {"frostbite_sssr/color_pyramid", "all that reflects is a mirror", "cones of mirrors have no width"});
         needless.constants["filtered_sampling"] = false;
     }
+    needless.specular_readers = {"frostbite_sssr/allocate"};
+    if (ray_.classification) needless.specular_readers.push_back("frostbite_sssr/classify");
     if (has_accumulation && resolve_.temporal_filter) needless.motion_readers = {"frostbite_sssr/accumulate"};
     if (resolve_.previous_frame) {
         needless.motion_readers.push_back("frostbite_sssr/resolve");

@@ -45,6 +45,7 @@ TracingVariant::Needless McGuireDda::find_needless(const SceneFacts& facts) {
     Needless needless{.such_a_surface = "as smooth as max_roughness",
                       .stages = {"mcguire_dda/trace", "mcguire_dda/shade"}};
     needless.rays = !facts.has_reflective || facts.min_roughness > max_roughness;
+    needless.specular_readers = {"mcguire_dda/trace"};
     if (tracers.needs_pyramid()) needless.stages.insert(needless.stages.begin(), "common/depth_pyramid");
     return needless;
 }

@@ -87,6 +87,11 @@ TracingVariant::Needless SimpleSsr::find_needless(const SceneFacts& facts) {
                 needless.parts.push_back(
                     {stage, "all that reflects is a mirror", "of mirrors it is no pixel wide", "", false});
         }
+    needless.specular_readers = {"simple_ssr/trace"};
+    if (blurs() && !is_sharp_) {
+        needless.specular_readers.push_back("simple_ssr/blur_rows");
+        needless.specular_readers.push_back("simple_ssr/blur_columns");
+    }
     if (previous_frame) needless.motion_readers = {"simple_ssr/trace"};
     return needless;
 }

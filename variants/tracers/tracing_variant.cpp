@@ -18,6 +18,11 @@ std::vector<LeftOut> TracingVariant::leave_out(const SceneFacts& facts) {
         for (const std::string& stage : needless.environment_readers)
             if (!facts.has_environment)
                 left_out.push_back({"environment", "black environment", "rays that meet nothing see black", stage});
+        for (const std::string& stage : needless.specular_readers)
+            if (!facts.has_matte)
+                left_out.push_back(
+                    {"specular factors", "no matte surface", "every surface has a specular term", stage});
+        constants_["scene_has_matte"] = facts.has_matte;
         constants_["scene_is_still"] = facts.is_still();
         constants_["scene_has_environment"] = facts.has_environment;
     }

@@ -34,6 +34,7 @@ protected:
         Constants constants;                      ///< that switch `parts` off
         std::vector<std::string> motion_readers;  ///< stages
         std::vector<std::string> environment_readers;
+        std::vector<std::string> specular_readers;  ///< that ask of a pixel no more than whether it has a specular term
     };
 
     virtual const Tracers& chosen_tracers() const = 0;

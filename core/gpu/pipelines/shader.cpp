@@ -181,6 +181,7 @@ const std::vector<SceneConstant>& scene_constants() {
     static const std::vector<SceneConstant> constants = {
         {"scene_is_still", 1000, false},          // motion vectors are 0
         {"scene_has_environment", 1003, true},    // it is not black
+        {"scene_has_matte", 1004, true},          // some surface has no specular term
         {"scene_has_normal_maps", 1001, true},    // some material bends its shading normal
         {"scene_has_vertex_colors", 1002, true},  // some vertex is not white
     };

@@ -112,7 +112,9 @@ void add_pixel_facts(const HostGBuffer& g, SceneFacts& facts) {
         const glm::vec3 normal = g.normal.rgb(i);
         facts.has_faulty_inputs |= std::abs(glm::dot(normal, normal) - 1.0f) > 0.002f;  // as repair_image.frag
         const float roughness = g.normal.values[i * 4 + 3];
-        if (g.base_color.values[i * 4 + 3] <= 0.0f && g.emission.values[i * 4 + 3] <= 0.0f) continue;
+        const float specular = std::max(g.base_color.values[i * 4 + 3], g.emission.values[i * 4 + 3]);
+        facts.has_matte |= !is_stored_as_reflective(specular);
+        if (specular <= 0.0f) continue;
         facts.has_reflective = true;
         facts.min_roughness = std::min(facts.min_roughness, roughness),
         facts.max_roughness = std::max(facts.max_roughness, roughness);
@@ -208,6 +210,7 @@ CaptureContents inspect_capture(const Shot& shot, Capture& capture) {
     CaptureContents contents;
     SceneFacts& facts = contents.facts;
     facts.camera_moves = facts.objects_move = facts.has_environment = true;
+    facts.has_matte = false;
     FrameNotes notes;
     std::string layout;
     const unsigned first = shot.config.frames.front();

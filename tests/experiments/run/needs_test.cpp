@@ -82,6 +82,19 @@ TEST_F(Needs, WhatMovesIsNotTakenForStill) {
     EXPECT_EQ(left_out(shot("passing_pillars", "lateral", {0, 1, 2, 3})), united({}));
 }
 
+TEST_F(Needs, WhereEverySurfaceReflectsNoneIsAsked) {
+    Shot moving = shot("passing_pillars", "lateral", {0, 1, 2, 3});
+    ASSERT_TRUE(moving.facts.has_matte);
+    for (Material& material : moving.scene.materials) material.is_unlit = false, material.specular = 0.5f;
+    moving.facts = derive_facts(moving.scene, moving.camera, moving.config.frames);
+    std::set<std::string> askers;
+    for (const char* stage : {"amd_sssr/classify", "diligent_ssr/mask", "frostbite_sssr/allocate",
+                              "frostbite_sssr/classify", "mcguire_dda/trace", "simple_ssr/trace",
+                              "simple_ssr/blur_rows", "simple_ssr/blur_columns", "four_mode_ssr/trace"})
+        askers.insert(std::string(stage) + ": specular factors");
+    EXPECT_EQ(left_out(moving), united({askers}));
+}
+
 TEST_F(Needs, PointsAreChosenByName) {
     EXPECT_EQ(all_points({"none"}).size(), 1u);
     EXPECT_EQ(all_points({"amd_sssr:corrected"}).front().preset, "corrected");
