@@ -1,4 +1,6 @@
 #pragma once
+#include "core/host_image.h"
+
 #include <functional>
 #include <glm/glm.hpp>
 #include <string>
@@ -44,6 +46,11 @@ struct RayProbe {
     /// without a ray here misses. Empty: nothing is replaced.
     std::vector<RecordedRays> replayed;
 
-    /// What the rays truly meet, for the tracer exact_scene; in the order of the rays.
+    // For exact_rays, of the frame that is rendered.
+    uint32_t frame = 0, seed = 0;
+    const HostImage* true_specular = nullptr;  ///< RGB, what the pixel truly reflects; nullptr: not known
+    const HostImage* reflectance = nullptr;    ///< F0 A + F90 B per pixel; nullptr with the other
+
+    /// What the rays truly meet, for the tracer exact_scene and for exact_rays; in the order of the rays.
     std::function<std::vector<ExactHit>(const RecordedRays&)> exact_hits;
 };

@@ -77,6 +77,7 @@ std::string limits_text(const VariantLimits& limits) {
     std::string text = name_of(limits.api);
     for (const auto& [name, value] : limits.lifted_by.items())
         text += ", unless " + name + " = " + (value.is_string() ? value.get<std::string>() : value.dump());
+    if (limits.api != Limits::none) text += ", unless scene data answers rays";
     return text;
 }
 
@@ -92,6 +93,7 @@ std::unique_ptr<Variant> make_variant(const std::string& name, const nlohmann::j
     } catch (const Error& error) {
         fail("variant '", name, "': ", error.what());
     }
-    variant->limits = are_lifted(entry.limits, variant->params.values()) ? Limits::none : entry.limits.api;
+    const bool is_free = variant->uses_scene_data() || are_lifted(entry.limits, variant->params.values());
+    variant->limits = is_free ? Limits::none : entry.limits.api;
     return variant;
 }

@@ -48,7 +48,7 @@ std::vector<std::string> presets_of(const VariantEntry& entry) {
 
 TEST_F(Webgl2Variant, IsNamedInTheTable) {
     EXPECT_EQ(limits_text(find_variant("diligent_ssr").limits),
-              "WebGL 2 with EXT_color_buffer_float, unless hierarchy = mip_views, unless tracer = exact_scene");
+              "WebGL 2 with EXT_color_buffer_float, unless hierarchy = mip_views, unless scene data answers rays");
     for (const VariantEntry& entry : variant_table()) {
         SCOPED_TRACE(entry.name);
         EXPECT_EQ(entry.limits.api == Limits::webgl2, entry.name == "diligent_ssr");

@@ -162,7 +162,7 @@ VariantEntry diligent_ssr_entry() {
                                                   {"temporal_radiance_stability_factor", 0.8},
                                                   {"spatial_reconstruction_radius", 2},
                                                   {"ggx_importance_sample_bias", 0.15}})}},
-        .limits = {.api = Limits::webgl2, .lifted_by = {{"hierarchy", "mip_views"}, {"tracer", "exact_scene"}}},
+        .limits = {.api = Limits::webgl2, .lifted_by = {{"hierarchy", "mip_views"}}},
         .create = [] { return std::make_unique<DiligentSsr>(); },
     };
 }

@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/near_miss.h"
 #include "variants/common/depth_pyramid.h"
+#include "variants/tracers/outcome.h"
 
 #include <algorithm>
 #include <cstring>
@@ -45,11 +46,27 @@ std::vector<std::string> tracer_names() {
 /// What an include does besides tracing.
 enum class Including { trace, record, rays_only };
 
-/// The GLSL that stands for the slot. `needs`: of all slots that the shader includes; `replays`: RayProbe::replayed.
-std::string glsl_of(const TracerSlot& slot, const TracerEntry& tracer, const TracerNeeds& needs, Including what,
-                    unsigned rays_per_pixel, bool replays = false) {
-    const std::string head = "TraceEnd " + slot.function + "(TraceRay ray) ", call = tracer.name + "_trace(ray)";
-    const std::string file = "#include \"" + tracer.shader + "\"\n";
+/// What all slots of a shader have in common.
+struct SlotsInclude {
+    TracerNeeds needs;  ///< of all of them
+    unsigned rays_per_pixel = 1;
+    bool replays = false;       ///< RayProbe::replayed
+    bool answers_some = false;  ///< AnsweredRays
+};
+
+/// The GLSL that stands for the slot.
+std::string glsl_of(const TracerSlot& slot, const TracerEntry& tracer, const SlotsInclude& all, Including what) {
+    const auto& [needs, rays_per_pixel, replays, answers_some] = all;
+    const std::string head = "TraceEnd " + slot.function + "(TraceRay ray) ", march = tracer.name + "_trace(ray)";
+    const std::string call = answers_some ? slot.function + "_or_answer(ray)" : march;
+    // WebGL 2 has no ?: of structures, but no storage either.
+    const std::string file =
+        "#include \"" + tracer.shader + "\"\n" +
+        (answers_some ? "#include \"tracers/exact_scene/exact_scene.glsl\"\nTraceEnd " + slot.function +
+                            "_or_answer(TraceRay ray) {\n    if (exact_scene_answers(ray)) return "
+                            "exact_scene_trace(ray);\n    return " +
+                            march + ";\n}\n"
+                      : "");
     const std::string constants =
         "#ifndef RECORDED_RAYS_PER_PIXEL\n#define RECORDED_RAYS_PER_PIXEL\nconst uint "
         "recorded_rays_per_pixel = " +
@@ -121,6 +138,7 @@ Tracers::Tracers(ParameterSet& params, std::vector<TracerSlot> slots, const std:
     for (const TracerSlot& slot : slots_)
         Choice(params, slot.name, slot.initial, tracer_names(), {"", slot.doc, source});
     for (const TracerEntry& entry : tracer_table()) tracers_.push_back(created(entry, params));
+    answered_rays_ = std::make_unique<AnsweredRays>(params);
     params.change_defaults(defaults);
 }
 
@@ -129,7 +147,20 @@ const TracerEntry& Tracers::chosen(const std::string& slot) const {
     return find_tracer(parameter->value.get<std::string>());
 }
 
-TracerNeeds Tracers::needs(const std::string& slot) const { return tracer_of(slot).needs(); }
+TracerNeeds Tracers::needs(const std::string& slot) const {
+    TracerNeeds needs = tracer_of(slot).needs();
+    needs.exact_hits = needs.exact_hits || answered_rays_->are_asked_for();
+    return needs;
+}
+
+bool Tracers::answers_some(const std::vector<std::string>& slots) const {
+    if (!answered_rays_->are_asked_for()) return false;
+    for (const std::string& slot : slots)
+        if (tracer_of(slot).needs().exact_hits)
+            fail("exact_rays lets the scene answer some rays, ", slot, " = ", chosen(slot).name,
+                 " all of them: one of both is enough");
+    return true;
+}
 
 const Tracer& Tracers::tracer_of(const std::string& slot) const {
     return *tracers_[size_t(&chosen(slot) - tracer_table().data())];
@@ -173,26 +204,34 @@ void Tracers::run(PassGraph& graph, const PassGraph::Pass& pass, const std::vect
                   const std::function<void(PassGraph::Pass&)>& run) const {
     const TracerNeeds needed = needs(slots);
     if (needed.exact_hits && (!probe || !probe->exact_hits))
-        fail("the tracer exact_scene uses scene data, which only ssrlab's commands provide, and not for captures");
+        fail(
+            "the tracer exact_scene, and exact_rays, use scene data, which only ssrlab's commands provide, and not for "
+            "captures");
     if (needed.depth_layers && !graph.has_input("second_depth"))
         fail(
             "the chosen tracer reads the layer behind the visible surfaces: captures lack it, and scenes' frames have "
             "it only if the technique's needs_depth_layers() returns true");
     const size_t rays = size_t(graph.extent().x) * graph.extent().y * rays_per_pixel;
     const auto buffer = [&] { return graph.buffer("ray_records", rays * sizeof(RayRecord)); };
+    const bool has_answers = answers_some(slots);
     const RecordedRays* replayed = nullptr;
     if (probe)
         for (const RecordedRays& recorded : probe->replayed)
             if (recorded.stage == pass.stage() && recorded.rays.size() == rays) replayed = &recorded;
+    const SlotsInclude include{needed, rays_per_pixel, replayed != nullptr, has_answers};
+    const Buffer answers = needed.exact_hits ? graph.buffer("exact_hits", rays * sizeof(ExactHit)) : Buffer();
+    const auto recorded = [&]() -> RecordedRays {
+        return {pass.stage(), rays_per_pixel, download_records(graph, buffer())};
+    };
     const auto run_as = [&](Including what) {
         PassGraph::Pass tracing = pass;
         for (const TracerSlot& slot : slots_)
             if (std::ranges::count(slots, slot.name))
-                tracing.include(slot.name, glsl_of(slot, chosen(slot.name), needed, what, rays_per_pixel, replayed));
+                tracing.include(slot.name, glsl_of(slot, chosen(slot.name), include, what));
         const bool traces = what != Including::rays_only;
         if (traces && needed.nearest_mips > 0) tracing.read(images.nearest);
         if (traces && needed.farthest_mips > 0) tracing.read(images.farthest);
-        if (traces && needed.exact_hits) tracing.use(graph.buffer("exact_hits", rays * sizeof(ExactHit)));
+        if (traces && needed.exact_hits) tracing.use(answers);
         if (traces && replayed) {
             const Buffer replaying = graph.buffer("replayed_rays", rays * sizeof(RayRecord));
             graph.upload(replaying, std::as_bytes(std::span(replayed->rays)));
@@ -204,15 +243,21 @@ void Tracers::run(PassGraph& graph, const PassGraph::Pass& pass, const std::vect
         }
         run(tracing);
     };
-    if (needed.exact_hits) {
+    if (has_answers) {
+        const std::vector<ExactHit> none(rays, ExactHit{.outcome = outcome_unanswered});
+        graph.upload(answers, std::as_bytes(std::span(none)));
+        run_as(Including::record);
+        const RecordedRays marched = recorded();
+        const std::vector<ExactHit> chosen = answered_rays_->choose(graph, marched, probe->exact_hits(marched), *probe);
+        graph.upload(answers, std::as_bytes(std::span(chosen)));
+    } else if (needed.exact_hits) {
         run_as(Including::rays_only);
-        const std::vector<ExactHit> hits =
-            probe->exact_hits({pass.stage(), rays_per_pixel, download_records(graph, buffer())});
-        graph.upload(graph.buffer("exact_hits", rays * sizeof(ExactHit)), std::as_bytes(std::span(hits)));
+        const std::vector<ExactHit> hits = probe->exact_hits(recorded());
+        graph.upload(answers, std::as_bytes(std::span(hits)));
     }
     if (probe && probe->is_recording) {
         run_as(Including::record);
-        probe->recorded.push_back({pass.stage(), rays_per_pixel, download_records(graph, buffer())});
+        probe->recorded.push_back(recorded());
     }
     run_as(Including::trace);
 }
@@ -221,6 +266,6 @@ ShaderIncludes Tracers::includes() const {
     ShaderIncludes includes;
     const TracerNeeds all = needs();
     for (const TracerSlot& slot : slots_)
-        includes[slot.name] = glsl_of(slot, chosen(slot.name), all, Including::trace, 1);
+        includes[slot.name] = glsl_of(slot, chosen(slot.name), {.needs = all, .answers_some = answered_rays_->are_asked_for()}, Including::trace);
     return includes;
 }

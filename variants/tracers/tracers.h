@@ -3,6 +3,7 @@
 #include "core/gpu/pass_graph.h"
 #include "core/gpu/pipelines/shader.h"
 #include "core/ray_probe.h"
+#include "variants/tracers/answered_rays.h"
 #include "variants/tracers/tracer.h"
 
 #include <span>
@@ -68,7 +69,11 @@ public:
 private:
     const Tracer& tracer_of(const std::string& slot) const;
 
+    /// How these slots trace where the scene answers some rays: fails where a slot's tracer is exact_scene.
+    bool answers_some(const std::vector<std::string>& slots) const;
+
     ParameterSet& params_;
     std::vector<TracerSlot> slots_;
     std::vector<std::unique_ptr<Tracer>> tracers_;  // as tracer_table()
+    std::unique_ptr<AnsweredRays> answered_rays_;
 };

@@ -48,6 +48,13 @@ struct SourceFile {
     int line = 0;         ///< there; 0: none
 };
 
+/// Whether `files[file]` is that of `name`, or is included by it.
+bool is_within(const std::string& name, size_t file, const std::vector<SourceFile>& files) {
+    for (; files[file].line > 0; file = files[file].includer)
+        if (files[file].name == name) return true;
+    return files[file].name == name;
+}
+
 /// Replaces #include "x" by the text of x. Files guard themselves against double inclusion. Each file has a number, its
 /// index in `files`, which #line carries into the compiler's messages.
 std::string expand_includes(const std::string& text, size_t file, const ShaderIncludes& includes,
@@ -62,9 +69,9 @@ std::string expand_includes(const std::string& text, size_t file, const ShaderIn
             continue;
         }
         const std::string name = line.substr(10, line.rfind('"') - 10);
+        if (is_within(name, file, files)) fail(name, " includes itself");
         files.push_back({name, file, number});
         const size_t included = files.size() - 1;
-        if (files.size() > 200) fail(files[file].name, " includes itself");
         const std::string place = files[file].name + ":" + std::to_string(number);
         const auto decided = includes.find(name);
         const std::string content =

@@ -14,6 +14,11 @@ const MetricReference* specular_reference(const PoseTruth& pose) {
 
 void PointRays::plug_in_scene(RayProbe& probe, const FrameStep& step, const CameraData& camera) {
     if (!point_.shot.config.gbuffer.empty()) return;
+    probe.frame = camera.frame.x, probe.seed = camera.frame.y;
+    const FrameTruth* truth = point_.truth.frame(step);
+    const MetricReference* specular = truth ? specular_reference(*truth->pose) : nullptr;
+    probe.true_specular = specular ? &specular->image : nullptr;
+    probe.reflectance = specular ? &truth->reflectance : nullptr;
     probe.exact_hits = [this, &step, camera](const RecordedRays& recorded) {
         return exact_rays(step, camera).hits(recorded);
     };

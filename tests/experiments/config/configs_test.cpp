@@ -242,10 +242,10 @@ TEST(Configs, OfFrostbiteMeasureEachChoiceAlone) {
             if (variant.variant == "frostbite_sssr")
                 for (const auto& [name, value] : variant.parameters.items()) changed.insert(name);
     const std::unique_ptr<Variant> variant = make_variant("frostbite_sssr");
-    // Other tracers, and parameters that only they read, are none of Frostbite's choices.
+    // Other tracers, parameters that only they read, and exact rays are none of Frostbite's choices.
     const auto is_own = [](const std::string& name) {
         const bool is_of_part = name.find('.') != std::string::npos;
-        return name != "tracer" && name != "rough_tracer" && !is_of_stability(name) &&
+        return name != "tracer" && name != "rough_tracer" && name != "exact_rays" && !is_of_stability(name) &&
                (!is_of_part || name.starts_with("frostbite."));
     };
     for (const Parameter& parameter : variant->params)

@@ -128,6 +128,55 @@ TEST_F(ExactTracers, ExactSceneIsRightAboutEveryRay) {
     }
 }
 
+/// With all rays answered a technique is one with the tracer exact_scene, with none it is itself; between them each ray
+/// ends where the one or the other lets it end.
+TEST_F(ExactTracers, AnsweredRaysEndAsExactOnesAndAllOthersAsTheMarchs) {
+    struct Technique {
+        const char* name;
+        const char* preset;
+        Parameters march, exact;
+    };
+    for (const Technique& t :
+         {Technique{"mcguire_dda", "any_scale", {}, {{"tracer", "exact_scene"}}},
+          {"amd_sssr", "corrected", {}, {{"tracer", "exact_scene"}}},
+          {"diligent_ssr", "corrected", {}, {{"tracer", "exact_scene"}}},
+          {"frostbite_sssr", "best", {}, {{"tracer", "exact_scene"}, {"rough_tracer", "exact_scene"}}}}) {
+        Player player("roughness_gradient", small);
+        const auto radiance = [&](Parameters parameters) {
+            Probed probed(player, t.name, parameters, t.preset);
+            return probed.graph.download(probed.render(3).radiance);
+        };
+        const auto answered = [](const char* selector, double share) {
+            return Parameters{{"exact_rays", selector}, {"exact_share", share}};
+        };
+        EXPECT_EQ(differing_bits(radiance(answered("random", 1)), radiance(t.exact)), 0u) << t.name;
+        EXPECT_EQ(differing_bits(radiance(answered("oracle", 0)), radiance(t.march)), 0u) << t.name;
+
+        const auto recorded = [&](const Parameters& parameters) {
+            Probed probed(player, t.name, parameters, t.preset);
+            probed.probe.is_recording = true;
+            probed.render(3);
+            return probed.probe.recorded;
+        };
+        const auto part = recorded(answered("confidence", 0.3)), march = recorded(t.march), exact = recorded(t.exact);
+        ASSERT_EQ(part.size(), march.size()) << t.name;
+        size_t as_march = 0, as_exact = 0;
+        for (size_t pass = 0; pass < part.size(); ++pass)
+            for (size_t i = 0; i < part[pass].rays.size(); ++i) {
+                const auto is_same = [&](const RayRecord& end) {
+                    const RayRecord& found = part[pass].rays[i];
+                    return found.outcome == end.outcome && found.position == end.position &&
+                           found.distance == end.distance;
+                };
+                const bool is_march = is_same(march[pass].rays[i]), is_exact = is_same(exact[pass].rays[i]);
+                ASSERT_TRUE(is_march || is_exact) << t.name << ' ' << pass << ' ' << i;
+                as_march += is_march && !is_exact, as_exact += is_exact && !is_march;
+            }
+        EXPECT_GT(as_march, 100u) << t.name;
+        EXPECT_GT(as_exact, 100u) << t.name;
+    }
+}
+
 TEST_F(ExactTracers, SeveralRaysOfAPixelAreRecordedEach) {
     Player player("roughness_gradient", small);
     Probed probed(player, "frostbite_sssr", {{"min_rays", 4}, {"max_rays", 4}}, "best");
@@ -311,11 +360,15 @@ TEST_F(ExactTracers, WhoCannotAskOrSeeIsToldSo) {
     Probed asking(player, "mcguire_dda", {{"tracer", "exact_scene"}});
     EXPECT_TRUE(asking.variant->uses_scene_data());
     const std::string no_scene =
-        "the tracer exact_scene uses scene data, which only ssrlab's commands provide, and not for captures";
+        "the tracer exact_scene, and exact_rays, use scene data, which only ssrlab's commands provide, and not for "
+        "captures";
     asking.probe.exact_hits = {};
     EXPECT_EQ(message_of([&] { asking.render(); }), no_scene);
     asking.variant->ray_probe = nullptr;
     EXPECT_EQ(message_of([&] { asking.render(); }), no_scene);
+    Probed asking_twice(player, "mcguire_dda", {{"tracer", "exact_scene"}, {"exact_rays", "random"}});
+    EXPECT_EQ(message_of([&] { asking_twice.render(); }),
+              "exact_rays lets the scene answer some rays, tracer = exact_scene all of them: one of both is enough");
 
     for (const Parameters& parameters : {Parameters{{"tracer", "exact_layer"}}, Parameters{{"dda.layers", "2"}}}) {
         Probed seeing(player, "mcguire_dda", parameters);

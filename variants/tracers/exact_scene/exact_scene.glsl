@@ -11,6 +11,9 @@ struct ExactHit {
 };
 layout(std430) buffer exact_hits { ExactHit exact_hit_of_ray[]; };
 
+// With exact_rays some rays are answered, and a march decides for the others.
+bool exact_scene_answers(TraceRay ray) { return exact_hit_of_ray[record_index(ray)].outcome != outcome_unanswered; }
+
 TraceEnd exact_scene_trace(TraceRay ray) {
     ExactHit found = exact_hit_of_ray[record_index(ray)];
     if (found.outcome != outcome_hit) return missed(found.outcome, found.position, found.distance);
