@@ -15,6 +15,7 @@
 
 #include <unistd.h>
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <csignal>
 #include <cstring>
@@ -168,26 +169,31 @@ private:
     bool has_said_where_ = false;                             ///< the report of a study that is not done yet
 };
 
-/// While it lives Ctrl-C ends the program with a sentence, unless whoever started it ignores it. Nothing is lost:
-/// cells are written as a whole.
+/// While it lives Ctrl-C, and SIGTERM as batch systems send it at a job's time limit, end the program with a sentence,
+/// unless whoever started it ignores them. Nothing is lost: cells are written as a whole.
 class ExplainedInterrupt {
 public:
     ExplainedInterrupt() {
         struct sigaction explain {};
-        explain.sa_handler = [](int) {
+        explain.sa_handler = [](int signal) {
             constexpr char text[] = "\nstopped; the same command continues where it was\n";
             [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text, sizeof text - 1);
-            _exit(130);
+            _exit(128 + signal);
         };
-        sigaction(SIGINT, nullptr, &before_);
-        if (before_.sa_handler != SIG_IGN) sigaction(SIGINT, &explain, nullptr);
+        for (size_t i = 0; i < signals.size(); ++i) {
+            sigaction(signals[i], nullptr, &before_[i]);
+            if (before_[i].sa_handler != SIG_IGN) sigaction(signals[i], &explain, nullptr);
+        }
     }
-    ~ExplainedInterrupt() { sigaction(SIGINT, &before_, nullptr); }
+    ~ExplainedInterrupt() {
+        for (size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &before_[i], nullptr);
+    }
     ExplainedInterrupt(const ExplainedInterrupt&) = delete;
     ExplainedInterrupt& operator=(const ExplainedInterrupt&) = delete;
 
 private:
-    struct sigaction before_ {};
+    static constexpr std::array signals = {SIGINT, SIGTERM};
+    std::array<struct sigaction, signals.size()> before_{};
 };
 
 /// As a POSIX shell takes it for one word.

@@ -254,6 +254,7 @@ TEST_F(CommandLine, SavesGBuffers) {
     EXPECT_TRUE(fs::exists(folder / "g/camera.json"));
 }
 
+/// And at SIGTERM, by which batch systems end a job.
 TEST_F(CommandLine, SaysAtCtrlCThatTheSameCommandContinues) {
     config(R"({"shots": [{"scene": "fence", "resolution": [96, 54]}], "reference": {"samples": 1000000}, "seeds": 1,
         "variants": [{"variant": "none"}], "timing": {"frames": 0}})");
@@ -261,13 +262,15 @@ TEST_F(CommandLine, SaysAtCtrlCThatTheSameCommandContinues) {
     write_text(folder / "stop.sh", "cd '" + folder.string() + R"('
 SSRLAB_CACHE="$PWD/cache" env --default-signal=INT ')" SSRLAB_PROGRAM R"(' run study.json > log 2>&1 &
 while kill -0 $! && ! grep -q 'fence, camera' log; do sleep 0.05; done
-kill -INT $!
+kill -"$1" $!
 wait $!
 )");
-    const int status = std::system(("bash '" + (folder / "stop.sh").string() + "'").c_str());
-    EXPECT_EQ(WEXITSTATUS(status), 130);
-    EXPECT_TRUE(read_text(folder / "log").ends_with("\nstopped; the same command continues where it was\n"))
-        << read_text(folder / "log");
+    for (const auto& [signal, code] : {std::pair("INT", 130), {"TERM", 143}}) {
+        const int status = std::system(("bash '" + (folder / "stop.sh").string() + "' " + signal).c_str());
+        EXPECT_EQ(WEXITSTATUS(status), code);
+        EXPECT_TRUE(read_text(folder / "log").ends_with("\nstopped; the same command continues where it was\n"))
+            << read_text(folder / "log");
+    }
 }
 
 TEST_F(CommandLine, TakesNumbersOnlyThatAreFinite) {
