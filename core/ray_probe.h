@@ -1,6 +1,4 @@
 #pragma once
-#include "core/host_image.h"
-
 #include <functional>
 #include <glm/glm.hpp>
 #include <string>
@@ -29,6 +27,12 @@ struct ExactHit {
     uint32_t outcome = 0;   ///< variants/tracers/outcome.h: hit, if the screen shows the point
 };
 
+/// Which of a pass's rays are answered by the scene in place of their march: the parameters exact_rays and exact_share.
+struct AskedRays {
+    std::string selector;  ///< "oracle", "confidence", "variance" or "random"
+    double share = 0;      ///< of the rays that are traced
+};
+
 /// All rays of one pass of a frame: `rays_per_pixel` for each pixel, row by row.
 struct RecordedRays {
     std::string stage;  ///< label of the pass
@@ -46,11 +50,10 @@ struct RayProbe {
     /// without a ray here misses. Empty: nothing is replaced.
     std::vector<RecordedRays> replayed;
 
-    // For exact_rays, of the frame that is rendered.
-    uint32_t frame = 0, seed = 0;
-    const HostImage* true_specular = nullptr;  ///< RGB, what the pixel truly reflects; nullptr: not known
-    const HostImage* reflectance = nullptr;    ///< F0 A + F90 B per pixel; nullptr with the other
-
-    /// What the rays truly meet, for the tracer exact_scene and for exact_rays; in the order of the rays.
+    /// What the rays truly meet, for the tracer exact_scene; in the order of the rays.
     std::function<std::vector<ExactHit>(const RecordedRays&)> exact_hits;
+
+    /// The same for a share of a pass's rays in place of their march, where it ended; of all others
+    /// outcome_unanswered.
+    std::function<std::vector<ExactHit>(const RecordedRays& marched, const AskedRays&)> answers;
 };

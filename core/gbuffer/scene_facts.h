@@ -10,7 +10,7 @@
 struct SceneFacts {
     bool has_geometry = false;
     bool has_reflective = false;  ///< a surface whose specular reflectance is not zero
-    bool has_matte = true;        ///< a surface of which that is zero, or that 8 bits may round to it; true until known
+    bool has_matte = true;        ///< a surface where it is zero, or becomes zero in 8 bits; true until known
     float min_roughness = 1.0f,
           max_roughness = 0.0f;  ///< perceptual, over reflective surfaces and all texels of their textures
     bool camera_moves = false,   ///< also by jitter

@@ -27,11 +27,6 @@ std::string PassGraph::asked_name(const Image& image) const {
     return {};
 }
 bool PassGraph::has_input(const std::string& name) const { return impl_->inputs.contains(name); }
-Image PassGraph::input(const std::string& name) const {
-    const auto found = impl_->inputs.find(name);
-    if (found == impl_->inputs.end()) fail("the graph has no input '", name, "'");
-    return found->second;
-}
 glm::uvec2 PassGraph::extent() const { return impl_->extent; }
 Device& PassGraph::device() { return impl_->device; }
 

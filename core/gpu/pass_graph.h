@@ -152,7 +152,6 @@ public:
     void set_inputs(std::span<const Image> inputs);
     /// Whether there is an input of that name.
     bool has_input(const std::string& name) const;
-    Image input(const std::string& name) const;  ///< fails if there is none
 
     void clear(const Image& image,
                glm::vec4 value);  ///< all its mips; timed as the stage "clear"; depth: x depth, y stencil

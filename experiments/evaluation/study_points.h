@@ -22,7 +22,7 @@ PointSet points_without_seeds(const nlohmann::json& manifest);
 /// Points whose results differ from run to run.
 PointSet points_not_repeatable(const nlohmann::json& manifest);
 
-/// Points that use scene data, which no engine has (exact_scene): they are never ranked.
+/// Points that use scene data, which no engine has (exact_scene, exact_rays): they are never ranked.
 PointSet points_using_scene_data(const nlohmann::json& manifest);
 
 /// The names that the study gave its points, by (variant, point).

@@ -295,9 +295,27 @@ def gpu_times():
     return Picture(panels, "Radeon RX 6800 XT (navi21) at 1920x1080, estimated, 95 % intervals", columns=2, note="hollow: as published")
 
 
+def exact_rays():
+    numbers = Numbers(str(SUMMARIES), __file__)
+    shares = {"0.005": "0.5", "0.01": "1", "0.02": "2", "0.05": "5", "0.1": "10", "0.4": "40"}
+    selectors = {"oracle": "by an oracle", "variance": "by variance", "random": "at random", "confidence": "by confidence"}
+    panels = []
+    for title, point in (("linear tracing", "mcguire_dda, any_scale"), ("AMD", "amd_sssr, best_1x"), ("Frostbite", "frostbite_sssr, best_1x")):
+        error = lambda change: Cell("", change, "", *numbers.ratio_over_scenes("exact_rays", "errors", f"{point} {change}", point))  # noqa: B023, E731
+        rows = []
+        for share, percent in shares.items():
+            marks = [
+                Mark(text, style.COLORS[i], style.MARKS[i], error(f"exact_rays={selector} exact_share={share}"))
+                for i, (selector, text) in enumerate(selectors.items())
+            ]
+            rows.append((percent, marks + [Mark("all rays exact", GREY, "", error("tracer=exact_scene"))]))
+        panels.append(Panel(title, rows))
+    return Picture(panels, "exact rays (%); error over that without them, mean over 13 scenes, 95 % intervals", kind="lines", columns=3)
+
+
 PUBLISHED_PRESETS = ("default", "sdk_1_5", "current", "frostbite_2015", "blog", "high")
 
-PICTURES = {p.__name__: p for p in (techniques, budgets, rooms, metrics, causes, limit, third_party, traced_environment, corrections, estimators, march, thickness, temporal, fragments, resolution, compilers, gpu_times)}
+PICTURES = {p.__name__: p for p in (techniques, budgets, rooms, metrics, causes, limit, third_party, traced_environment, corrections, estimators, march, thickness, temporal, fragments, resolution, compilers, gpu_times, exact_rays)}
 
 
 def save(name, folder):

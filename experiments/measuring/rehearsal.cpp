@@ -34,6 +34,9 @@ void rehearse(Device& device, const std::vector<VariantConfig>& variants) {
     const HostGBuffer host = empty_gbuffer({16, 16});
     RayProbe probe;
     probe.exact_hits = [](const RecordedRays& recorded) { return std::vector<ExactHit>(recorded.rays.size()); };
+    probe.answers = [](const RecordedRays& marched, const AskedRays&) {
+        return std::vector<ExactHit>(marched.rays.size());
+    };
     std::set<std::string> done;
     for (const VariantConfig& config : variants) {
         if (!done.insert(config.variant + config.preset + config.parameters.dump()).second) continue;

@@ -22,7 +22,7 @@ struct AnswerPoint {
 };
 
 /// What a study says of one shot at first sight: which technique, at which cost, and how certain that is, by the
-/// standings that evaluation/standings.h decided. Points that use scene data (exact_scene) take no part.
+/// standings that evaluation/standings.h decided. Points that use scene data (exact_scene, exact_rays) take no part.
 struct ShotAnswer {
     std::string shot;
     std::optional<AnswerPoint> best;      ///< least error of those whose interval holds all noise

@@ -32,6 +32,19 @@ TEST(Shader, ErrorsNameTheFileAndLineAsWritten) {
         << error_of("missing_include.comp");
 }
 
+TEST(Shader, AFileThatIncludesItselfIsNamedWithThePlace) {
+    const auto error = [](const std::string& first, const std::string& second) {
+        return error_message([&] {
+            compile("missing_include.comp", "", "",
+                    {{"no_such_part.glsl", "#include \"a\"\n"}, {"a", first}, {"b", second}});
+        });
+    };
+    EXPECT_NE(error("\n#include \"b\"\n", "#include \"a\"\n").find("a includes itself, at b:1"), std::string::npos);
+    EXPECT_NE(error("#include \"a\"\n", "").find("a includes itself, at a:1"), std::string::npos);
+    EXPECT_EQ(error("#include \"b\"\n#include \"b\"\n", "").find("includes itself"), std::string::npos)
+        << "twice is none";
+}
+
 TEST(Shader, WebGl2RefusesWhatItDoesNotHave) {
     EXPECT_EQ(error_of("plain_webgl2.frag", ShaderLanguage::webgl2), "no error");
     EXPECT_EQ(error_of("image_store.frag"), "no error");

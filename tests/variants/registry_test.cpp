@@ -118,6 +118,15 @@ TEST(Registry, CompilesEveryTechniqueWithEveryTracer) {
                     compile(name, "", shader_prelude(variant->params, language), variant->shader_includes(), language);
                 };
                 EXPECT_NO_THROW(compiles_as(ShaderLanguage::vulkan)) << name << ", " << tracer.name;
+                if (tracer.fits_webgl2) {  // others are answered by the scene already
+                    nlohmann::json asked = chosen;
+                    asked["exact_rays"] = "random";
+                    if (std::ranges::count(variant->params, "hierarchy.min_traversal_occupancy", &Parameter::name))
+                        asked["hierarchy.min_traversal_occupancy"] = 0;
+                    const std::unique_ptr<Variant> asking = make_variant(entry.name, asked);
+                    EXPECT_NO_THROW(compile(name, "", shader_prelude(asking->params), asking->shader_includes()))
+                        << name << ", " << tracer.name << ", exact_rays";
+                }
                 if (entry.limits.api == Limits::webgl2 && tracer.fits_webgl2) {
                     EXPECT_NO_THROW(compiles_as(ShaderLanguage::webgl2)) << name << ", " << tracer.name;
                 }

@@ -71,8 +71,8 @@ struct AmdDenoiserParameters {
          "by mistake: the first frame comes out black", "Denoiser 1.3, host code"}};
     Choice denoiser_form{params, "denoiser_form", "by_device", {"by_device", "fast", "faithful", "float16"},
         {"", "faithful: shaders laid out as the original's, a thread per pixel. fast: the same output within half-float "
-         "rounding, a thread per column of a tile, in classification per tile: a fifth of the time of faithful's passes on "
-         "lavapipe, of classification 0.6; 1.2 to 1.4 times the denoiser's time on an NVIDIA H200. "
+         "rounding, a thread per column of a tile, in classification per tile: a fifth of the denoiser's time on "
+         "lavapipe and 0.6 of classification's; on an NVIDIA H200 1.2 to 1.4 times the denoiser's. "
          "float16: faithful, with the moments of 9x9 neighbours summed in half floats. by_device: fast on "
          "a CPU, on a GPU faithful with barrier_before_average",
          "ssrlab"}};

@@ -36,8 +36,7 @@ struct AmdWork {
 };
 
 /// Lists rays and tiles; writes alpha, clears histories.radiance.current (environment where too rough) and writes
-/// `confidence`: 1 where the technique is responsible. `parameters`: in which form, since tiles are what a denoiser's
-/// passes are divided into; both forms list the same, in another order.
+/// `confidence`: 1 where the technique is responsible. `parameters`: denoiser_form decides the order of the lists, too.
 AmdWork amd_classify(PassGraph& graph, const GBuffer& gbuffer, const AmdHistories& histories, const Image& confidence,
                      const AmdDenoiserParameters& parameters);
 

@@ -46,27 +46,27 @@ std::vector<std::string> tracer_names() {
 /// What an include does besides tracing.
 enum class Including { trace, record, rays_only };
 
-/// What all slots of a shader have in common.
-struct SlotsInclude {
-    TracerNeeds needs;  ///< of all of them
+/// What the includes of all slots of a shader have in common.
+struct ShaderTracing {
+    TracerNeeds needs;  ///< of all slots
     unsigned rays_per_pixel = 1;
-    bool replays = false;       ///< RayProbe::replayed
-    bool answers_some = false;  ///< AnsweredRays
+    bool replays = false;    ///< RayProbe::replayed
+    bool has_asked = false;  ///< RayProbe::answers
 };
 
 /// The GLSL that stands for the slot.
-std::string glsl_of(const TracerSlot& slot, const TracerEntry& tracer, const SlotsInclude& all, Including what) {
-    const auto& [needs, rays_per_pixel, replays, answers_some] = all;
+std::string glsl_of(const TracerSlot& slot, const TracerEntry& tracer, const ShaderTracing& all, Including what) {
+    const auto& [needs, rays_per_pixel, replays, has_asked] = all;
     const std::string head = "TraceEnd " + slot.function + "(TraceRay ray) ", march = tracer.name + "_trace(ray)";
-    const std::string call = answers_some ? slot.function + "_or_answer(ray)" : march;
+    const std::string call = has_asked ? slot.function + "_or_answer(ray)" : march;
     // WebGL 2 has no ?: of structures, but no storage either.
     const std::string file =
         "#include \"" + tracer.shader + "\"\n" +
-        (answers_some ? "#include \"tracers/exact_scene/exact_scene.glsl\"\nTraceEnd " + slot.function +
-                            "_or_answer(TraceRay ray) {\n    if (exact_scene_answers(ray)) return "
-                            "exact_scene_trace(ray);\n    return " +
-                            march + ";\n}\n"
-                      : "");
+        (has_asked ? "#include \"tracers/exact_scene/exact_scene.glsl\"\nTraceEnd " + slot.function +
+                         "_or_answer(TraceRay ray) {\n    if (exact_scene_answers(ray)) return "
+                         "exact_scene_trace(ray);\n    return " +
+                         march + ";\n}\n"
+                   : "");
     const std::string constants =
         "#ifndef RECORDED_RAYS_PER_PIXEL\n#define RECORDED_RAYS_PER_PIXEL\nconst uint "
         "recorded_rays_per_pixel = " +
@@ -125,6 +125,7 @@ const TracerEntry& find_tracer(const std::string& name) {
 std::string part_of(const TracerEntry& tracer) { return tracer.part.empty() ? tracer.name : tracer.part; }
 
 bool is_read(const ParameterSet& params, const std::string& name) {
+    if (name == "exact_share") return params.values().at("exact_rays") != "none";
     const std::string part = std::ranges::find(params, name, &Parameter::name)->part();
     if (!std::ranges::count(tracer_table(), part, part_of)) return true;
     return std::ranges::any_of(params, [&](const Parameter& slot) {
@@ -138,7 +139,7 @@ Tracers::Tracers(ParameterSet& params, std::vector<TracerSlot> slots, const std:
     for (const TracerSlot& slot : slots_)
         Choice(params, slot.name, slot.initial, tracer_names(), {"", slot.doc, source});
     for (const TracerEntry& entry : tracer_table()) tracers_.push_back(created(entry, params));
-    answered_rays_ = std::make_unique<AnsweredRays>(params);
+    asked_rays_ = std::make_unique<AskedRaysParameters>(params);
     params.change_defaults(defaults);
 }
 
@@ -149,16 +150,21 @@ const TracerEntry& Tracers::chosen(const std::string& slot) const {
 
 TracerNeeds Tracers::needs(const std::string& slot) const {
     TracerNeeds needs = tracer_of(slot).needs();
-    needs.exact_hits = needs.exact_hits || answered_rays_->are_asked_for();
+    needs.exact_hits = needs.exact_hits || asked_rays_->are_any();
+    needs.random = needs.random || asked_rays_->are_any();  // among equal rays, too
     return needs;
 }
 
-bool Tracers::answers_some(const std::vector<std::string>& slots) const {
-    if (!answered_rays_->are_asked_for()) return false;
-    for (const std::string& slot : slots)
+bool Tracers::asks_for_some(const std::vector<std::string>& slots) const {
+    if (!asked_rays_->are_any()) return false;
+    for (const std::string& slot : slots) {
         if (tracer_of(slot).needs().exact_hits)
             fail("exact_rays lets the scene answer some rays, ", slot, " = ", chosen(slot).name,
                  " all of them: one of both is enough");
+        // Rays that are answered leave the march, whose others would then be given up sooner.
+        if (const std::string why = tracer_of(slot).not_repeatable(); !why.empty())
+            fail("exact_rays needs a march whose rays do not depend on each other; ", why);
+    }
     return true;
 }
 
@@ -203,7 +209,8 @@ void Tracers::run(PassGraph& graph, const PassGraph::Pass& pass, const std::vect
                   const Images& images, RayProbe* probe, unsigned rays_per_pixel,
                   const std::function<void(PassGraph::Pass&)>& run) const {
     const TracerNeeds needed = needs(slots);
-    if (needed.exact_hits && (!probe || !probe->exact_hits))
+    const bool has_asked = asks_for_some(slots);
+    if (needed.exact_hits && (!probe || !(has_asked ? bool(probe->answers) : bool(probe->exact_hits))))
         fail(
             "the tracer exact_scene, and exact_rays, use scene data, which only ssrlab's commands provide, and not for "
             "captures");
@@ -213,12 +220,11 @@ void Tracers::run(PassGraph& graph, const PassGraph::Pass& pass, const std::vect
             "it only if the technique's needs_depth_layers() returns true");
     const size_t rays = size_t(graph.extent().x) * graph.extent().y * rays_per_pixel;
     const auto buffer = [&] { return graph.buffer("ray_records", rays * sizeof(RayRecord)); };
-    const bool has_answers = answers_some(slots);
     const RecordedRays* replayed = nullptr;
     if (probe)
         for (const RecordedRays& recorded : probe->replayed)
             if (recorded.stage == pass.stage() && recorded.rays.size() == rays) replayed = &recorded;
-    const SlotsInclude include{needed, rays_per_pixel, replayed != nullptr, has_answers};
+    const ShaderTracing include{needed, rays_per_pixel, replayed != nullptr, has_asked};
     const Buffer answers = needed.exact_hits ? graph.buffer("exact_hits", rays * sizeof(ExactHit)) : Buffer();
     const auto recorded = [&]() -> RecordedRays {
         return {pass.stage(), rays_per_pixel, download_records(graph, buffer())};
@@ -243,13 +249,12 @@ void Tracers::run(PassGraph& graph, const PassGraph::Pass& pass, const std::vect
         }
         run(tracing);
     };
-    if (has_answers) {
+    if (has_asked) {
         const std::vector<ExactHit> none(rays, ExactHit{.outcome = outcome_unanswered});
         graph.upload(answers, std::as_bytes(std::span(none)));
         run_as(Including::record);
-        const RecordedRays marched = recorded();
-        const std::vector<ExactHit> chosen = answered_rays_->choose(graph, marched, probe->exact_hits(marched), *probe);
-        graph.upload(answers, std::as_bytes(std::span(chosen)));
+        const std::vector<ExactHit> found = probe->answers(recorded(), asked_rays_->value());
+        graph.upload(answers, std::as_bytes(std::span(found)));
     } else if (needed.exact_hits) {
         run_as(Including::rays_only);
         const std::vector<ExactHit> hits = probe->exact_hits(recorded());
@@ -263,9 +268,10 @@ void Tracers::run(PassGraph& graph, const PassGraph::Pass& pass, const std::vect
 }
 
 ShaderIncludes Tracers::includes() const {
+    std::vector<std::string> names;
+    for (const TracerSlot& slot : slots_) names.push_back(slot.name);
+    const ShaderTracing all{.needs = needs(), .has_asked = asks_for_some(names)};
     ShaderIncludes includes;
-    const TracerNeeds all = needs();
-    for (const TracerSlot& slot : slots_)
-        includes[slot.name] = glsl_of(slot, chosen(slot.name), {.needs = all, .answers_some = answered_rays_->are_asked_for()}, Including::trace);
+    for (const TracerSlot& slot : slots_) includes[slot.name] = glsl_of(slot, chosen(slot.name), all, Including::trace);
     return includes;
 }

@@ -3,7 +3,7 @@
 #include "core/gpu/pass_graph.h"
 #include "core/gpu/pipelines/shader.h"
 #include "core/ray_probe.h"
-#include "variants/tracers/answered_rays.h"
+#include "variants/tracers/asked_rays.h"
 #include "variants/tracers/tracer.h"
 
 #include <span>
@@ -55,9 +55,9 @@ public:
     Images images(PassGraph& graph, const Image& depth, const PyramidMaker& make = {},
                   const std::vector<std::string>& slots = {}) const;
 
-    /// Runs `pass`, whose shader includes `slots`, once by `run` (over all pixels); with a probe that needs it a
-    /// second time before, to get at its rays. Each pixel traces at most `rays_per_pixel` rays, of different
-    /// TraceRay::number. Fails if a tracer needs exact hits and `probe` has none.
+    /// Runs `pass`, whose shader includes `slots`, by `run` (over all pixels); before that once or twice more, with a
+    /// probe that needs it, to get at its rays. Each pixel traces at most `rays_per_pixel` rays, of different
+    /// TraceRay::number. Fails if exact hits are needed and `probe` has none.
     void run(
         PassGraph& graph, const PassGraph::Pass& pass, const std::vector<std::string>& slots, const Images& images,
         RayProbe* probe, unsigned rays_per_pixel = 1,
@@ -69,11 +69,11 @@ public:
 private:
     const Tracer& tracer_of(const std::string& slot) const;
 
-    /// How these slots trace where the scene answers some rays: fails where a slot's tracer is exact_scene.
-    bool answers_some(const std::vector<std::string>& slots) const;
+    /// Whether the scene answers some of these slots' rays. Fails where one of their tracers does not allow it.
+    bool asks_for_some(const std::vector<std::string>& slots) const;
 
     ParameterSet& params_;
     std::vector<TracerSlot> slots_;
     std::vector<std::unique_ptr<Tracer>> tracers_;  // as tracer_table()
-    std::unique_ptr<AnsweredRays> answered_rays_;
+    std::unique_ptr<AskedRaysParameters> asked_rays_;
 };

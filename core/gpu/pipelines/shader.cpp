@@ -69,7 +69,7 @@ std::string expand_includes(const std::string& text, size_t file, const ShaderIn
             continue;
         }
         const std::string name = line.substr(10, line.rfind('"') - 10);
-        if (is_within(name, file, files)) fail(name, " includes itself");
+        if (is_within(name, file, files)) fail(name, " includes itself, at ", files[file].name, ":", number);
         files.push_back({name, file, number});
         const size_t included = files.size() - 1;
         const std::string place = files[file].name + ":" + std::to_string(number);

@@ -226,6 +226,7 @@ CaptureContents inspect_capture(const Shot& shot, Capture& capture) {
                  " the layer 'lit', which the first frame ", has_lit ? "lacks" : "has");
         contents.has_lit = has_lit;
         add_pixel_facts(now.gbuffer, facts);
+        facts.has_matte |= facts.has_faulty_inputs;  // what is repaired has no specular term
         for (const auto& [layer, text] : now.absent)
             if (const std::string taken = default_of(layer, text, shot.config.frames.size() > 1); !taken.empty())
                 notes.add("There is no layer '" + layer + "': " + taken + ".", frame);

@@ -193,6 +193,9 @@ private:
         const std::unique_ptr<Variant> variant = make_variant(config.variant, config.parameters, config.preset);
         RayProbe probe;  // exact_scene uses scene data, at a cost of its own: here it meets nothing
         probe.exact_hits = [](const RecordedRays& recorded) { return std::vector<ExactHit>(recorded.rays.size()); };
+        probe.answers = [](const RecordedRays& marched, const AskedRays&) {
+            return std::vector<ExactHit>(marched.rays.size());
+        };
         variant->ray_probe = &probe;
         if (!settings_.keep_all) variant->leave_out(run.shot.facts);
         const auto render = [&] {

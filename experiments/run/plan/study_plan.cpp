@@ -25,8 +25,10 @@ struct PointIdentity {
 };
 
 PointIdentity identity_of(const VariantConfig& config) {
-    const nlohmann::json values = make_variant(config.variant, config.parameters, config.preset)->params.values();
+    const std::unique_ptr<Variant> variant = make_variant(config.variant, config.parameters, config.preset);
+    const nlohmann::json values = variant->params.values();
     PointIdentity identity{.parameters = values.dump(), .sources = {"variants/" + config.variant + "/"}};
+    if (variant->uses_scene_data()) identity.sources.push_back("variants/tracers/exact_scene/");
     for (const auto& [name, value] : values.items())
         for (const TracerEntry& tracer : tracer_table())
             if (value == tracer.name)

@@ -12,15 +12,29 @@ const MetricReference* specular_reference(const PoseTruth& pose) {
 
 }  // namespace
 
-void PointRays::plug_in_scene(RayProbe& probe, const FrameStep& step, const CameraData& camera) {
+void PointRays::plug_in_scene(RayProbe& probe, PassGraph& graph, const FrameStep& step, const CameraData& camera,
+                              const GBuffer& gbuffer, unsigned seed) {
     if (!point_.shot.config.gbuffer.empty()) return;
-    probe.frame = camera.frame.x, probe.seed = camera.frame.y;
-    const FrameTruth* truth = point_.truth.frame(step);
-    const MetricReference* specular = truth ? specular_reference(*truth->pose) : nullptr;
-    probe.true_specular = specular ? &specular->image : nullptr;
-    probe.reflectance = specular ? &truth->reflectance : nullptr;
     probe.exact_hits = [this, &step, camera](const RecordedRays& recorded) {
-        return exact_rays(step, camera).hits(recorded);
+        return rays_in_scene(step, camera).hits(recorded);
+    };
+    answered_.reset();
+    probe.answers = [this, &graph, &step, camera, gbuffer, seed](const RecordedRays& marched, const AskedRays& asked) {
+        if (!answered_) {
+            AnsweredRays::Frame frame{.lit = graph.download(gbuffer.lit),
+                                      .fallback = graph.download(gbuffer.fallback),
+                                      .normal = graph.download(gbuffer.normal),
+                                      .index = step.index,
+                                      .seed = seed};
+            if (const FrameTruth* truth = point_.truth.frame(step)) {
+                frame.reflectance = truth->reflectance;
+                // The guide's samples are in neither half of the reference that errors are measured against.
+                if (const MetricReference* specular = specular_reference(*truth->pose); specular && specular->halves)
+                    frame.true_specular = specular->halves->guide;
+            }
+            answered_.emplace(std::move(frame));
+        }
+        return answered_->choose(marched, rays_in_scene(step, camera).hits(marched), asked);
     };
 }
 
@@ -42,7 +56,7 @@ std::vector<PointRays::VerdictMap> PointRays::judge(unsigned seed, const std::ve
     const glm::uvec2 extent = point_.shot.config.extent;
     std::vector<VerdictMap> maps;
     for (const RecordedRays& rays : recorded) {
-        const std::vector<ExactHit> truth = exact_rays(step, camera).hits(rays, every);
+        const std::vector<ExactHit> truth = rays_in_scene(step, camera).hits(rays, every);
         judged_[step.frame].add(seed, rays, truth, extent, every, {masks.begin(), masks.end()});
         if (has_causes) causes_[step.frame].add(rays, truth, extent);
         if (has_maps && every == 1) maps.push_back({rays.stage, map_of_verdicts(rays, truth, extent)});

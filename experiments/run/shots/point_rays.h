@@ -1,5 +1,6 @@
 #pragma once
-#include "core/ray_probe.h"
+#include "core/gbuffer/gbuffer.h"
+#include "experiments/measuring/rays/answered_rays.h"
 #include "experiments/measuring/rays/error_causes.h"
 #include "experiments/measuring/rays/exact_rays.h"
 #include "experiments/measuring/rays/judged_hits.h"
@@ -11,8 +12,9 @@ class PointRays {
 public:
     explicit PointRays(const PointInShot& point) : point_(point) {}
 
-    /// Answers the tracer exact_scene in this step; a capture has no scene to ask.
-    void plug_in_scene(RayProbe& probe, const FrameStep& step, const CameraData& camera);
+    /// Answers requests for scene data in this step, in which `seed` is rendered from `gbuffer`; a capture has no scene.
+    void plug_in_scene(RayProbe& probe, PassGraph& graph, const FrameStep& step, const CameraData& camera,
+                       const GBuffer& gbuffer, unsigned seed);
     bool judges(unsigned seed, const FrameStep& step) const;
 
     /// Where rays of one stage are judged: a picture of the verdicts.
@@ -28,12 +30,13 @@ public:
     std::vector<HitRow> rows() const;
 
 private:
-    const ExactRays& exact_rays(const FrameStep& step, const CameraData& camera) {
+    const ExactRays& rays_in_scene(const FrameStep& step, const CameraData& camera) {
         return exact_.try_emplace(step.frame, point_.shot, step.frame, camera).first->second;
     }
 
     const PointInShot& point_;
     std::map<unsigned, ExactRays> exact_;     ///< by frame
+    std::optional<AnsweredRays> answered_;    ///< of the step that is rendered
     std::map<unsigned, JudgedHits> judged_;   ///< by frame
     std::map<unsigned, ErrorCauses> causes_;  ///< by frame
 };

@@ -128,7 +128,7 @@ private:
 
     void render_step(SeedInShot& seed, PointErrors& errors, const FrameStep& step, const FrameStore::Frame& frame) {
         Renderer& r = seed.renderer;
-        rays_.plug_in_scene(*r.probe, step, frame.camera);
+        rays_.plug_in_scene(*r.probe, *r.graph, step, frame.camera, frame.gbuffer, seed.seed());
         r.probe->is_recording = rays_.judges(seed.seed(), step);
         const Reflections reflections = r.render(frame.camera, seed.seed(), frame.gbuffer);
         if (!step.is_warm_up) {
@@ -158,8 +158,8 @@ private:
             for (size_t i = 0; i < rgba.values.size(); ++i) rgba.values[i] += with.values[i] - mean.values[i];
         }
         replace(frame.gbuffer.lit);
-        rays_.plug_in_scene(*r.probe, step, frame.camera);
         const unsigned seed = point_.variant.seeds.front();
+        rays_.plug_in_scene(*r.probe, *r.graph, step, frame.camera, frame.gbuffer, seed);
         const Reflections reflections = r.render(frame.camera, seed, frame.gbuffer);
         report_step();
         const FrameTruth* truth = point_.truth.frame(step);

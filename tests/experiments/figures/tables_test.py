@@ -19,6 +19,7 @@ sys.dont_write_bytecode = True
 from paper_figures import numbers  # noqa: E402
 from paper_tables import shot_names, summary_file  # noqa: E402
 from paper_tables.cell import Cell  # noqa: E402
+from paper_tables.halving import halving_share  # noqa: E402
 from paper_tables.markdown import markdown  # noqa: E402
 from tables_study import ONE_SEED, RATIOS, SHOTS, TABLES, footer, manifest, read, write, write_results, write_rows  # noqa: E402
 
@@ -111,6 +112,22 @@ def test_names_in_prose(temporary):
         check(f"<!--= {asked} -->{answer}<!--/-->" in read(document), f"{asked}: {read(document)}")
     write(document, read(document).replace('column="floor")', 'column="ceiling")', 1))
     check("is not one line of made_up levels" in tables("--fill", "--root", root).stderr, "a column that is not there")
+
+
+def test_halving():
+    """Errors that fall as 4^-k are half way, at the geometric mean, at a share of a half."""
+    shares = (0, 0.1, 0.4, 0.7, 1)
+
+    def curves(exponents, scenes=8):
+        return [(f"scene {i}", {k: 10**i * 4 ** -exponents[i % len(exponents)](k) for k in shares}) for i in range(scenes)]
+
+    share, low, high = halving_share(curves([lambda k: k]))
+    check(abs(share - 0.5) < 1e-12 and abs(low - share) < 1e-12 and abs(high - share) < 1e-12, f"{share} [{low}, {high}]")
+    share, low, high = halving_share(curves([lambda k: k, lambda k: k * k, lambda k: k * (2 - k)]))
+    check(0.3 < low < share < high < 0.8 and low < 0.5 < high, f"{share} [{low}, {high}]")
+    share, low, high = halving_share(curves([lambda k: k, lambda k: -0.9 * k]))
+    check(low == 0 and high == 1, f"exact rays that do as much harm as good: {share} [{low}, {high}]")
+    check(halving_share(curves([lambda k: k], scenes=3))[1:] == (None, None), "too few scenes for an interval over scenes")
 
 
 def test_bold(folder):
@@ -549,6 +566,7 @@ def main():
         test_numbers(folder)
         test_reading()
         test_names_in_prose(temporary)
+        test_halving()
         test_bold(folder)
         test_best(folder)
         test_display_names(folder)

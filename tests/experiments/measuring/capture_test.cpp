@@ -223,6 +223,24 @@ TEST_F(CaptureTest, ACutOfTheCameraIsSaid) {
     EXPECT_SAYS(notes(), "frame 2: The camera jumps: 100 % of what is seen was outside");
 }
 
+/// One matte pixel of one frame is enough, and so is a value that repair_inputs would take for 0.
+TEST_F(CaptureTest, EverySurfaceReflectsOnlyIfAllPixelsOfAllFramesDo) {
+    const auto has_matte = [&](const std::function<void(HostGBuffer&)>& change) {
+        HostGBuffer first = wall(0), second = wall(1);
+        for (HostGBuffer* g : {&first, &second})
+            for (size_t i = 3; i < g->emission.values.size(); i += 4) g->emission.values[i] = 1;
+        change(second);
+        save_gbuffer(place(0), first), save_gbuffer(place(1), second);
+        return inspect().facts.has_matte;
+    };
+    EXPECT_FALSE(has_matte([](HostGBuffer&) {}));
+    EXPECT_TRUE(
+        has_matte([](HostGBuffer& g) { g.emission.values[4 * 7 + 3] = 0, g.base_color.values[4 * 7 + 3] = 0; }));
+    EXPECT_FALSE(
+        has_matte([](HostGBuffer& g) { g.emission.values[4 * 7 + 3] = 0, g.base_color.values[4 * 7 + 3] = 1; }));
+    EXPECT_TRUE(has_matte([](HostGBuffer& g) { g.emission.values[4 * 7] = std::nanf(""); }));
+}
+
 TEST_F(CaptureTest, AnotherConventionOfMotionIsNamed) {
     const HostGBuffer before = wall(1), now = wall(2);
     EXPECT_EQ(joined(check_motion(before, now)), "");

@@ -4,6 +4,7 @@
 #include "core/gbuffer/rasterizer.h"
 #include "core/gpu/device.h"
 #include "core/scene/load_scene.h"
+#include "experiments/measuring/rays/answered_rays.h"
 #include "experiments/measuring/rays/exact_rays.h"
 #include "experiments/measuring/rays/judged_hits.h"
 #include "experiments/measuring/render_variant.h"
@@ -77,6 +78,15 @@ struct Probed {
           exact(player.shot, 0, player.camera()) {
         variant->ray_probe = &probe;
         probe.exact_hits = [this](const RecordedRays& recorded) { return exact.hits(recorded); };
+        probe.answers = [this](const RecordedRays& marched, const AskedRays& asked) {
+            const GBuffer& g = this->player.gbuffer;
+            const AnsweredRays answered({.lit = graph.download(g.lit),
+                                         .fallback = graph.download(g.fallback),
+                                         .normal = graph.download(g.normal),
+                                         .reflectance = {},
+                                         .true_specular = {}});
+            return answered.choose(marched, exact.hits(marched), asked);
+        };
     }
     Reflections render(unsigned seed = 0) {
         return render_variant(graph, *variant, player.camera(), seed, player.gbuffer);
@@ -140,14 +150,18 @@ TEST_F(ExactTracers, AnsweredRaysEndAsExactOnesAndAllOthersAsTheMarchs) {
          {Technique{"mcguire_dda", "any_scale", {}, {{"tracer", "exact_scene"}}},
           {"amd_sssr", "corrected", {}, {{"tracer", "exact_scene"}}},
           {"diligent_ssr", "corrected", {}, {{"tracer", "exact_scene"}}},
-          {"frostbite_sssr", "best", {}, {{"tracer", "exact_scene"}, {"rough_tracer", "exact_scene"}}}}) {
+          {"frostbite_sssr", "best", {}, {{"tracer", "exact_scene"}, {"rough_tracer", "exact_scene"}}},
+          {"simple_ssr", "corrected", {{"rays", 4}}, {{"rays", 4}, {"tracer", "exact_scene"}}},
+          {"four_mode_ssr", "corrected", {}, {{"tracer", "exact_scene"}}}}) {
         Player player("roughness_gradient", small);
         const auto radiance = [&](Parameters parameters) {
             Probed probed(player, t.name, parameters, t.preset);
             return probed.graph.download(probed.render(3).radiance);
         };
-        const auto answered = [](const char* selector, double share) {
-            return Parameters{{"exact_rays", selector}, {"exact_share", share}};
+        const auto answered = [&](const char* selector, double share) {
+            Parameters parameters = t.march;
+            parameters.update({{"exact_rays", selector}, {"exact_share", share}});
+            return parameters;
         };
         EXPECT_EQ(differing_bits(radiance(answered("random", 1)), radiance(t.exact)), 0u) << t.name;
         EXPECT_EQ(differing_bits(radiance(answered("oracle", 0)), radiance(t.march)), 0u) << t.name;
@@ -362,10 +376,17 @@ TEST_F(ExactTracers, WhoCannotAskOrSeeIsToldSo) {
     const std::string no_scene =
         "the tracer exact_scene, and exact_rays, use scene data, which only ssrlab's commands provide, and not for "
         "captures";
-    asking.probe.exact_hits = {};
+    asking.probe.exact_hits = {}, asking.probe.answers = {};
     EXPECT_EQ(message_of([&] { asking.render(); }), no_scene);
     asking.variant->ray_probe = nullptr;
     EXPECT_EQ(message_of([&] { asking.render(); }), no_scene);
+    Probed asking_some(player, "mcguire_dda", {{"exact_rays", "random"}});
+    asking_some.probe.answers = {};
+    EXPECT_EQ(message_of([&] { asking_some.render(); }), no_scene);
+    Probed giving_up(player, "amd_sssr", {{"exact_rays", "random"}}, "sdk_1_5");
+    EXPECT_TRUE(message_of([&] {
+                    giving_up.render();
+                }).starts_with("exact_rays needs a march whose rays do not depend on each other; "));
     Probed asking_twice(player, "mcguire_dda", {{"tracer", "exact_scene"}, {"exact_rays", "random"}});
     EXPECT_EQ(message_of([&] { asking_twice.render(); }),
               "exact_rays lets the scene answer some rays, tracer = exact_scene all of them: one of both is enough");

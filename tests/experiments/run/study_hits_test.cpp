@@ -86,6 +86,28 @@ TEST_F(StudyTest, JudgesRaysWhereItIsAskedTo) {
     EXPECT_EQ(read_text(folder / "judged/results.csv"), results);
 }
 
+/// The choice at random is another for each seed, of a technique without chance, too; the oracle knows the truth.
+TEST_F(StudyTest, AnswersAFewRaysByTheScene) {
+    write_text(folder / "study.json",
+               R"({"shots": [{"scene": "mirror_pillars", "resolution": [48, 27]}], "reference": {"samples": 64},
+"variants": [{"variant": "mcguire_dda"}, {"variant": "mcguire_dda", "parameters": {"exact_share": 0.1},
+"sweep": {"exact_rays": ["oracle", "random"]}}], "metrics": "mse", "masks": "reflective", "timing": {"frames": 0},
+"lit": "direct", "seeds": 2, "targets": ["specular"]})");
+    std::map<std::string, std::vector<double>> errors;
+    for (const ResultRow& row : read_rows<ResultRow>(run(read_config(folder / "study.json"), "a") / "results.csv"))
+        errors[row.point].push_back(*row.value);
+    const std::vector<double> &march = errors.at("default"), &random = errors.at("exact_rays=random"),
+                              &oracle = errors.at("exact_rays=oracle");
+    EXPECT_EQ(march.size(), 1u) << "no random number is drawn";
+    ASSERT_EQ(random.size(), 2u);
+    EXPECT_NE(random[0], random[1]);
+    ASSERT_EQ(oracle.size(), 2u);
+    for (const double error : oracle) {
+        EXPECT_LT(error, 0.8 * march[0]);
+        for (const double by_chance : random) EXPECT_LT(error, by_chance);
+    }
+}
+
 TEST_F(StudyTest, JudgesOnePixelInEvery) {
     const auto rays_of = [&](const std::string& hits, const std::string& out) {
         write_text(folder / "study.json",

@@ -263,7 +263,8 @@ TEST_F(StudyTest, ACaptureIsMeasuredAsItsScene) {
     const auto study = [&](const std::string& name, const std::string& shot) {
         write_text(folder / (name + ".json"),
                    R"({"shots": [{)" + shot + R"(, "warm_up": 1, "repeat": 2}], "reference": {"samples": 16},
-            "variants": [{"variant": "mcguire_dda"}, {"variant": "amd_sssr", "preset": "corrected"}],
+            "variants": [{"variant": "mcguire_dda"},
+                {"variant": "four_mode_ssr", "preset": "corrected", "parameters": {"mode": "temporal"}}],
             "seeds": 1, "timing": {"frames": 0}, "lit": "direct"})");
         return read_config(folder / (name + ".json"));
     };
