@@ -210,10 +210,10 @@ TEST_F(StudyTest, SweepsOfManyParametersFitIntoFileNames) {
     write_text(folder / "study.json",
                R"({"shots": [{"scene": "fence", "resolution": [32, 18]}], "reference": {"samples": 16},
         "timing": {"frames": 0}, "targets": ["specular"], "metrics": ["mse"],
-        "variants": [{"variant": "amd_sssr", "sweep": {"hierarchy.max_traversal_intersections": [128],
+        "variants": [{"variant": "mcguire_dda", "sweep": {"hierarchy.max_traversal_intersections": [128],
             "hierarchy.min_traversal_occupancy": [4], "hierarchy.depth_buffer_thickness": [0.015],
-            "roughness_threshold_alpha": [0.2], "hierarchy.thickness_at_hit_mip": [true],
-            "independent_noise_shifts": [true], "hierarchy.clip_ray_to_near_plane": [true]}}]})");
+            "max_roughness": [0.2], "hierarchy.thickness_at_hit_mip": [true],
+            "tracer": ["hierarchy"], "hierarchy.clip_ray_to_near_plane": [true]}}]})");
     const Config study = read_config(folder / "study.json");
     ASSERT_EQ(study.variants.size(), 1u);
     EXPECT_LE(study.variants.front().point.size(), 58u);
