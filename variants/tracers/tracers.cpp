@@ -59,7 +59,6 @@ std::string glsl_of(const TracerSlot& slot, const TracerEntry& tracer, const Sha
     const auto& [needs, rays_per_pixel, replays, has_asked] = all;
     const std::string head = "TraceEnd " + slot.function + "(TraceRay ray) ", march = tracer.name + "_trace(ray)";
     const std::string call = has_asked ? slot.function + "_or_answer(ray)" : march;
-    // WebGL 2 has no ?: of structures, but no storage either.
     const std::string file =
         "#include \"" + tracer.shader + "\"\n" +
         (has_asked ? "#include \"tracers/exact_scene/exact_scene.glsl\"\nTraceEnd " + slot.function +

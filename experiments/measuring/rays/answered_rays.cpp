@@ -10,7 +10,7 @@ namespace {
 
 using Frame = AnsweredRays::Frame;
 
-constexpr float mirror_roughness = 0.05f;  // perceptual; up to it a lobe is narrower than a pixel of usual images
+constexpr float mirror_roughness = 0.05f;  // perceptual; a lobe as narrow shows about one point
 
 glm::vec3 shown(const Frame& frame, size_t pixel, glm::uvec2 end, float confidence) {
     const glm::uvec2 inside = glm::min(end, frame.lit.extent - 1u);
