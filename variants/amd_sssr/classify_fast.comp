@@ -1,5 +1,7 @@
 // The classification with the output of classify.comp: a thread classifies a tile, since on a CPU barriers and shared
-// memory cost more than the pixels themselves. Rays are listed tile by tile.
+// memory cost more than the pixels themselves. Rays are listed tile by tile. Quads are not unrolled, which took a second
+// more to compile.
+#extension GL_EXT_control_flow_attributes : require
 #include "amd_sssr/classification.glsl"
 
 layout(local_size_x = 8) in;
@@ -34,7 +36,7 @@ void main() {
     if (!is_on_screen(start)) return;
     uint of_quads[16], rays = 0u;
     bool is_glossy_tile = false;
-    for (uint quad = 0u; quad < 16u; ++quad) {
+    [[dont_unroll]] for (uint quad = 0u; quad < 16u; ++quad) {
         states = quad_states(start + position_in_tile(4u * quad));
         of_quads[quad] = states;
         is_glossy_tile = is_glossy_tile || states != 0u;
@@ -43,7 +45,7 @@ void main() {
     if (!is_glossy_tile) return;
     list_tile(start);
     uint next = atomicAdd(rays_being_listed, rays);
-    for (uint quad = 0u; quad < 16u; ++quad) {
+    [[dont_unroll]] for (uint quad = 0u; quad < 16u; ++quad) {
         states = of_quads[quad];
         for (uint tracing = tracing_pixels(); tracing != 0u; tracing &= tracing - 1u) {
             place = findLSB(tracing);
