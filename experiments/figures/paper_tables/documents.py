@@ -3,7 +3,7 @@ summary of the study. `<!-- table STUDY NAME {"rows": [...], "columns": [...], "
 named rows and columns in that order (all, where a key is left out).
 
 Numbers and names in prose are made in the same way: `<!--= EXPRESSION -->0.18<!--/-->`, with cell(), cells(), shown(), most(), first(), shots(),
-rank_correlation(), halving() and over_scenes() of kept tables (Numbers), ratios() and number(value) of three digits, fixed(value, places), span(values, places), min, max, sum, len, zip and abs."""
+rank_correlation(), halving(), halving_share() and over_scenes() of kept tables (Numbers), ratios() and number(value) of three digits, fixed(value, places), span(values, places), min, max, sum, len, zip and abs."""
 
 import functools
 import math
@@ -110,9 +110,9 @@ class Numbers:
         mean, low, high = (v and f"{v:#.3g}".rstrip(".") for v in self.ratio_over_scenes(*chosen, **options))
         return mean if low is None else f"{mean} [{low}, {high}]"
 
-    def halving(self, study, table, march, exact, answered):
-        """The share of exact rays, in percent with its interval, that goes half of the way to the error of exact rays alone. Of a table of
-        errors whose rows are shots; columns: those without and with exact rays alone, and those with a share, whose names are `answered`
+    def halving_share(self, study, table, march, exact, answered):
+        """(share, low, high) in percent of exact rays that goes half of the way to the error of exact rays alone. Of a table of errors
+        whose rows are shots; columns: those without and with exact rays alone, and those with a share, whose names are `answered`
         followed by it."""
         about, cells = self._table(study, table)
         values = {(c.row, c.column): c.value for c in cells}
@@ -120,11 +120,15 @@ class Numbers:
         if len(points) < 4:
             raise ResultsError(f"{self.file}: {study} {table} has {len(points) - 2} columns that begin with '{answered}'")
         curves = [(about["assets"][s], {k: values[s, point] for k, point in points.items()}) for s in dict.fromkeys(c.row for c in cells)]
-        share, *ends = (v if v is None else "0" if v == 0 else f"{100 * v:.1f}" if v < 0.1 else f"{100 * v:.0f}" for v in halving_share(curves))
+        return tuple(v if v is None else 100 * v for v in halving_share(curves))
+
+    def halving(self, *chosen):
+        """The same as text: "share [low, high]"."""
+        share, *ends = (v if v is None else "0" if v == 0 else f"{v:.1f}" if v < 10 else f"{v:.0f}" for v in self.halving_share(*chosen))
         return share if None in ends else f"{share} [{', '.join(ends)}]"
 
     def text(self, expression):
-        names = {"cell": self.cell, "cells": self.cells, "shown": self.shown, "most": self.most, "first": self.first, "shots": self.shots, "rank_correlation": self.rank_correlation, "halving": self.halving, "over_scenes": self.over_scenes}
+        names = {"cell": self.cell, "cells": self.cells, "shown": self.shown, "most": self.most, "first": self.first, "shots": self.shots, "rank_correlation": self.rank_correlation, "halving": self.halving, "halving_share": self.halving_share, "over_scenes": self.over_scenes}
         names |= {"ratios": self.ratios, "number": number, "fixed": lambda value, places: f"{value:.{places}f}"}
         names["span"] = lambda values, places=2: f"{min(values):.{places}f} to {max(values):.{places}f}"
         names |= {"min": min, "max": max, "sum": sum, "len": len, "zip": zip, "abs": abs}

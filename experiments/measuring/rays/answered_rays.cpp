@@ -1,5 +1,7 @@
 #include "experiments/measuring/rays/answered_rays.h"
 
+#include "core/files.h"
+#include "metrics/tone_map.h"
 #include "variants/common/halton.h"
 #include "variants/tracers/outcome.h"
 
@@ -50,8 +52,10 @@ std::vector<float> variances(const Frame& frame, const RecordedRays& marched) {
     const unsigned per_pixel = marched.rays_per_pixel;
     std::vector<float> luminances(marched.rays.size()), result(marched.rays.size());
     for (size_t i = 0; i < luminances.size(); ++i)
-        if (marched.rays[i].is_traced > 0)
-            luminances[i] = glm::dot(shown(frame, i / per_pixel, marched.rays[i]), {0.2126f, 0.7152f, 0.0722f});
+        if (marched.rays[i].is_traced > 0) {
+            const glm::vec3 color = shown(frame, i / per_pixel, marched.rays[i]);
+            luminances[i] = float(luminance(color.r, color.g, color.b));
+        }
     for (size_t i = 0; i < result.size(); ++i) {
         if (marched.rays[i].is_traced == 0) continue;
         const glm::ivec2 pixel(int(i / per_pixel) % extent.x, int(i / per_pixel) / extent.x);
@@ -87,9 +91,9 @@ std::vector<float> scores(const Frame& frame, const RecordedRays& marched, const
 }
 
 uint32_t hash_of(const std::string& text) {
-    uint32_t hash = 2166136261u;  // FNV-1a
-    for (const unsigned char c : text) hash = (hash ^ c) * 16777619u;
-    return hash;
+    ContentHash hash;
+    hash.add(text);
+    return uint32_t(std::stoul(hash.hex().substr(0, 8), nullptr, 16));
 }
 
 }  // namespace

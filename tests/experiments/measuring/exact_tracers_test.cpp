@@ -1,4 +1,5 @@
-// Tracers against what rays truly meet: the yardsticks are as good as they say, and looking at rays changes none.
+// Tracers against what rays truly meet: the yardsticks are as good as they say, and looking at rays changes none. All
+// tests play the same frames to the same probe (Player, Probed), and so stand in one file of over 400 lines.
 #include "core/error.h"
 #include "core/gbuffer/gbuffer_transfer.h"
 #include "core/gbuffer/rasterizer.h"
