@@ -133,8 +133,8 @@ void PassGraph::Impl::bind(const vk::raii::CommandBuffer& commands, const Pass& 
             if (!is_camera && r.name != "Params")
                 fail(pass.shader_, " declares the uniform block '", r.name,
                      "'; use a push_constant block or a parameter");
-            buffer_infos.push_back({*uniforms.buffer, is_camera ? 0 : params_offset,
-                                    is_camera ? params_offset : uniforms_size - params_offset});
+            buffer_infos.push_back(
+                {*uniforms.buffer, is_camera ? 0 : params_place(), is_camera ? params_offset : params_size});
             write.descriptorType = vk::DescriptorType::eUniformBuffer;
             write.pBufferInfo = &buffer_infos.back();
         } else if (r.kind == Kind::storage) {

@@ -44,12 +44,23 @@ void PassGraph::begin_frame(const CameraData& camera, const ParameterSet& params
     impl_->costs.clear();
     impl_->frame_milliseconds = 0;
     impl_->parity = 1 - impl_->parity;
-    impl_->params = &params;
+    impl_->params_of_frame.clear();
+    set_params(params);
     impl_->constants.clear();
     set_inputs(inputs);
     std::memcpy(impl_->uniforms.data, &camera, sizeof camera);
+}
+
+void PassGraph::set_params(const ParameterSet& params) {
+    impl_->params = &params;
+    if (std::ranges::count(impl_->params_of_frame, &params)) return;
+    if (impl_->params_of_frame.size() == max_params_of_frame)
+        fail("more than ", max_params_of_frame, " sets of parameters in one frame");
+    impl_->params_of_frame.push_back(&params);
     impl_->write_params();
 }
+
+const ParameterSet& PassGraph::params() const { return *impl_->params; }
 
 void PassGraph::set_constants(Constants constants) { impl_->constants = std::move(constants); }
 
@@ -58,12 +69,17 @@ void PassGraph::set_inputs(std::span<const Image> inputs) {
     for (const Image& image : inputs) impl_->inputs[image.name] = image;
 }
 
+size_t PassGraph::Impl::params_place() const {
+    const auto found = std::ranges::find(params_of_frame, params);
+    return params_offset + params_size * size_t(found - params_of_frame.begin());
+}
+
 void PassGraph::Impl::write_params() {
-    size_t offset = params_offset;  // std140 packs scalars one after the other
+    size_t offset = params_place();  // std140 packs scalars one after the other
+    const size_t end = offset + params_size;
     for (const Parameter& p : *params)
         if (p.use == Use::uniform) {
-            if (offset + 4 > uniforms_size)
-                fail("more than ", (uniforms_size - params_offset) / 4, " uniform parameters");
+            if (offset + 4 > end) fail("more than ", params_size / 4, " uniform parameters");
             const uint32_t bits = p.bits();
             std::memcpy(uniforms.data + offset, &bits, 4);
             offset += 4;

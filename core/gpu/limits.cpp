@@ -8,7 +8,7 @@ namespace {
 // Least values that every implementation supports: OpenGL ES 3.0.6, tables of implementation-dependent values in
 // section 6.2.
 constexpr size_t max_draw_buffers = 4, max_texture_image_units = 16, max_uniform_block_size = 16384;
-static_assert(uniforms_size <= max_uniform_block_size);
+static_assert(std::max(params_offset, params_size) <= max_uniform_block_size);
 
 std::string formats_that(bool FormatFacts::*can) {
     std::string names;

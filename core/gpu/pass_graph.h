@@ -148,6 +148,11 @@ public:
     /// The name by which `image` was requested; "" of another graph's.
     std::string asked_name(const Image& image) const;
 
+    /// In place of those that begin_frame() was given, for the passes that follow: of a part that keeps its own, whose
+    /// shaders name them without it. `params` must outlive the frame, and not change until it ends.
+    void set_params(const ParameterSet& params);
+    const ParameterSet& params() const;
+
     /// In place of those that begin_frame() was given, for the passes that follow.
     void set_inputs(std::span<const Image> inputs);
     /// Whether there is an input of that name.

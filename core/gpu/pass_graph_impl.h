@@ -11,9 +11,10 @@
 // passes, binding.cpp finds what their shaders ask for, limits.cpp refuses what an API does not have, pass_cost.cpp
 // says what counted shaders did.
 
-// The uniform buffer: the camera block, then the parameters at an offset that suits every device's alignment (256 at
-// most).
-inline constexpr size_t params_offset = 2048, uniforms_size = 6144;
+// The uniform buffer: the camera block, then the blocks of parameters that a frame's passes read, one for each set of
+// them, at offsets that suit every device's alignment (256 at most).
+inline constexpr size_t params_offset = 2048, params_size = 4096, max_params_of_frame = 4;
+inline constexpr size_t uniforms_size = params_offset + max_params_of_frame * params_size;
 static_assert(sizeof(CameraData) <= params_offset);
 
 struct PassGraph::Impl {
@@ -28,6 +29,7 @@ struct PassGraph::Impl {
     unsigned parity = 0;
     const ParameterSet no_parameters;  ///< until the first begin_frame()
     const ParameterSet* params = &no_parameters;
+    std::vector<const ParameterSet*> params_of_frame;  ///< in the order of their blocks
     std::map<std::array<int, 3>, vk::raii::Sampler> samplers;
     Limits limits = Limits::none;
     Constants constants;
@@ -92,5 +94,7 @@ struct PassGraph::Impl {
     [[noreturn]] void fail_missing(const Pass& pass, const std::string& name);
     const Image* find_image(const Pass& pass, const Draw* draw, const std::string& name, Sampling& sampling);
     const Buffer* find_buffer(const Pass& pass, const Draw* draw, const std::string& name);
+    /// Where the block of `params` is, in the uniform buffer.
+    size_t params_place() const;
     void write_params();
 };
