@@ -531,7 +531,8 @@ int parse_and_run(int argc, char** argv) {
     DescribeOptions describe;
     CLI::App& describe_command_ =
         *app.add_subcommand("describe", "Print every parameter: default, range, unit, meaning, source");
-    describe_command_.add_option("variant", describe.variant, "A variant or a tracer; default: all variants")
+    describe_command_
+        .add_option("variant", describe.variant, "A variant, a tracer or a resolve; default: all variants")
         ->type_name("NAME");
     describe_command_.add_flag("--schema", describe.as_schema,
                                "Print a JSON Schema for configs, so that editors complete them");
@@ -543,11 +544,12 @@ int parse_and_run(int argc, char** argv) {
 
     std::string what;
     CLI::App& list_command_ = *app.add_subcommand(
-        "list", "List scenes and what each tests, variants, their presets, tracers, metrics, devices or chips");
+        "list",
+        "List scenes and what each tests, variants, their presets, tracers, resolves, metrics, devices or chips");
     list_command_.add_option("what", what, "What to list")
         ->required()
-        ->check(CLI::IsMember({"scenes", "variants", "presets", "tracers", "metrics", "devices", "chips"}))
-        ->type_name("scenes|variants|presets|tracers|metrics|devices|chips");
+        ->check(CLI::IsMember({"scenes", "variants", "presets", "tracers", "resolves", "metrics", "devices", "chips"}))
+        ->type_name("scenes|variants|presets|tracers|resolves|metrics|devices|chips");
     add_scene_path(list_command_, common);
     add_reading(list_command_);
     list_command_.callback([&] { list_command(what, common); });

@@ -3,6 +3,8 @@
 #include "core/error.h"
 #include "core/json.h"
 #include "core/near_miss.h"
+#include "variants/resolves/resolves.h"
+#include "variants/tracers/tracers.h"
 
 // One line for each technique; its entry stands in variants/<name>/<name>.cpp.
 VariantEntry none_entry();
@@ -12,13 +14,14 @@ VariantEntry diligent_ssr_entry();
 VariantEntry frostbite_sssr_entry();
 VariantEntry simple_ssr_entry();
 VariantEntry four_mode_ssr_entry();
+VariantEntry composed_ssr_entry();
 
 namespace {
 
 std::vector<VariantEntry> entries_with_tuned_presets() {
-    std::vector<VariantEntry> entries = {none_entry(),         mcguire_dda_entry(),    amd_sssr_entry(),
-                                         diligent_ssr_entry(), frostbite_sssr_entry(), simple_ssr_entry(),
-                                         four_mode_ssr_entry()};
+    std::vector<VariantEntry> entries = {none_entry(),          mcguire_dda_entry(),    amd_sssr_entry(),
+                                         diligent_ssr_entry(),  frostbite_sssr_entry(), simple_ssr_entry(),
+                                         four_mode_ssr_entry(), composed_ssr_entry()};
     for (VariantEntry& entry : entries) {
         const auto file = std::filesystem::path(SSRLAB_SOURCE_DIR) / "variants" / entry.name / "tuned_presets.json";
         if (std::filesystem::exists(file)) add_tuned_presets(entry, file);
@@ -71,6 +74,10 @@ bool are_lifted(const VariantLimits& limits, const nlohmann::json& parameters) {
 
 const VariantEntry& find_variant(const std::string& name) {
     return find_named<VariantEntry>(variant_table(), name, "variant");
+}
+
+bool is_read(const ParameterSet& params, const std::string& name) {
+    return is_of_chosen_tracer(params, name) && is_of_chosen_resolve(params, name);
 }
 
 std::string limits_text(const VariantLimits& limits) {

@@ -16,6 +16,10 @@ void add_tuned_presets(VariantEntry& entry, const std::filesystem::path& file);
 /// Fails with a near miss if there is none of that name.
 const VariantEntry& find_variant(const std::string& name);
 
+/// Whether a technique whose parameters have these values reads its parameter `name`: not if that is of a tracer or a
+/// resolve that it has not chosen.
+bool is_read(const ParameterSet& params, const std::string& name);
+
 /// "WebGL 2 with EXT_color_buffer_float, unless hierarchy = mip_views"; "" where there are none.
 std::string limits_text(const VariantLimits& limits);
 

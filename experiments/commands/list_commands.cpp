@@ -11,6 +11,7 @@
 #include "metrics/metric.h"
 #include "metrics/temporal.h"
 #include "variants/registry.h"
+#include "variants/resolves/resolves.h"
 #include "variants/tracers/tracers.h"
 
 #include <algorithm>
@@ -36,6 +37,28 @@ void describe_tracers(const ParameterSet& params) {
         std::cout << "\nParameters of the tracer " << tracer.name << ":\n" << params.help(part_of(tracer));
     }
 }
+
+ParameterSet parameters_of(const ResolveEntry& resolve) {
+    ParameterSet params;
+    resolve.declare(params);
+    return params;
+}
+
+void describe_resolve(const ResolveEntry& resolve) {
+    std::cout << resolve.name << ": " << resolve.title << "\n  " << resolve.description
+              << "\n  Source: " << resolve.source << '\n';
+    if (resolve.needs_density) std::cout << "  Needs the densities of rays, which mirror rays lack\n";
+    std::cout << parameters_of(resolve).help();
+}
+
+/// Of a technique that has them.
+void describe_resolves(const ParameterSet& params) {
+    for (const ResolveEntry& resolve : resolve_table())
+        if (const std::string help = params.help(resolve.name); !help.empty())
+            std::cout << "\nParameters of the resolve " << resolve.name << ":\n" << help;
+}
+
+bool is_resolve(const std::string& name) { return std::ranges::count(resolve_table(), name, &ResolveEntry::name) > 0; }
 
 bool is_tracer(const std::string& name) {
     return std::ranges::any_of(tracer_table(), [&](const TracerEntry& tracer) { return tracer.name == name; });
@@ -127,6 +150,7 @@ void describe_command(const DescribeOptions& options) {
             if (part_of(tracer) == part_of(find_tracer(options.variant))) tracer.create(params);
         return describe_tracer(find_tracer(options.variant), params);
     }
+    if (is_resolve(options.variant)) return describe_resolve(find_resolve(options.variant));
     if (!options.variant.empty()) find_variant(options.variant);
     for (const VariantEntry& entry : variant_table()) {
         if (!options.variant.empty() && entry.name != options.variant) continue;
@@ -138,6 +162,7 @@ void describe_command(const DescribeOptions& options) {
         const std::string parameters = variant->params.help();
         std::cout << (parameters.empty() ? "\nIt has no parameters.\n" : "\nParameters:\n" + parameters);
         describe_tracers(variant->params);
+        describe_resolves(variant->params);
         if (!entry.presets.empty()) std::cout << "\nPresets:\n";
         for (const Preset& preset : entry.presets)
             std::cout << "  " << preset.name << ": " << preset.meaning << " " << preset.parameters.dump() << '\n';
@@ -152,6 +177,9 @@ void list_command(const std::string& what, const CommonOptions& common) {
     if (what == "tracers")
         for (const TracerEntry& tracer : tracer_table())
             std::printf("%-22s %s (%s)\n", tracer.name.c_str(), tracer.title.c_str(), tracer.source.c_str());
+    if (what == "resolves")
+        for (const ResolveEntry& resolve : resolve_table())
+            std::printf("%-22s %s (%s)\n", resolve.name.c_str(), resolve.title.c_str(), resolve.source.c_str());
     if (what == "metrics") {
         const auto print = [](const auto& metric) {
             std::printf("%-25s %-26s %s\n", metric.name.c_str(), metric.formula.c_str(), metric.doc.c_str());

@@ -6,7 +6,6 @@
 #include "experiments/config/design.h"
 #include "experiments/config/point_name.h"
 #include "variants/registry.h"
-#include "variants/tracers/tracers.h"
 
 #include <algorithm>
 #include <map>
@@ -78,7 +77,7 @@ bool complete_point(VariantConfig& point, const Shared& shared, ConfigObject& ob
     return true;
 }
 
-/// The parameter of a chosen tracer whose name is like that of another's; "" if there is none.
+/// The parameter of a chosen tracer or resolve whose name is like that of another's; "" if there is none.
 std::string meant_by(const std::string& name, const ParameterSet& params) {
     const auto leaf = [](const std::string& whole) { return whole.substr(whole.find('.') + 1); };
     std::vector<std::string> leaves;
@@ -109,7 +108,7 @@ void refuse_unread(std::span<const VariantConfig> points, const std::string& whe
         if (read.contains(name)) continue;
         const VariantConfig& first = points.front();
         const std::string meant = meant_by(name, make_variant(first.variant, first.parameters, first.preset)->params);
-        fail(where, ": no point reads '", name, "', a parameter of a tracer that none of them uses",
+        fail(where, ": no point reads '", name, "', a parameter of a tracer or resolve that none of them uses",
              meant.empty() ? "" : "; did you mean '" + meant + "'?");
     }
 }

@@ -42,8 +42,8 @@ ResolvedFrame FrostbiteBench::resolve(const std::vector<StoredRay>& rays, const 
         hits.emplace_back(ray.target, std::bit_cast<unsigned>(ray.length), std::bit_cast<unsigned>(ray.confidence), 0);
     }
     graph.begin_frame(camera, params, gbuffer.images());
-    const FrostbiteRays stored{graph.buffer("directions", directions.size() * sizeof directions[0]),
-                               graph.buffer("hits", hits.size() * sizeof hits[0])};
+    const TracedRays stored{graph.buffer("directions", directions.size() * sizeof directions[0]),
+                            graph.buffer("hits", hits.size() * sizeof hits[0])};
     graph.upload(stored.directions, std::as_bytes(std::span(directions)));
     graph.upload(stored.hits, std::as_bytes(std::span(hits)));
     const FrostbiteResolved resolved = frostbite_resolve(

@@ -27,7 +27,7 @@ FrostbiteTraced trace_frostbite(PassGraph& graph, const GBuffer& gbuffer, const 
     const Tracers::Images depths = parameters.ray.tracers.images(graph, gbuffer.depth);
     const FrostbiteTiles tiles = frostbite_classify(graph, gbuffer, depths, gbuffer.lit, parameters.ray);
     const FrostbiteWork work = frostbite_allocate(graph, gbuffer, tiles, parameters.ray);
-    const FrostbiteRays rays =
+    const TracedRays rays =
         frostbite_trace(graph, depths, work, FrostbiteHorizonImage().on(graph, parameters.ray), parameters.ray);
     const std::vector<uint32_t> counters = read<uint32_t>(graph, work.counters);
     return {.ray_count = graph.download(tiles.ray_count),

@@ -297,7 +297,7 @@ struct FrostbiteTileEdges : FrostbiteProbes {
         const FrostbiteTiles tiles = frostbite_classify(graph, gbuffer, depths, gbuffer.lit, parameters.ray);
         const FrostbiteWork work = frostbite_allocate(graph, gbuffer, tiles, parameters.ray);
         const Image horizon = FrostbiteHorizonImage().on(graph, parameters.ray);
-        const FrostbiteRays rays = frostbite_trace(graph, depths, work, horizon, parameters.ray);
+        const TracedRays rays = frostbite_trace(graph, depths, work, horizon, parameters.ray);
         ray_count = graph.download(tiles.ray_count);
         return graph.download(
             frostbite_resolve(graph, gbuffer, gbuffer.lit, split_sum.on(graph), horizon, rays, parameters.resolve)

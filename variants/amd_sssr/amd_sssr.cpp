@@ -93,14 +93,8 @@ ShaderIncludes AmdSssr::shader_includes() const {
 
 std::string AmdSssr::not_repeatable() const {
     // Pixels enter the ray list in the order in which atomics let them.
-    std::string why = tracing_.tracers.not_repeatable();
-    const bool is_as_original = denoiser_.denoiser_form.is("faithful") || denoiser_.denoiser_form.is("float16");
-    if (denoiser_.denoise && is_as_original && !denoiser_.barrier_before_average)
-        why += std::string(why.empty() ? "" : "; ") +
-               "denoiser_form = " + (denoiser_.denoiser_form.is("float16") ? "float16" : "faithful") +
-               " without barrier_before_average: a tile's average may overwrite moments that other threads have still "
-               "to read";
-    return why;
+    const std::string of_rays = tracing_.tracers.not_repeatable(), of_denoiser = amd_denoiser_not_repeatable(denoiser_);
+    return of_rays + (of_rays.empty() || of_denoiser.empty() ? "" : "; ") + of_denoiser;
 }
 
 namespace {

@@ -109,6 +109,15 @@ ShaderIncludes amd_denoiser_includes(const AmdDenoiserParameters& parameters) {
              std::string("#include \"amd_sssr/denoiser_neighborhood") + (is_half ? "_float16" : "") + ".glsl\"\n"}};
 }
 
+std::string amd_denoiser_not_repeatable(const AmdDenoiserParameters& parameters) {
+    const bool is_half = parameters.denoiser_form.is("float16");
+    const bool is_as_original = is_half || parameters.denoiser_form.is("faithful");
+    if (!parameters.denoise || !is_as_original || parameters.barrier_before_average) return {};
+    return std::string("denoiser_form = ") + (is_half ? "float16" : "faithful") +
+           " without barrier_before_average: a tile's average may overwrite moments that other threads have still to "
+           "read";
+}
+
 void amd_reproject(PassGraph& graph, const GBuffer& gbuffer, const AmdWork& work, const AmdHistories& histories,
                    const AmdDenoiserParameters& parameters) {
     const Image reprojected = reprojected_image(graph, histories);

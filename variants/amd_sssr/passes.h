@@ -55,6 +55,9 @@ void amd_intersect(PassGraph& graph, const GBuffer& gbuffer, const Tracers::Imag
 void amd_denoise(PassGraph& graph, const GBuffer& gbuffer, const AmdWork& work, const AmdHistories& histories,
                  const AmdDenoiserParameters& parameters);
 
+/// Why its results may differ from run to run, as Variant::not_repeatable() says it.
+std::string amd_denoiser_not_repeatable(const AmdDenoiserParameters& parameters);
+
 /// What the shaders of the form that parameters choose include: how moments are summed.
 ShaderIncludes amd_denoiser_includes(const AmdDenoiserParameters& parameters);
 

@@ -2,7 +2,7 @@
 // run to run; each ray has a place of its own to write to, so that nothing else does.
 #include "frostbite_sssr/counters.glsl"
 #include "frostbite_sssr/draw_ray.glsl"
-#include "frostbite_sssr/ray.glsl"
+#include "resolves/ray.glsl"
 #include "frostbite_sssr/tile.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -25,7 +25,7 @@ void main() {
     bool is_traced = all(lessThan(traced, traced_extent()));
     ivec2 pixel = traced_pixel(is_traced ? traced : ivec2(0), camera.frame.x);
     uint count = is_traced ? rays_of(pixel) : 0u;
-    uint tracer = is_rough(pixel) ? 1u : 0u;
+    uint tracer = texelFetch(normal, pixel, 0).w >= rough_from ? 1u : 0u;
     uint first = count > 0u ? atomicAdd(group_counts[tracer], count) : 0u;
     barrier();
 

@@ -10,8 +10,6 @@ bool starts_rays(ivec2 pixel) {
     return reflects(pixel, max_roughness) && dot(view_direction(view_position(pixel)), view_normal(pixel)) < 0.0;
 }
 
-bool is_rough(ivec2 pixel) { return texelFetch(normal, pixel, 0).w >= rough_from; }
-
 struct DrawnRay {
     vec3 direction;         // view space, unit
     float inverse_density;  // of the lobe, however often it was drawn

@@ -34,7 +34,7 @@ Reflections FrostbiteSssr::render_passes(PassGraph& graph, const GBuffer& gbuffe
     FrostbiteWork work = frostbite_allocate(graph, gbuffer, tiles, ray_);
     work.has_smooth = has_smooth_rays_, work.has_rough = has_rough_rays_;
     const Image below_horizon = horizon_.on(graph, ray_);
-    const FrostbiteRays rays = frostbite_trace(graph, traced_images, work, below_horizon, ray_, ray_probe);
+    const TracedRays rays = frostbite_trace(graph, traced_images, work, below_horizon, ray_, ray_probe);
     const Image split_sum = split_sum_.on(graph);
     const FrostbiteResolved resolved =
         frostbite_resolve(graph, gbuffer, filtered, split_sum, below_horizon, rays, resolve_);

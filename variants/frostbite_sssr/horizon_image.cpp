@@ -30,7 +30,7 @@ const HostImage& frostbite_horizon_table(unsigned lobe, float bias) {
     return entry->second;
 }
 
-Image FrostbiteHorizonImage::on(PassGraph& graph, const FrostbiteRayParameters& parameters) {
+Image FrostbiteHorizonImage::on(PassGraph& graph, const RayDrawParameters& parameters) {
     const Image image = graph.image_of("below_horizon", Format::r32f, {64, 64});
     const unsigned lobe = parameters.lobe.is("normals") ? lobe_of_normals : lobe_of_visible_normals;
     const float bias = parameters.importance_bias;

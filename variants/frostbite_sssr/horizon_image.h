@@ -1,6 +1,6 @@
 #pragma once
 #include "core/gpu/pass_graph.h"
-#include "variants/frostbite_sssr/ray_parameters.h"
+#include "variants/resolves/ray_draw.h"
 
 #include <memory>
 
@@ -8,7 +8,7 @@
 class FrostbiteHorizonImage {
 public:
     /// The image `below_horizon`, r32f, of the lobe and importance_bias; uploaded when the graph has none for them yet.
-    Image on(PassGraph& graph, const FrostbiteRayParameters& parameters);
+    Image on(PassGraph& graph, const RayDrawParameters& parameters);
 
 private:
     std::weak_ptr<ImageStorage> uploaded_;
@@ -17,6 +17,6 @@ private:
 };
 
 /// Column = cosine of the viewer, row = perceptual roughness, both at texel centres (i + 0.5) / 64. Read between texels
-/// its error is below 0.01, but for views within 3 degrees of grazing, where it reaches 0.1. Made once per process for each
-/// lobe and bias: its 4096 integrals would be most of what a variant takes to start, and every seed starts one.
+/// its error is below 0.01, but for views within 3 degrees of grazing, where it reaches 0.1. Made once per process for
+/// each lobe and bias: its 4096 integrals would be most of what a variant takes to start, and every seed starts one.
 const HostImage& frostbite_horizon_table(unsigned lobe, float bias);

@@ -66,11 +66,11 @@ FrostbiteWork frostbite_allocate(PassGraph& graph, const GBuffer& gbuffer, const
     return work;
 }
 
-FrostbiteRays frostbite_trace(PassGraph& graph, const Tracers::Images& images, const FrostbiteWork& work,
-                              const Image& below_horizon, const FrostbiteRayParameters& parameters, RayProbe* probe) {
+TracedRays frostbite_trace(PassGraph& graph, const Tracers::Images& images, const FrostbiteWork& work,
+                           const Image& below_horizon, const FrostbiteRayParameters& parameters, RayProbe* probe) {
     const size_t rays = size_t(work.extent.x) * work.extent.y * parameters.max_rays;
-    const FrostbiteRays traced{.directions = graph.buffer("directions", rays * 16),
-                               .hits = graph.buffer("hits", rays * 16)};
+    const TracedRays traced{.directions = graph.buffer("directions", rays * 16),
+                            .hits = graph.buffer("hits", rays * 16)};
     graph.clear(traced.directions, 0);  // of rays that no list has
     const auto trace = [&](const char* shader, const char* slot, const Buffer& list, size_t arguments) {
         PassGraph::Pass pass = graph.compute(shader);
@@ -96,7 +96,7 @@ glm::uvec2 groups_of(glm::uvec2 extent, const FrostbiteResolveParameters& parame
 }  // namespace
 
 FrostbiteResolved frostbite_resolve(PassGraph& graph, const GBuffer& gbuffer, const Image& color,
-                                    const Image& split_sum, const Image& below_horizon, const FrostbiteRays& rays,
+                                    const Image& split_sum, const Image& below_horizon, const TracedRays& rays,
                                     const FrostbiteResolveParameters& parameters) {
     const glm::uvec2 extent = gbuffer.depth.extent;
     const FrostbiteResolved resolved{graph.image("resolved_radiance", Format::rgba32f),

@@ -3,6 +3,7 @@
 #include "core/gpu/pass_graph.h"
 #include "variants/frostbite_sssr/ray_parameters.h"
 #include "variants/frostbite_sssr/resolve_parameters.h"
+#include "variants/resolves/traced_rays.h"
 
 // The passes of Frostbite's stochastic reflections in their order. Each adds its dispatches to the graph; tests run
 // them one by one. Names of images and buffers are those that the shaders of this folder use.
@@ -17,17 +18,11 @@ struct FrostbiteTiles {
 
 /// Rays to trace, by tracer, and the indirect arguments that start both.
 struct FrostbiteWork {
-    Buffer smooth_list, rough_list;  ///< index of the ray: (y * width + x) * max_rays + k, in traced pixels
-    Buffer counters;                 ///< lengths of both
-    Buffer indirect_arguments;       ///< groups of 64 rays: smooth (3 words), rough (at byte 12)
+    Buffer smooth_list, rough_list;            ///< index of the ray: (y * width + x) * max_rays + k, in traced pixels
+    Buffer counters;                           ///< lengths of both
+    Buffer indirect_arguments;                 ///< groups of 64 rays: smooth (3 words), rough (at byte 12)
     bool has_smooth = true, has_rough = true;  ///< whether the lists may hold rays at all
-    glm::uvec2 extent;               ///< traced pixels: of the screen, or half of it, rounded up
-};
-
-/// What the rays found, by index of the ray. In 32 bits: densities overflow halves below a roughness of 0.033.
-struct FrostbiteRays {
-    Buffer directions;  ///< vec4: xyz view space, unit, w 1 / density of the direction (sr); w = 0: no ray
-    Buffer hits;        ///< uvec4: x pixel (x | y << 16) or a marker of ray.glsl; y, z bits of: length (m), confidence
+    glm::uvec2 extent;                         ///< traced pixels: of the screen, or half of it, rounded up
 };
 
 /// What each pixel makes of its own and its neighbours' rays.
@@ -50,14 +45,14 @@ FrostbiteWork frostbite_allocate(PassGraph& graph, const GBuffer& gbuffer, const
                                  const FrostbiteRayParameters& parameters);
 
 /// Both tracers. `images`: of parameters.tracers; `below_horizon`: of FrostbiteHorizonImage.
-FrostbiteRays frostbite_trace(PassGraph& graph, const Tracers::Images& images, const FrostbiteWork& work,
-                              const Image& below_horizon, const FrostbiteRayParameters& parameters,
-                              RayProbe* probe = nullptr);
+TracedRays frostbite_trace(PassGraph& graph, const Tracers::Images& images, const FrostbiteWork& work,
+                           const Image& below_horizon, const FrostbiteRayParameters& parameters,
+                           RayProbe* probe = nullptr);
 
 /// `color`: the lit image that hits show, with its mips for filtered_sampling. `split_sum`: of SplitSumImage;
 /// `below_horizon`: of FrostbiteHorizonImage.
 FrostbiteResolved frostbite_resolve(PassGraph& graph, const GBuffer& gbuffer, const Image& color,
-                                    const Image& split_sum, const Image& below_horizon, const FrostbiteRays& rays,
+                                    const Image& split_sum, const Image& below_horizon, const TracedRays& rays,
                                     const FrostbiteResolveParameters& parameters);
 
 /// rgba32f: rgb incident radiance, a confidence. `split_sum`: of SplitSumImage.

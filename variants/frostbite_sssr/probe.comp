@@ -10,7 +10,9 @@ layout(local_size_x = 8, local_size_y = 8) in;
 uniform sampler2D hit_color, fallback;
 uniform writeonly image2D probes;
 
-TraceEnd march(TraceRay ray) { return is_rough(ray.pixel) ? rough_trace(ray) : smooth_trace(ray); }
+TraceEnd march(TraceRay ray) {
+    return texelFetch(normal, ray.pixel, 0).w >= rough_from ? rough_trace(ray) : smooth_trace(ray);
+}
 
 // Number `turn` of a block's 64 pixels, the next ones as far apart as can be: each pair of bits halves the distance.
 ivec2 pixel_of_turn(uint turn) {

@@ -1,27 +1,16 @@
 #pragma once
+#include "variants/resolves/ray_draw.h"
 #include "variants/tracers/tracers.h"
 
-/// Parameters of classification, sampling and tracing. "Slides" are those of Stachowiak and Uludag 2015, "Stochastic
-/// Screen-Space Reflections" (SIGGRAPH, Advances in Real-Time Rendering), as quoted by others: what they leave open is
-/// ours and says so.
-struct FrostbiteRayParameters {
-    ParameterSet& params;
-
+/// Parameters of classification, sampling and tracing; "slides" as in ray_draw.h.
+struct FrostbiteRayParameters : RayDrawParameters {
     // clang-format off
-    Switch half_resolution{params, "half_resolution", true,
-        {"", "starts rays in one of each 2x2 pixels, another one every frame; otherwise in every pixel", "slides, resolve; "
-         "that the pixel changes is ours"}};
-    Param<float> max_roughness{params, "max_roughness", 0.6f, {0.0f, 1.0f},
-        {"perceptual", "rougher surfaces are left to the fallback", "ssrlab"}};
-
     // Rays per tile.
     Switch classification{params, "classification", true,
         {"", "a probe ray per 8x8 pixels decides how many rays each tile of 32x32 pixels gets; otherwise all tiles get "
          "max_rays", "slides: probes at 1/8 resolution; the size of a tile is ours"}};
     Param<unsigned> min_rays{params, "min_rays", 1, {1, 4},
         {"rays", "of each traced pixel in a tile whose probes agree, but at most max_rays", "ssrlab"}, Use::constant};
-    Param<unsigned> max_rays{params, "max_rays", 1, {1, 4},
-        {"rays", "of each traced pixel in a tile whose probes differ", "slides measure 1 and 4"}, Use::constant};
     Choice rays_by{params, "rays_by", "deviation", {"deviation", "hit_ratio", "product"},
         {"", "how far from min_rays to max_rays a tile is. deviation: of its probes' compressed luminance, over variance_scale; "
          "hit_ratio: the share of its probes that hit; product: of both",
@@ -33,15 +22,6 @@ struct FrostbiteRayParameters {
          "tiles pop", "ssrlab"}};
     Param<unsigned> hysteresis{params, "hysteresis", 4, {0, 255},
         {"frames", "for which a tile keeps its rays after its probes last hit", "ssrlab"}};
-
-    // Directions.
-    Choice lobe{params, "lobe", "normals", {"normals", "visible_normals"},
-        {"", "the distribution that half vectors are drawn from: the GGX distribution of normals, or of normals visible "
-         "from the viewer", "slides: normals; visible normals (Heitz 2014) are listed as to be tried"}};
-    Param<float> importance_bias{params, "importance_bias", 0.7f, {0.0f, 0.99f},
-        {"of the lobe", "share of the lobe that is cut off: its tail", "slides: 0.7"}};
-    Param<unsigned> max_regenerations{params, "max_regenerations", 4, {0, 16},
-        {"", "times that a ray below the horizon is drawn again", "slides: a few times; the number is ours"}};
 
     // The two tracers.
     Param<float> rough_from{params, "rough_from", 0.2f, {0.0f, 1.0f},

@@ -1,9 +1,9 @@
 // A traced ray as the pixels see it that resolve it.
 #ifndef FROSTBITE_SSSR_REUSE_GLSL
 #define FROSTBITE_SSSR_REUSE_GLSL
-#include "common/motion.glsl"
 #include "frostbite_sssr/previous_view.glsl"
-#include "frostbite_sssr/ray.glsl"
+#include "resolves/hit_color.glsl"
+#include "resolves/ray.glsl"
 #include "frostbite_sssr/surface.glsl"
 
 // All of a ray that does not depend on who resolves it. View space.
@@ -14,16 +14,6 @@ struct ReusedRay {
     bool is_dropped;
 };
 
-// Where the lit image shows what `pixel` shows: as `motion` is without jitter, both frames' are added.
-vec2 color_uv_of(ivec2 pixel) {
-    vec2 uv = (vec2(pixel) + 0.5) * camera.extent.zw;
-    if (!previous_frame) return uv;
-    vec2 moved = motion_at(pixel) - (camera.jitter.xy - camera.jitter.zw) * camera.extent.zw;
-    // No branch on whether there is a previous frame: for such a branch lavapipe 22.3 compiles the shader anew at every
-    // dispatch, and never frees it.
-    return uv - float(camera.frame.w) * moved;
-}
-
 ReusedRay reused_ray(vec3 origin, TracedRay traced) {
     const bool hidden_hits_show = hidden_hits == 0u, hidden_hits_are_dropped = hidden_hits == 2u;
     ReusedRay ray = ReusedRay(traced, origin, vec3(0.0), vec2(0.0), false);
@@ -31,7 +21,7 @@ ReusedRay reused_ray(vec3 origin, TracedRay traced) {
     ivec2 pixel = pixel_of_target(traced.target);
     if (reuse_jacobian) ray.hit_normal = view_geometric_normal(pixel);
     ray.color_uv = color_uv_of(pixel);
-    bool had_left_screen = any(lessThan(ray.color_uv, vec2(0.0))) || any(greaterThan(ray.color_uv, vec2(1.0)));
+    bool had_left_screen = !lies_on_image(ray.color_uv);
     bool is_asked = previous_frame && !hidden_hits_show && !had_left_screen;
     bool was_hidden = is_asked && !was_seen(pixel, ray.color_uv * camera.extent.xy);
     if (had_left_screen || was_hidden) ray.traced.confidence = 0.0;

@@ -2,15 +2,14 @@
 #ifndef FROSTBITE_SSSR_TRACE_RAY_GLSL
 #define FROSTBITE_SSSR_TRACE_RAY_GLSL
 #include "frostbite_sssr/draw_ray.glsl"
-#include "frostbite_sssr/ray.glsl"
+#include "resolves/ray.glsl"
 
 // To be defined by whoever includes this, which says how it marches.
 TraceEnd march(TraceRay ray);
 
 // Ray k of a pixel that starts rays.
-TracedRay trace_ray(ivec2 pixel, uint k, uint first_dimension) {
-    vec3 origin = view_position(pixel), vs_normal = view_geometric_normal(pixel);
-    DrawnRay drawn = draw_ray(pixel, view_direction(origin), k, first_dimension);
+TracedRay traced_ray(ivec2 pixel, uint k, uint first_dimension, vec3 origin, DrawnRay drawn) {
+    vec3 vs_normal = view_geometric_normal(pixel);
     TracedRay ray = TracedRay(drawn.direction, drawn.inverse_density, ray_missed, 0.0, 0.0);
     if (!drawn.is_above_horizon) {
         ray.target = ray_below_horizon;
@@ -27,5 +26,10 @@ TracedRay trace_ray(ivec2 pixel, uint k, uint first_dimension) {
         }
     }
     return ray;
+}
+
+TracedRay trace_ray(ivec2 pixel, uint k, uint first_dimension) {
+    vec3 origin = view_position(pixel);
+    return traced_ray(pixel, k, first_dimension, origin, draw_ray(pixel, view_direction(origin), k, first_dimension));
 }
 #endif

@@ -1,5 +1,6 @@
 #include "variants/common/lit_history.h"
 #include "variants/common/variant_entry.h"
+#include "variants/simple_ssr/blur.h"
 #include "variants/tracers/tracing_variant.h"
 
 /// The simple techniques that two of our sources start from, as values of a few parameters: mirror rays alone, mirror
@@ -14,7 +15,7 @@ private:
     Reflections render_passes(PassGraph& graph, const GBuffer& gbuffer) override;
     Needless find_needless(const SceneFacts& facts) override;
     const Tracers& chosen_tracers() const override { return tracers; }
-    bool blurs() const { return blur_width > 0; }
+    bool blurs() const { return blur_.blur_width > 0; }
 
     // clang-format off
     Choice draw{params, "draw", "mirror", {"mirror", "jittered_ray", "normals", "visible_normals", "cosine"},
@@ -38,11 +39,8 @@ private:
     Switch previous_frame{params, "previous_frame", false,
         {"", "hits show the lit image of the frame before, at the place where their surface was; otherwise that of this frame",
          "slides and article: on, for an engine has not lit this frame yet"}};
-    Param<float> blur_width{params, "blur_width", 0.0f, {0.0f, 0.25f},
-        {"of the screen's height", "half the side of the square over which a pixel of roughness 1 averages its neighbours' "
-         "reflections, all weighed alike; smoother ones in proportion, 32 pixels at most; 0: no blur",
-         "slides, of Killzone Shadow Fall, without a number"}};
     // clang-format on
+    SimpleBlurParameters blur_{params};
     Tracers tracers{params,
                     {{"tracer", "trace", "view_space", "the march that finds what a ray meets"}},
                     "slides: equal steps in view space; the article: hzb"};
@@ -57,18 +55,7 @@ Reflections SimpleSsr::render_passes(PassGraph& graph, const GBuffer& gbuffer) {
     tracers.run(graph, graph.compute("simple_ssr/trace.comp").read(shown.as("shown_lit")).write(traced), {"tracer"},
                 tracers.images(graph, gbuffer.depth), ray_probe, draw.is("mirror") ? 1 : rays);
     if (!blurs() || is_sharp_) return {traced, traced, 3};
-    const Image blurred_rows = graph.image("blurred_rows", Format::rgba32f),
-                blurred = graph.image("blurred", Format::rgba32f);
-    const auto blur = [&](const Image& from, const Image& to, unsigned axis) {
-        graph.compute("simple_ssr/blur.comp")
-            .read(from.as("sharp"))
-            .write(to.as("result"))
-            .set("axis", axis)
-            .label(axis == 0 ? "simple_ssr/blur_rows" : "simple_ssr/blur_columns")
-            .run();
-    };
-    blur(traced, blurred_rows, 0);
-    blur(blurred_rows, blurred, 1);
+    const Image blurred = simple_blur(graph, traced);
     return {blurred, blurred, 3};
 }
 

@@ -123,7 +123,7 @@ const TracerEntry& find_tracer(const std::string& name) {
 
 std::string part_of(const TracerEntry& tracer) { return tracer.part.empty() ? tracer.name : tracer.part; }
 
-bool is_read(const ParameterSet& params, const std::string& name) {
+bool is_of_chosen_tracer(const ParameterSet& params, const std::string& name) {
     if (name == "exact_share") return params.values().at("exact_rays") != "none";
     const std::string part = std::ranges::find(params, name, &Parameter::name)->part();
     if (!std::ranges::count(tracer_table(), part, part_of)) return true;

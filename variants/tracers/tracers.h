@@ -17,9 +17,9 @@ const TracerEntry& find_tracer(const std::string& name);
 /// What the names of a tracer's parameters begin with, before the dot.
 std::string part_of(const TracerEntry& tracer);
 
-/// Whether a technique whose parameters have these values reads its parameter `name`: not if that is of a tracer which
-/// none of its slots has chosen.
-bool is_read(const ParameterSet& params, const std::string& name);
+/// Whether a technique whose parameters have these values has chosen the tracer whose parameter `name` is; true of
+/// parameters that are no tracer's.
+bool is_of_chosen_tracer(const ParameterSet& params, const std::string& name);
 
 /// How a technique makes pyramids of depth (common/depth_pyramid.h): of at most so many levels, of the nearest or of
 /// the farthest depths.

@@ -9,6 +9,7 @@
 #include "experiments/store/manifest.h"
 #include "experiments/store/source_code.h"
 #include "variants/registry.h"
+#include "variants/resolves/resolves.h"
 #include "variants/tracers/tracers.h"
 
 #include <algorithm>
@@ -20,8 +21,9 @@ namespace {
 
 /// A point as cells are named by it.
 struct PointIdentity {
-    std::string parameters;            ///< all values
-    std::vector<std::string> sources;  ///< the folders of its technique and of the tracers that it has chosen
+    std::string parameters;  ///< all values
+    std::vector<std::string>
+        sources;  ///< the folders of its technique and of the tracers and the resolve that it has chosen
 };
 
 PointIdentity identity_of(const VariantConfig& config) {
@@ -33,6 +35,7 @@ PointIdentity identity_of(const VariantConfig& config) {
         for (const TracerEntry& tracer : tracer_table())
             if (value == tracer.name)
                 identity.sources.push_back("variants/" + tracer.shader.substr(0, tracer.shader.rfind('/') + 1));
+    if (values.contains("resolve")) identity.sources.push_back(find_resolve(values.at("resolve")).folder);
     return identity;
 }
 

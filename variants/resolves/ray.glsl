@@ -1,7 +1,7 @@
-// What is kept of each ray: FrostbiteRays of passes.h. Needs the `camera` block.
-#ifndef FROSTBITE_SSSR_RAY_GLSL
-#define FROSTBITE_SSSR_RAY_GLSL
-#include "frostbite_sssr/traced_pixel.glsl"
+// What is kept of each ray: TracedRays of traced_rays.h. Needs the `camera` block, and the parameters of ray_draw.h.
+#ifndef RESOLVES_RAY_GLSL
+#define RESOLVES_RAY_GLSL
+#include "resolves/traced_pixel.glsl"
 
 buffer directions { vec4 direction_of_ray[]; };
 buffer hits { uvec4 hit_of_ray[]; };

@@ -1,5 +1,5 @@
-#ifndef FROSTBITE_SSSR_FIRST_TURN_H
-#define FROSTBITE_SSSR_FIRST_TURN_H
+#ifndef RESOLVES_FIRST_TURN_H
+#define RESOLVES_FIRST_TURN_H
 #include "variants/common/halton.h"
 
 /// Where a seed starts in an order of pixels that take turns, of which there are 4 or 64: in [0, 64), as if drawn at

@@ -1,7 +1,7 @@
 // Which pixels start rays. Needs the `camera` block.
-#ifndef FROSTBITE_SSSR_TRACED_PIXEL_GLSL
-#define FROSTBITE_SSSR_TRACED_PIXEL_GLSL
-#include "frostbite_sssr/first_turn.h"
+#ifndef RESOLVES_TRACED_PIXEL_GLSL
+#define RESOLVES_TRACED_PIXEL_GLSL
+#include "resolves/first_turn.h"
 
 ivec2 traced_extent() {
     ivec2 extent = ivec2(camera.extent.xy);

@@ -1,0 +1,93 @@
+#include "variants/common/lit_history.h"
+#include "variants/common/variant_entry.h"
+#include "variants/frostbite_sssr/horizon_image.h"
+#include "variants/resolves/resolves.h"
+#include "variants/tracers/tracing_variant.h"
+
+/// Any march and any resolve (variants/resolves), behind Frostbite's draw of directions: what a technique is made of,
+/// so that its parts can be compared one by one.
+class ComposedSsr final : public TracingVariant {
+public:
+    bool depends_on_seed() const override;
+    std::string not_repeatable() const override;
+
+private:
+    Reflections render_passes(PassGraph& graph, const GBuffer& gbuffer) override;
+    Needless find_needless(const SceneFacts& facts) override;
+    const Tracers& chosen_tracers() const override { return tracers_; }
+
+    RayDrawParameters draw_{params};
+    // clang-format off
+    Switch draw_directions_{params, "draw_directions", true,
+        {"", "draws each ray's direction from the lobe; otherwise it is the mirror's", "ssrlab, to measure the stage"}};
+    Choice misses_{params, "misses", "weight", {"weight", "fallback"},
+        {"", "what a ray without a hit contributes. weight: only less confidence; fallback: the environment in its "
+         "direction", "ssrlab"}};
+    Switch previous_frame_{params, "previous_frame", false,
+        {"", "hits take their colour from the previous frame's lit image, where they were then; otherwise from this frame's",
+         "ssrlab"}};
+    // clang-format on
+    Tracers tracers_{params,
+                     {{"tracer", "trace", "cells", "the march that finds what a ray meets"}},
+                     "ssrlab",
+                     {{"half_resolution", false},
+                      {"lobe", "visible_normals"},
+                      {"importance_bias", 0.3},
+                      {"cells.relative_thickness", 0.01},
+                      {"cells.thickness", 0.0}}};
+    mutable Resolves resolves_{params, "mean"};
+
+    LitHistory lit_;
+    FrostbiteHorizonImage horizon_;
+};
+
+Reflections ComposedSsr::render_passes(PassGraph& graph, const GBuffer& gbuffer) {
+    const glm::uvec2 screen = graph.extent(), extent = draw_.half_resolution ? (screen + 1u) / 2u : screen;
+    const size_t bytes = size_t(extent.x) * extent.y * draw_.max_rays * 16;
+    const ResolvedRays rays{
+        .traced = {.directions = graph.buffer("directions", bytes), .hits = graph.buffer("hits", bytes)},
+        .color = previous_frame_ ? lit_.previous(graph, gbuffer.lit) : gbuffer.lit,
+        .below_horizon = horizon_.on(graph, draw_),
+        .draw = draw_,
+        .misses_see_environment = misses_.is("fallback"),
+        .previous_frame = previous_frame_};
+    PassGraph::Pass pass = graph.compute("composed_ssr/trace.comp");
+    pass.read(rays.below_horizon).use(rays.traced.directions).use(rays.traced.hits);
+    tracers_.run(graph, pass, {"tracer"}, tracers_.images(graph, gbuffer.depth), ray_probe, draw_.max_rays,
+                 [&](PassGraph::Pass& tracing) { tracing.run(extent); });
+    return resolves_.run(graph, gbuffer, rays, draw_directions_);
+}
+
+TracingVariant::Needless ComposedSsr::find_needless(const SceneFacts& facts) {
+    Needless needless{.such_a_surface = "as smooth as max_roughness", .stages = {"composed_ssr/trace"}};
+    needless.rays = !facts.has_reflective || facts.min_roughness > draw_.max_roughness;
+    if (tracers_.needs_pyramid()) needless.stages.insert(needless.stages.begin(), "common/depth_pyramid");
+    if (previous_frame_) needless.stages.insert(needless.stages.begin(), "common/keep_lit");
+    const std::vector<std::string> of_resolve = resolves_.chosen().stages();
+    needless.stages.insert(needless.stages.end(), of_resolve.begin(), of_resolve.end());
+    needless.specular_readers = {"composed_ssr/trace"};
+    return needless;
+}
+
+bool ComposedSsr::depends_on_seed() const {
+    return draw_directions_ || tracers_.needs().random || resolves_.chosen().draws_random_numbers();
+}
+
+std::string ComposedSsr::not_repeatable() const {
+    const std::string of_rays = tracers_.not_repeatable(), of_resolve = resolves_.chosen().not_repeatable();
+    return of_rays + (of_rays.empty() || of_resolve.empty() ? "" : "; ") + of_resolve;
+}
+
+VariantEntry composed_ssr_entry() {
+    return {
+        .name = "composed_ssr",
+        .title = "Any march and any resolve, behind one draw of directions",
+        .source = "ssrlab; the draw is that of Stachowiak & Uludag 2015, Stochastic Screen-Space Reflections",
+        .description =
+            "Rays are drawn from the lobe, marched by the chosen tracer and made a picture of by the chosen resolve, "
+            "each "
+            "with the parameters that it has in its own technique.",
+        .presets = {{"corrected", "faulty inputs are repaired", {{"repair_inputs", true}}}},
+        .create = [] { return std::make_unique<ComposedSsr>(); },
+    };
+}

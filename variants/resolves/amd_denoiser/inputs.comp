@@ -1,0 +1,17 @@
+// What AMD's denoiser reads of each glossy pixel: what its ray saw, with the fallback for what is not known, and its
+// length. Where the rays hit nothing they are as long as the far plane is away, as with far_misses.
+#include "amd_sssr/lists.glsl"
+#include "core/shaders/view.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+uniform sampler2D own_radiance, own_length, roughness, fallback;
+uniform writeonly image2D radiance;
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (!is_on_screen(pixel) || !is_glossy(texelFetch(roughness, pixel, 0).r)) return;
+    vec4 own = texelFetch(own_radiance, pixel, 0);
+    float ray_length = texelFetch(own_length, pixel, 0).r;
+    vec3 seen = mix(ibl_factor * texelFetch(fallback, pixel, 0).rgb, own.rgb, own.a);
+    imageStore(radiance, pixel, vec4(seen, ray_length > 0.0 ? ray_length : camera.depth.y));
+}

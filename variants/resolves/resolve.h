@@ -1,0 +1,61 @@
+#pragma once
+#include "core/variant.h"
+#include "variants/resolves/ray_draw.h"
+#include "variants/resolves/traced_rays.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+/// What a technique's draw and march hand to a resolve. Shaders that read rays (seen.glsl, ray.glsl) run with the
+/// technique's parameters, of which there are those of ray_draw.h, `misses` (weight, fallback) and `previous_frame`.
+struct ResolvedRays {
+    TracedRays traced;
+    Image color;          ///< the lit image that hits show: of this frame, or with `previous_frame` of the last one
+    Image below_horizon;  ///< of FrostbiteHorizonImage: share of draws that go below the horizon
+    const RayDrawParameters& draw;
+    bool misses_see_environment = false;  ///< `misses` is fallback
+    bool previous_frame = false;
+};
+
+/// What each pixel's own rays see, weighed by the lobe of visible normals over the density with which they were drawn.
+struct OwnRays {
+    Image radiance;    ///< `own_radiance`, rgba32f: rgb mean of what they see, a share of it that is known
+    Image ray_length;  ///< `own_length`, r32f: mean length of those that hit (m); 0: none
+};
+OwnRays average_own_rays(PassGraph& graph, const GBuffer& gbuffer, const ResolvedRays& rays);
+
+/// One way to make a picture of rays: its passes, and what outlives a frame. In `params` are all parameters that its
+/// shaders name; those that the technique decides are taken from it before each frame.
+class Resolve {
+public:
+    virtual ~Resolve() = default;
+
+    /// Adds this frame's passes. Those that read rays come first, with the technique's parameters; use_own_params()
+    /// starts the others.
+    virtual Reflections run(PassGraph& graph, const GBuffer& gbuffer, const ResolvedRays& rays) = 0;
+    /// Of its passes, in their order.
+    virtual std::vector<std::string> stages() const = 0;
+    virtual bool draws_random_numbers() const { return false; }
+    virtual std::string not_repeatable() const { return {}; }  ///< as of Variant::not_repeatable()
+    virtual bool filters_by_motion() const { return true; }    ///< reads motion vectors
+
+    ParameterSet params;
+
+protected:
+    /// From now on the graph's passes have `params`, in which `given` are set: values that the technique decides.
+    void use_own_params(PassGraph& graph, const nlohmann::json& given);
+};
+
+/// A resolve's page of the catalogue.
+struct ResolveEntry {
+    std::string name, title, source, description;
+    std::string folder;         ///< with its sources: "variants/resolves/mean/"
+    bool needs_density = true;  ///< weighs neighbours' rays by densities, which mirror rays lack
+    /// Declares the parameters that a technique has of it, in which their names begin with the resolve's:
+    /// `blur.blur_width`.
+    std::function<void(ParameterSet&)> declare = [](ParameterSet&) {};
+    std::vector<std::string> given = {};  ///< of those the ones that the technique decides
+    std::function<std::unique_ptr<Resolve>()> create;
+};
