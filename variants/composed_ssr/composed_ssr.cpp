@@ -78,6 +78,53 @@ std::string ComposedSsr::not_repeatable() const {
     return of_rays + (of_rays.empty() || of_resolve.empty() ? "" : "; ") + of_resolve;
 }
 
+namespace {
+
+const nlohmann::json repaired = {{"repair_inputs", true}};
+
+/// A resolve with the values that the best preset of its own technique has.
+Preset preset_of(const std::string& resolve, const std::string& meaning, const nlohmann::json& of_resolve) {
+    nlohmann::json parameters = changed(repaired, {{"resolve", resolve}});
+    for (const auto& [name, value] : of_resolve.items()) parameters[resolve + "." + name] = value;
+    return {resolve, meaning, parameters};
+}
+
+const nlohmann::json amd_values = {{"average_pull", 0.1223},
+                                   {"barrier_before_average", true},
+                                   {"clip_scale", 2.643},
+                                   {"current_sample_count", true},
+                                   {"finite_neighborhood", true},
+                                   {"float_histories", true},
+                                   {"fresh_neighborhood", true},
+                                   {"guard_previous_clip", true},
+                                   {"no_dark_exit", true},
+                                   {"prefilter", false},
+                                   {"reproject_history_depth", true},
+                                   {"round_up_tiles", true},
+                                   {"running_variance", true},
+                                   {"surface_discard_variance_weight", 1.216},
+                                   {"temporal_stability_factor", 0.358}};
+
+const nlohmann::json diligent_values = {{"axial_hit_depth", true},
+                                        {"bilateral_cleanup", false},
+                                        {"centered_search", true},
+                                        {"finite_weights", true},
+                                        {"float_histories", true},
+                                        {"guard_previous_clip", true},
+                                        {"linear_hit_depth", true},
+                                        {"spatial_reconstruction_radius", 1.054},
+                                        {"temporal_radiance_stability_factor", 0.8198},
+                                        {"temporal_variance_stability_factor", 0.726}};
+
+const nlohmann::json frostbite_values = {{"clamp_scale", 5.017},     {"filtered_sampling", false},
+                                         {"history_weight", 0.7855}, {"neighbor_ray", "direction"},
+                                         {"pattern", "interleaved"}, {"reflection_depth", "max"}};
+
+const nlohmann::json recurrent_values = {
+    {"scale_free", true}, {"reproject_misses", true}, {"flicker_suppression", 0}, {"damp_fireflies", false}};
+
+}  // namespace
+
 VariantEntry composed_ssr_entry() {
     return {
         .name = "composed_ssr",
@@ -87,7 +134,15 @@ VariantEntry composed_ssr_entry() {
             "Rays are drawn from the lobe, marched by the chosen tracer and made a picture of by the chosen resolve, "
             "each "
             "with the parameters that it has in its own technique.",
-        .presets = {{"corrected", "faulty inputs are repaired", {{"repair_inputs", true}}}},
+        .presets = {preset_of("mean", "the pixel's own ray", {}),
+                    preset_of("blur", "a blur of one size", {{"blur_width", 0.04}}),
+                    preset_of("amd_denoiser", "with the values of amd_sssr's best_1x", amd_values),
+                    preset_of("diligent_filters", "with the values of diligent_ssr's best_2x", diligent_values),
+                    preset_of("frostbite_reuse", "with the values of frostbite_sssr's best_2x", frostbite_values),
+                    preset_of("recurrent_blur",
+                              "three.js's values, with lengths and colours in proportion, misses reprojected, and "
+                              "nothing that darkens",
+                              recurrent_values)},
         .create = [] { return std::make_unique<ComposedSsr>(); },
     };
 }

@@ -118,8 +118,7 @@ float neighbor_weight(Receiver receiver, vec4 own, ivec2 neighbor) {
     float by_length = is_miss && receiver.has_miss ? 1.0
                                                    : length_phi * abs(receiver.hit_share - hit_share) / length_unit;
     float by_roughness = roughness_phi * abs(receiver.roughness - texelFetch(normal, neighbor, 0).w);
-    float old = receiver.aggressivity, of_surface = grow_evenly ? 1.0 : old;
-    return exp(-(old * by_luminance + of_surface * (by_length + by_roughness) + by_plane)) * by_normal;
+    return exp(-(receiver.aggressivity * (by_luminance + by_length + by_roughness) + by_plane)) * by_normal;
 }
 
 struct Sums {

@@ -2,9 +2,9 @@
 #include "core/parameters.h"
 
 /// Parameters of the recurrent blur. "three.js" is RecurrentDenoiseNode.js and TemporalReprojectNode.js of its
-/// examples/jsm/tsl/display at commit 011d3c8d (MIT licence), with the values of its example of denoised reflections, where
-/// the classes have others; it follows NVIDIA's REBLUR (Zhdan 2021, "ReBLUR: A Hierarchical Recurrent Denoiser", Ray
-/// Tracing Gems II). Switches under "corrections" fix one defect each.
+/// examples/jsm/tsl/display at commit 011d3c8d (MIT licence), with the values of its example of denoised reflections,
+/// where the classes have others; it follows NVIDIA's REBLUR (Zhdan 2021, "ReBLUR: A Hierarchical Recurrent Denoiser",
+/// Ray Tracing Gems II). Switches under "corrections" fix one defect each.
 struct RecurrentBlurParameters {
     ParameterSet& params;
 
@@ -59,8 +59,5 @@ struct RecurrentBlurParameters {
     Switch reproject_misses{params, "reproject_misses", false,
         {"", "what rays without a hit see is looked for in history where a mirror shows something infinitely far away. The original "
          "moves it with the surface", "ssrlab"}};
-    Switch grow_evenly{params, "grow_evenly", false,
-        {"", "neighbours are refused by roughness and length in young pixels, too; in the original old ones alone are",
-         "ssrlab"}};
     // clang-format on
 };

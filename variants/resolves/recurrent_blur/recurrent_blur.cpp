@@ -1,5 +1,34 @@
 #include "variants/resolves/recurrent_blur/parameters.h"
-#include "variants/resolves/resolve.h"
+#include "variants/resolves/recurrent_blur/passes.h"
+
+Image recurrent_blur(PassGraph& graph, const GBuffer& gbuffer, const OwnRays& own) {
+    const PassGraph::History blurred = graph.history("blurred", Format::rgba32f),
+                             age = graph.history("age", Format::r32f);
+    const Image reprojected = graph.image("reprojected", Format::rgba32f),
+                reprojected_age = graph.image("reprojected_age", Format::r32f),
+                reflections = graph.image("reflections", Format::rgba32f);
+    graph.compute("resolves/recurrent_blur/reproject.comp")
+        .read(own.radiance)
+        .read(own.ray_length)
+        .read(gbuffer.motion)
+        .read(gbuffer.previous_depth)
+        .read(gbuffer.previous_normal)
+        .read(blurred.previous)
+        .read(age.previous)
+        .write(reprojected)
+        .write(reprojected_age)
+        .run();
+    graph.compute("resolves/recurrent_blur/blur.comp")
+        .read(own.radiance)
+        .read(own.ray_length)
+        .read(reprojected)
+        .read(reprojected_age)
+        .write(blurred.current)
+        .write(age.current)
+        .write(reflections)
+        .run();
+    return reflections;
+}
 
 namespace {
 
@@ -8,31 +37,7 @@ public:
     Reflections run(PassGraph& graph, const GBuffer& gbuffer, const ResolvedRays& rays) override {
         const OwnRays own = average_own_rays(graph, gbuffer, rays);
         use_own_params(graph, {{"max_roughness", float(rays.draw.max_roughness)}});
-        const PassGraph::History blurred = graph.history("blurred", Format::rgba32f),
-                                 age = graph.history("age", Format::r32f);
-        const Image reprojected = graph.image("reprojected", Format::rgba32f),
-                    reprojected_age = graph.image("reprojected_age", Format::r32f),
-                    reflections = graph.image("reflections", Format::rgba32f);
-        graph.compute("resolves/recurrent_blur/reproject.comp")
-            .read(own.radiance)
-            .read(own.ray_length)
-            .read(gbuffer.motion)
-            .read(gbuffer.previous_depth)
-            .read(gbuffer.previous_normal)
-            .read(blurred.previous)
-            .read(age.previous)
-            .write(reprojected)
-            .write(reprojected_age)
-            .run();
-        graph.compute("resolves/recurrent_blur/blur.comp")
-            .read(own.radiance)
-            .read(own.ray_length)
-            .read(reprojected)
-            .read(reprojected_age)
-            .write(blurred.current)
-            .write(age.current)
-            .write(reflections)
-            .run();
+        const Image reflections = recurrent_blur(graph, gbuffer, own);
         return {reflections, reflections, 3};
     }
 
