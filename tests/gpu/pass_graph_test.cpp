@@ -83,6 +83,49 @@ TEST_P(GraphOnBothClocks, CompactsWithSubgroupsAndDispatchesIndirectly) {
     EXPECT_EQ(invocation_count, 64u);  // 32 pixels: one group, where all pixels would be four
 }
 
+/// Passes of one frame, which a GPU runs together at its end, with sets of their own.
+TEST_P(GraphOnBothClocks, GivesPassesTheParametersThatAreSet) {
+    struct Two {
+        ParameterSet params;
+        Param<float> scale, offset;
+        Two(float s, float o)
+            : scale(params, "scale", s, {0.0f, 9.0f}, {"", "", ""}),
+              offset(params, "offset", o, {0.0f, 9.0f}, {"", "", ""}) {}
+    };
+    struct Swapped {  // the same names at other places
+        ParameterSet params;
+        Param<float> offset{params, "offset", 5.0f, {0.0f, 9.0f}, {"", "", ""}},
+            scale{params, "scale", 6.0f, {0.0f, 9.0f}, {"", "", ""}};
+    } other;
+    const Two first(1.0f, 2.0f), second(3.0f, 4.0f);
+    graph.begin_frame(camera, first.params, {});
+    const auto show = [&](const char* name) {
+        const Image image = graph.image(name, Format::rgba32f);
+        graph.compute("show_parameter.comp").write(image.as("shown")).run();
+        return image;
+    };
+    const Image before = show("before");
+    graph.set_params(second.params);
+    const Image between = show("between");
+    graph.set_params(other.params);
+    const Image swapped = show("swapped");
+    graph.set_params(first.params);
+    const Image after = show("after");
+    const auto values = [&](const Image& image) {
+        const HostImage pixels = graph.download(image);
+        return std::pair(pixels.values[0], pixels.values[1]);
+    };
+    EXPECT_EQ(values(before), std::pair(1.0f, 2.0f));
+    EXPECT_EQ(values(between), std::pair(3.0f, 4.0f));
+    EXPECT_EQ(values(swapped), std::pair(6.0f, 5.0f));
+    EXPECT_EQ(values(after), std::pair(1.0f, 2.0f));
+    EXPECT_EQ(&graph.params(), &first.params);
+
+    const Two third(0.0f, 0.0f), fourth(0.0f, 0.0f);
+    graph.set_params(third.params);
+    EXPECT_EQ(error_message([&] { graph.set_params(fourth.params); }), "more than 4 sets of parameters in one frame");
+}
+
 TEST_P(GraphOnBothClocks, StencilKeepsPassesToMarkedPixels) {
     const Image mask = graph.image("mask", Format::d32f_s8), color = graph.image("color", Format::rgba32f);
     graph.clear(mask, glm::vec4(0.0f));

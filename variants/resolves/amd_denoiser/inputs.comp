@@ -1,5 +1,6 @@
 // What AMD's denoiser reads of each glossy pixel: what its ray saw, with the fallback for what is not known, and its
-// length. Where the rays hit nothing they are as long as the far plane is away, as with far_misses.
+// length. Rays that hit nothing are as long as the far plane is away, as with far_misses; those of which it is known that
+// they bring no light have no length.
 #include "amd_sssr/lists.glsl"
 #include "core/shaders/view.glsl"
 
@@ -13,5 +14,7 @@ void main() {
     vec4 own = texelFetch(own_radiance, pixel, 0);
     float ray_length = texelFetch(own_length, pixel, 0).r;
     vec3 seen = mix(ibl_factor * texelFetch(fallback, pixel, 0).rgb, own.rgb, own.a);
-    imageStore(radiance, pixel, vec4(seen, ray_length > 0.0 ? ray_length : camera.depth.y));
+    const bool misses_are_unknown = misses == 0u;
+    bool is_miss = ray_length == 0.0 && !(misses_are_unknown && own.a > 0.0);
+    imageStore(radiance, pixel, vec4(seen, is_miss ? camera.depth.y : ray_length));
 }
