@@ -313,9 +313,22 @@ def exact_rays():
     return Picture(panels, "exact rays (%); error over that without them, mean over 13 scenes, 95 % intervals", kind="lines", columns=3)
 
 
+def resolves():
+    cells = grid("resolves", "matrix")
+    marches = [m for m in dict.fromkeys(row for row, _ in cells) if m != "exact_scene"]
+    of_all = [*marches, "exact_scene"]
+
+    def mark(march, resolve):
+        color, shape = style.series(marches.index(march)) if march in marches else (GREY, "|")
+        return Mark(march if march in marches else "exact rays", color, shape, cells[march, resolve])
+
+    by_error = sorted(dict.fromkeys(column for _, column in cells), key=lambda r: cells["cells", r].value)
+    return Picture([Panel("", [(r, [mark(m, r) for m in of_all]) for r in by_error])], "MSE over that of no reflections, mean over scenes like these, 95 % intervals", columns=1)
+
+
 PUBLISHED_PRESETS = ("default", "sdk_1_5", "current", "frostbite_2015", "blog", "high")
 
-PICTURES = {p.__name__: p for p in (techniques, budgets, rooms, metrics, causes, limit, third_party, traced_environment, corrections, estimators, march, thickness, temporal, fragments, resolution, compilers, gpu_times, exact_rays)}
+PICTURES = {p.__name__: p for p in (techniques, budgets, rooms, metrics, causes, limit, third_party, traced_environment, corrections, estimators, march, thickness, temporal, fragments, resolution, compilers, gpu_times, exact_rays, resolves)}
 
 
 def save(name, folder):

@@ -65,7 +65,12 @@ TracingVariant::Needless ComposedSsr::find_needless(const SceneFacts& facts) {
     if (previous_frame_) needless.stages.insert(needless.stages.begin(), "common/keep_lit");
     const std::vector<std::string> of_resolve = resolves_.chosen().stages();
     needless.stages.insert(needless.stages.end(), of_resolve.begin(), of_resolve.end());
-    needless.specular_readers = {"composed_ssr/trace"};
+    const StageReads reads = resolves_.chosen().reads();
+    needless.specular_readers = reads.specular;
+    needless.specular_readers.insert(needless.specular_readers.begin(), "composed_ssr/trace");
+    needless.motion_readers = reads.motion;
+    if (previous_frame_ && !std::ranges::count(reads.motion, reads.rays)) needless.motion_readers.push_back(reads.rays);
+    if (misses_.is("fallback")) needless.environment_readers = {reads.rays};
     return needless;
 }
 

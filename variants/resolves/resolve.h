@@ -26,6 +26,13 @@ struct OwnRays {
 };
 OwnRays average_own_rays(PassGraph& graph, const GBuffer& gbuffer, const ResolvedRays& rays);
 
+/// Which stages of a resolve read what a scene may not need.
+struct StageReads {
+    std::string rays;                   ///< what rays see, and so the environment and the motion of hits, if at all
+    std::vector<std::string> motion;    ///< motion of the pixel's own surface
+    std::vector<std::string> specular;  ///< of a pixel no more than whether it has a specular term
+};
+
 /// One way to make a picture of rays: its passes, and what outlives a frame. In `params` are all parameters that its
 /// shaders name; those that the technique decides are taken from it before each frame.
 class Resolve {
@@ -39,7 +46,7 @@ public:
     virtual std::vector<std::string> stages() const = 0;
     virtual bool draws_random_numbers() const { return false; }
     virtual std::string not_repeatable() const { return {}; }  ///< as of Variant::not_repeatable()
-    virtual bool filters_by_motion() const { return true; }    ///< reads motion vectors
+    virtual StageReads reads() const = 0;
 
     ParameterSet params;
 

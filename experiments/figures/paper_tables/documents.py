@@ -3,7 +3,7 @@ summary of the study. `<!-- table STUDY NAME {"rows": [...], "columns": [...], "
 named rows and columns in that order (all, where a key is left out).
 
 Numbers and names in prose are made in the same way: `<!--= EXPRESSION -->0.18<!--/-->`, with cell(), cells(), shown(), most(), first(), shots(),
-rank_correlation(), halving(), halving_share() and over_scenes() of kept tables (Numbers), ratios() and number(value) of three digits, fixed(value, places), span(values, places), min, max, sum, len, zip and abs."""
+rank_correlation(), halving(), halving_share(), share_of_variance() and over_scenes() of kept tables (Numbers), ratios() and number(value) of three digits, fixed(value, places), span(values, places), min, max, sum, len, zip and abs."""
 
 import functools
 import math
@@ -17,6 +17,7 @@ from ssrlab.text_files import path_inside, read_text
 from paper_tables import summary_file
 from paper_tables.agreement import kendall_tau
 from paper_tables.halving import halving_share
+from paper_tables.variance_shares import variance_shares
 from paper_tables.markdown import markdown, number, with_interval
 
 BLOCK = re.compile(r"(?P<head><!-- table (?P<study>\S+) (?P<name>\S+)(?: (?P<excerpt>\{[^\n]*\}))? -->\n)(?P<text>.*?)(?P<end><!-- end of table -->)", re.DOTALL)
@@ -127,8 +128,22 @@ class Numbers:
         share, *ends = (v if v is None else "0" if v == 0 else f"{v:.1f}" if v < 10 else f"{v:.0f}" for v in self.halving_share(*chosen))
         return share if None in ends else f"{share} [{', '.join(ends)}]"
 
+    def share_of_variance(self, study, table, kind, without=()):
+        """"share [low, high]" in percent of the variance of ln error over all pairs of two parts that is the first's, the second's or both
+        together's (variance_shares.py). Of a table of errors whose rows are shots and whose columns are "second, first, seed", of two
+        seeds; `without`: firsts and seconds that are left out."""
+        about, cells = self._table(study, table)
+        errors = {}
+        for c in cells:
+            second, first, seed = c.column.split(", ")
+            if not {first, second} & set(without):
+                errors.setdefault(c.row, {}).setdefault(seed, {})[first, second] = math.log(c.value)
+        scenes = [(about["assets"][shot], list(seeds.values())) for shot, seeds in errors.items()]
+        share, *ends = (v if v is None else f"{100 * v:.0f}" for v in variance_shares(scenes)[kind])
+        return share if None in ends else f"{share} [{', '.join(ends)}]"
+
     def text(self, expression):
-        names = {"cell": self.cell, "cells": self.cells, "shown": self.shown, "most": self.most, "first": self.first, "shots": self.shots, "rank_correlation": self.rank_correlation, "halving": self.halving, "halving_share": self.halving_share, "over_scenes": self.over_scenes}
+        names = {"cell": self.cell, "cells": self.cells, "shown": self.shown, "most": self.most, "first": self.first, "shots": self.shots, "rank_correlation": self.rank_correlation, "halving": self.halving, "halving_share": self.halving_share, "over_scenes": self.over_scenes, "share_of_variance": self.share_of_variance}
         names |= {"ratios": self.ratios, "number": number, "fixed": lambda value, places: f"{value:.{places}f}"}
         names["span"] = lambda values, places=2: f"{min(values):.{places}f} to {max(values):.{places}f}"
         names |= {"min": min, "max": max, "sum": sum, "len": len, "zip": zip, "abs": abs}

@@ -40,7 +40,12 @@ public:
         return stages;
     }
     std::string not_repeatable() const override { return amd_denoiser_not_repeatable(denoiser_); }
-    bool filters_by_motion() const override { return denoiser_.denoise; }
+    StageReads reads() const override {
+        StageReads reads{
+            .rays = "resolves/own_rays", .motion = {}, .specular = {"resolves/own_rays", "amd_sssr/classify"}};
+        if (denoiser_.denoise) reads.motion = {"amd_sssr/reproject"};
+        return reads;
+    }
 
 private:
     AmdDenoiserParameters denoiser_{params};

@@ -15,7 +15,7 @@ public:
     std::vector<std::string> stages() const override {
         return {"resolves/own_rays", "simple_ssr/blur_rows", "simple_ssr/blur_columns"};
     }
-    bool filters_by_motion() const override { return false; }
+    StageReads reads() const override { return {.rays = "resolves/own_rays", .motion = {}, .specular = stages()}; }
 
 private:
     SimpleBlurParameters blur_{params};

@@ -42,7 +42,12 @@ public:
         stages.push_back(is_guided ? "diligent_ssr/guided_cleanup" : "diligent_ssr/bilateral_cleanup");
         return stages;
     }
-    bool filters_by_motion() const override { return filter_.temporal_accumulation; }
+    StageReads reads() const override {
+        const std::string rays = "resolves/diligent_filters/ray_images";
+        StageReads reads{.rays = rays, .motion = {}, .specular = {rays, "diligent_ssr/mask"}};
+        if (filter_.temporal_accumulation) reads.motion = {"diligent_ssr/temporal_accumulation"};
+        return reads;
+    }
 
 private:
     DiligentFilterParameters filter_{params};

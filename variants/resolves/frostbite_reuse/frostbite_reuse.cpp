@@ -28,7 +28,11 @@ public:
         return stages;
     }
     bool draws_random_numbers() const override { return !resolve_.taps.is("1") && resolve_.pattern.is("rotated"); }
-    bool filters_by_motion() const override { return resolve_.temporal_filter; }
+    StageReads reads() const override {
+        StageReads reads{.rays = "frostbite_sssr/resolve", .motion = {}, .specular = {}};
+        if (resolve_.temporal_filter) reads.motion = {"frostbite_sssr/accumulate"};
+        return reads;
+    }
 
 private:
     FrostbiteResolveParameters resolve_{params};

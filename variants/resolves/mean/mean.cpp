@@ -9,7 +9,9 @@ public:
         return {radiance, radiance, 3};
     }
     std::vector<std::string> stages() const override { return {"resolves/own_rays"}; }
-    bool filters_by_motion() const override { return false; }
+    StageReads reads() const override {
+        return {.rays = "resolves/own_rays", .motion = {}, .specular = {"resolves/own_rays"}};
+    }
 };
 
 }  // namespace

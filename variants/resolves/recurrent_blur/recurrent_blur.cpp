@@ -45,7 +45,11 @@ public:
         return {"resolves/own_rays", "resolves/recurrent_blur/reproject", "resolves/recurrent_blur/blur"};
     }
     bool draws_random_numbers() const override { return blur_.spatial_filter; }
-    bool filters_by_motion() const override { return blur_.temporal_accumulation; }
+    StageReads reads() const override {
+        StageReads reads{.rays = "resolves/own_rays", .motion = {}, .specular = stages()};
+        if (blur_.temporal_accumulation) reads.motion = {"resolves/recurrent_blur/reproject"};
+        return reads;
+    }
 
 private:
     RecurrentBlurParameters blur_{params};
