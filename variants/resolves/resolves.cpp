@@ -12,6 +12,7 @@ ResolveEntry amd_denoiser_resolve();
 ResolveEntry diligent_filters_resolve();
 ResolveEntry frostbite_reuse_resolve();
 ResolveEntry recurrent_blur_resolve();
+ResolveEntry speed_accumulation_resolve();
 
 std::span<const ResolveEntry> resolve_table() {
     static const std::vector<ResolveEntry> table = {mean_resolve(),
@@ -19,7 +20,8 @@ std::span<const ResolveEntry> resolve_table() {
                                                     amd_denoiser_resolve(),
                                                     diligent_filters_resolve(),
                                                     frostbite_reuse_resolve(),
-                                                    recurrent_blur_resolve()};
+                                                    recurrent_blur_resolve(),
+                                                    speed_accumulation_resolve()};
     return table;
 }
 

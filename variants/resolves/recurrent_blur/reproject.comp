@@ -1,6 +1,5 @@
 // Where each pixel's reflection was in the frame before, and how many frames that holds. Two places are asked: where its
 // surface was, and where a flat mirror showed what its rays meet.
-#include "common/motion.glsl"
 #include "frostbite_sssr/previous_view.glsl"
 #include "resolves/recurrent_blur/ray_statistics.glsl"
 
@@ -30,13 +29,6 @@ Neighborhood neighborhood_of(ivec2 pixel) {
     vec2 moments = lengths.yz / max(lengths.x, 1.0);
     return Neighborhood(mean, sqrt(max(squares / 9.0 - mean * mean, 0.0)), moments.x,
                         sqrt(max(moments.y - moments.x * moments.x, 0.0)), 1.0 - lengths.x / 9.0);
-}
-
-// Pixels on the images of the frame before.
-vec2 image_position(vec2 uv) { return uv * camera.extent.xy - camera.jitter.zw; }
-
-vec2 surface_before(ivec2 pixel) {
-    return image_position(screen_from_pixel(pixel) * camera.extent.zw - motion_at(pixel));
 }
 
 // z: whether it was before the camera.

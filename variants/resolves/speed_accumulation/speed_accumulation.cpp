@@ -1,0 +1,64 @@
+#include "core/gbuffer/environment_images.h"
+#include "variants/resolves/resolve.h"
+#include "variants/resolves/speed_accumulation/parameters.h"
+
+namespace {
+
+class SpeedAccumulation final : public Resolve {
+public:
+    Reflections run(PassGraph& graph, const GBuffer& gbuffer, const ResolvedRays& rays) override {
+        const Buffer seen = graph.buffer("seen_rays", rays.traced.directions.size);  // both a vec4 per ray
+        const glm::uvec2 screen = graph.extent();
+        PassGraph::Pass pass = graph.compute("resolves/speed_accumulation/rays.comp");
+        pass.read(rays.color.as("hit_color")).use(rays.traced.directions).use(rays.traced.hits).use(seen);
+        bind_environment(pass, gbuffer).run(rays.draw.half_resolution ? (screen + 1u) / 2u : screen);
+
+        use_own_params(graph, rays.draw.values());
+        const PassGraph::History accumulated = graph.history("accumulated", Format::rgba32f),
+                                 age = graph.history("age", Format::r32f);
+        const Image gathered = graph.image("gathered", Format::rgba32f),
+                    target_motion = graph.image("target_motion", Format::rgba32f),
+                    reflections = graph.image("reflections", Format::rgba32f);
+        graph.compute("resolves/speed_accumulation/gather.comp")
+            .use(rays.traced.directions)
+            .use(rays.traced.hits)
+            .use(seen)
+            .write(gathered)
+            .write(target_motion)
+            .run();
+        graph.compute("resolves/speed_accumulation/accumulate.comp")
+            .read(gathered)
+            .read(target_motion)
+            .read(accumulated.previous)
+            .read(age.previous)
+            .write(accumulated.current)
+            .write(age.current)
+            .write(reflections)
+            .run();
+        return {reflections, reflections, 3};
+    }
+
+    std::vector<std::string> stages() const override {
+        return {"resolves/speed_accumulation/rays", "resolves/speed_accumulation/gather",
+                "resolves/speed_accumulation/accumulate"};
+    }
+    bool filters_by_motion() const override { return accumulation_.temporal_accumulation; }
+
+private:
+    SpeedAccumulationParameters accumulation_{params};
+    RayDrawParameters draw_{params};
+};
+
+}  // namespace
+
+ResolveEntry speed_accumulation_resolve() {
+    return {.name = "speed_accumulation",
+            .title = "A long mean of frames that speed cuts short",
+            .source = "Unity HDRP (2021-09), screen-space reflection with PBR accumulation; formulas alone",
+            .description =
+                "The mean of the rays of five pixels, blended into what the same pixel reflected before; the faster "
+                "the surface or what its ray met moves, the less of that is left.",
+            .folder = "variants/resolves/speed_accumulation/",
+            .declare = [](ParameterSet& params) { SpeedAccumulationParameters{params}; },
+            .create = [] { return std::make_unique<SpeedAccumulation>(); }};
+}
