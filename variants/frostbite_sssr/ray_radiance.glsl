@@ -4,6 +4,7 @@
 #include "core/shaders/gbuffer/environment.glsl"
 #include "frostbite_sssr/lobe_cone.h"
 #include "frostbite_sssr/reuse.glsl"
+#include "resolves/pixel_scale.glsl"
 
 uniform sampler2D color_pyramid;
 
@@ -14,12 +15,6 @@ float cone_tangent(Surface surface) {
     float tangent = cone_scale * lobe_cone_tangent(alpha, importance_bias);
     if (is_published) return tangent * mix(clamp(2.0 * surface.o.z, 0.0, 1.0), 1.0, sqrt(surface.roughness));
     return is_of_lobe ? tangent * lobe_cone_narrowing(surface.o.z) : tangent;
-}
-
-// Pixels of the screen per metre across the view at a view-space position.
-float pixels_per_metre(vec3 position) {
-    float w = (camera.clip_from_view * vec4(position, 1.0)).w;
-    return 0.5 * camera.extent.y * abs(camera.clip_from_view[1][1]) / max(w, 1e-6);
 }
 
 // A texel of level n stands for 2^n pixels, and reading it between texels widens it to twice as many.

@@ -13,6 +13,7 @@ ResolveEntry diligent_filters_resolve();
 ResolveEntry frostbite_reuse_resolve();
 ResolveEntry recurrent_blur_resolve();
 ResolveEntry speed_accumulation_resolve();
+ResolveEntry cone_mips_resolve();
 
 std::span<const ResolveEntry> resolve_table() {
     static const std::vector<ResolveEntry> table = {mean_resolve(),
@@ -21,7 +22,8 @@ std::span<const ResolveEntry> resolve_table() {
                                                     diligent_filters_resolve(),
                                                     frostbite_reuse_resolve(),
                                                     recurrent_blur_resolve(),
-                                                    speed_accumulation_resolve()};
+                                                    speed_accumulation_resolve(),
+                                                    cone_mips_resolve()};
     return table;
 }
 
