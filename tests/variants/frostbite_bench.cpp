@@ -2,6 +2,20 @@
 
 #include <bit>
 
+TracedRays upload_rays(PassGraph& graph, const std::vector<StoredRay>& rays) {
+    std::vector<glm::vec4> directions;
+    std::vector<glm::uvec4> hits;
+    for (const StoredRay& ray : rays) {
+        directions.emplace_back(ray.direction, ray.inverse_density);
+        hits.emplace_back(ray.target, std::bit_cast<unsigned>(ray.length), std::bit_cast<unsigned>(ray.confidence), 0);
+    }
+    const TracedRays stored{graph.buffer("directions", directions.size() * sizeof directions[0]),
+                            graph.buffer("hits", hits.size() * sizeof hits[0])};
+    graph.upload(stored.directions, std::as_bytes(std::span(directions)));
+    graph.upload(stored.hits, std::as_bytes(std::span(hits)));
+    return stored;
+}
+
 FrostbiteBench::FrostbiteBench(Device& device, const CameraPose& pose, const FrameView& view,
                                const SyntheticScene& scene, const nlohmann::json& parameters)
     : graph(device, view.extent),
@@ -35,17 +49,8 @@ ResolvedFrame FrostbiteBench::resolve(const std::vector<StoredRay>& rays, const 
 }
 
 ResolvedFrame FrostbiteBench::resolve(const std::vector<StoredRay>& rays, const Image& color) {
-    std::vector<glm::vec4> directions;
-    std::vector<glm::uvec4> hits;
-    for (const StoredRay& ray : rays) {
-        directions.emplace_back(ray.direction, ray.inverse_density);
-        hits.emplace_back(ray.target, std::bit_cast<unsigned>(ray.length), std::bit_cast<unsigned>(ray.confidence), 0);
-    }
     graph.begin_frame(camera, params, gbuffer.images());
-    const TracedRays stored{graph.buffer("directions", directions.size() * sizeof directions[0]),
-                            graph.buffer("hits", hits.size() * sizeof hits[0])};
-    graph.upload(stored.directions, std::as_bytes(std::span(directions)));
-    graph.upload(stored.hits, std::as_bytes(std::span(hits)));
+    const TracedRays stored = upload_rays(graph, rays);
     const FrostbiteResolved resolved = frostbite_resolve(
         graph, gbuffer, color, split_sum_.on(graph), horizon_.on(graph, ray_parameters), stored, resolve_parameters);
     return {graph.download(resolved.radiance), graph.download(resolved.reflection_depth)};

@@ -14,6 +14,9 @@ struct StoredRay {
 };
 inline constexpr unsigned ray_missed = 0xffffffff, ray_below_horizon = 0xfffffffe, ray_into_surface = 0xfffffffd;
 
+/// `rays`: max_rays for each traced pixel.
+TracedRays upload_rays(PassGraph& graph, const std::vector<StoredRay>& rays);
+
 struct ResolvedFrame {
     HostImage radiance, length;
 };

@@ -7,9 +7,8 @@
 // length of 0 stands for infinity.
 Place mirror_image_before(ivec2 pixel, float ray_length) {
     vec3 position = view_position(pixel), towards_surface = view_direction(position);
-    vec4 image = ray_length > 0.0 ? vec4(position + ray_length * towards_surface, 1.0) : vec4(towards_surface, 0.0);
-    vec4 clip = camera.previous_clip_from_world * (camera.world_from_view * image);
-    return Place(image_position(clip.xy / clip.w * 0.5 + 0.5), clip.w > 0.0);
+    return place_before(ray_length > 0.0 ? vec4(position + ray_length * towards_surface, 1.0)
+                                         : vec4(towards_surface, 0.0));
 }
 
 // Rays that meet nothing on the screen show the environment, if anything. To an orthographic camera a plane mirrors the

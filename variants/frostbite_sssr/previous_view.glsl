@@ -2,19 +2,11 @@
 #ifndef FROSTBITE_SSSR_PREVIOUS_VIEW_GLSL
 #define FROSTBITE_SSSR_PREVIOUS_VIEW_GLSL
 #include "common/mirror_ray.glsl"
-#include "common/motion.glsl"
 
 uniform sampler2D previous_depth;
 
 vec4 world_position(ivec2 pixel) {
     return vec4(world_from_screen(screen_from_pixel(pixel) * camera.extent.zw, texelFetch(depth, pixel, 0).r), 1.0);
-}
-
-// Where on the previous frame's images a point of its screen is, both in pixels.
-vec2 image_position(vec2 uv) { return uv * camera.extent.xy - camera.jitter.zw; }
-
-vec2 surface_before(ivec2 pixel) {
-    return image_position(screen_from_pixel(pixel) * camera.extent.zw - motion_at(pixel));
 }
 
 // From here on all is in the previous camera's view space.

@@ -4,6 +4,7 @@
 #include "frostbite_sssr/previous_view.glsl"
 #include "resolves/hit_color.glsl"
 #include "resolves/ray.glsl"
+#include "resolves/solid_angle.glsl"
 #include "frostbite_sssr/surface.glsl"
 
 // All of a ray that does not depend on who resolves it. View space.
@@ -36,15 +37,6 @@ struct OwnRay {
     float ray_length;       // m; 0: nothing was hit
 };
 
-// dA = d^2 dw / |cos|, of the same area of the hit surface for both origins.
-float solid_angle_ratio(ReusedRay ray, OwnRay own) {
-    const float least_cosine = 1e-3;  // a pixel's normal says no more about surfaces seen edge-on
-    float from = max(abs(dot(ray.hit_normal, ray.traced.direction)), least_cosine);
-    float to = max(abs(dot(ray.hit_normal, own.direction)), least_cosine);
-    float lengths = ray.traced.ray_length / own.ray_length;
-    return lengths * lengths * to / from;
-}
-
 OwnRay as_own_ray(Surface surface, ReusedRay ray) {
     OwnRay own = OwnRay(ray.traced.direction, ray.traced.inverse_density, 0.0);
     if (!is_hit(ray.traced)) return own;
@@ -56,7 +48,9 @@ OwnRay as_own_ray(Surface surface, ReusedRay ray) {
     if (!is_reaimed || to_hit_length == 0.0) return own;
     own.direction = to_hit / to_hit_length;
     own.ray_length = to_hit_length;
-    if (reuse_jacobian) own.inverse_density *= solid_angle_ratio(ray, own);
+    float length_ratio = ray.traced.ray_length / own.ray_length;
+    if (reuse_jacobian)
+        own.inverse_density *= solid_angle_ratio(ray.hit_normal, ray.traced.direction, own.direction, length_ratio);
     return own;
 }
 #endif

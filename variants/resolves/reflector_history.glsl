@@ -2,16 +2,12 @@
 #ifndef RESOLVES_REFLECTOR_HISTORY_GLSL
 #define RESOLVES_REFLECTOR_HISTORY_GLSL
 #include "frostbite_sssr/previous_view.glsl"
+#include "resolves/place_before.glsl"
 
 // Texels of previous_accumulated: colour times confidence, confidence; the latter negative where nothing reflected.
 uniform sampler2D previous_accumulated, previous_normal;
 
 const vec4 no_reflection = vec4(0.0, 0.0, 0.0, -1.0);
-
-struct Place {
-    vec2 position;  // pixels
-    bool is_known;
-};
 
 // As the previous camera would see it: positions and the geometric normal in its view space, the shading normal in
 // world space.

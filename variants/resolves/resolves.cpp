@@ -14,6 +14,7 @@ ResolveEntry frostbite_reuse_resolve();
 ResolveEntry recurrent_blur_resolve();
 ResolveEntry speed_accumulation_resolve();
 ResolveEntry cone_mips_resolve();
+ResolveEntry ratio_filter_resolve();
 
 std::span<const ResolveEntry> resolve_table() {
     static const std::vector<ResolveEntry> table = {mean_resolve(),
@@ -23,7 +24,8 @@ std::span<const ResolveEntry> resolve_table() {
                                                     frostbite_reuse_resolve(),
                                                     recurrent_blur_resolve(),
                                                     speed_accumulation_resolve(),
-                                                    cone_mips_resolve()};
+                                                    cone_mips_resolve(),
+                                                    ratio_filter_resolve()};
     return table;
 }
 

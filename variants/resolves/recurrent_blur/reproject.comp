@@ -1,6 +1,7 @@
 // Where each pixel's reflection was in the frame before, and how many frames that holds. Two places are asked: where its
 // surface was, and where a flat mirror showed what its rays meet.
 #include "frostbite_sssr/previous_view.glsl"
+#include "resolves/place_before.glsl"
 #include "resolves/recurrent_blur/ray_statistics.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -31,14 +32,11 @@ Neighborhood neighborhood_of(ivec2 pixel) {
                         sqrt(max(moments.y - moments.x * moments.x, 0.0)), 1.0 - lengths.x / 9.0);
 }
 
-// z: whether it was before the camera.
-vec3 mirror_image_before(vec3 position, Neighborhood around) {
+Place mirror_image_before(vec3 position, Neighborhood around) {
     vec3 towards_surface = view_direction(position);
     bool is_infinite = reproject_misses && around.share_of_misses == 1.0;
-    vec4 image = is_infinite ? vec4(towards_surface, 0.0)
-                             : vec4(position + around.mean_length * towards_surface, 1.0);
-    vec4 clip = camera.previous_clip_from_world * (camera.world_from_view * image);
-    return vec3(image_position(clip.xy / clip.w * 0.5 + 0.5), clip.w > 0.0 ? 1.0 : 0.0);
+    return place_before(is_infinite ? vec4(towards_surface, 0.0)
+                                    : vec4(position + around.mean_length * towards_surface, 1.0));
 }
 
 struct History {
@@ -118,10 +116,10 @@ Found reproject(ivec2 pixel, vec4 traced) {
     vec3 position = view_position(pixel);
     Neighborhood around = neighborhood_of(pixel);
     vec2 surface_place = surface_before(pixel);
-    vec3 mirror_place = mirror_image_before(position, around);
+    Place mirror_place = mirror_image_before(position, around);
     float moved = clamp(length(motion_at(pixel) * camera.extent.xy) / 128.0, 0.0, 1.0);
     History on_surface = history_at(pixel, surface_place);
-    History in_mirror = mirror_place.z > 0.0 ? history_at(pixel, mirror_place.xy) : no_history;
+    History in_mirror = mirror_place.is_known ? history_at(pixel, mirror_place.position) : no_history;
 
     float unit = scale_free ? max(around.mean_length, 1e-6) : 1.0;
     float scatter = max(around.length_deviation / unit, 1e-3);
