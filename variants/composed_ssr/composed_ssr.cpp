@@ -128,6 +128,24 @@ const nlohmann::json frostbite_values = {{"clamp_scale", 5.017},     {"filtered_
 const nlohmann::json recurrent_values = {
     {"scale_free", true}, {"reproject_misses", true}, {"flicker_suppression", 0}, {"damp_fireflies", false}};
 
+const nlohmann::json ratio_values = {
+    {"averages", "linear"}, {"bilateral_filter", false}, {"neighbor_ray", "direction"}, {"sharp_mirrors", true}};
+
+const nlohmann::json speed_values = {{"average_confidence", true}, {"average_evenly", true},
+                                     {"misses_stand_still", true}, {"depth_of_target", true},
+                                     {"reproject_history", true},  {"local_frame", true}};
+
+const nlohmann::json cone_values = {{"square_lengths", true},  {"lobe_cone", true},      {"even_weights", true},
+                                    {"tone_map_colors", true}, {"average_linear", true}, {"exact_upsampling", true},
+                                    {"fade_begin", 1.0}};
+
+/// Behind the mirror rays that it is made for.
+Preset cone_mips_preset() {
+    Preset preset = preset_of("cone_mips", "mirror rays, and Godot's values with its defects fixed", cone_values);
+    preset.parameters["draw_directions"] = false;
+    return preset;
+}
+
 }  // namespace
 
 VariantEntry composed_ssr_entry() {
@@ -147,7 +165,11 @@ VariantEntry composed_ssr_entry() {
                     preset_of("recurrent_blur",
                               "three.js's values, with lengths and colours in proportion, misses reprojected, and "
                               "nothing that darkens",
-                              recurrent_values)},
+                              recurrent_values),
+                    preset_of("ratio_filter", "EEVEE's values, with linear averages and without its bilateral filter",
+                              ratio_values),
+                    preset_of("speed_accumulation", "HDRP's values, with its defects fixed", speed_values),
+                    cone_mips_preset()},
         .create = [] { return std::make_unique<ComposedSsr>(); },
     };
 }

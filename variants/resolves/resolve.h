@@ -26,6 +26,9 @@ struct OwnRays {
 };
 OwnRays average_own_rays(PassGraph& graph, const GBuffer& gbuffer, const ResolvedRays& rays);
 
+/// What each ray sees, for resolves whose pixels share rays: the buffer `seen_rays` of seen_rays.glsl.
+Buffer see_rays(PassGraph& graph, const GBuffer& gbuffer, const ResolvedRays& rays);
+
 /// Which stages of a resolve read what a scene may not need.
 struct StageReads {
     std::string rays;                   ///< what rays see, and so the environment and the motion of hits, if at all

@@ -72,6 +72,15 @@ OwnRays average_own_rays(PassGraph& graph, const GBuffer& gbuffer, const Resolve
     return own;
 }
 
+Buffer see_rays(PassGraph& graph, const GBuffer& gbuffer, const ResolvedRays& rays) {
+    const Buffer seen = graph.buffer("seen_rays", rays.traced.directions.size);  // both a vec4 per ray
+    const glm::uvec2 screen = graph.extent();
+    PassGraph::Pass pass = graph.compute("resolves/see_rays.comp");
+    pass.read(rays.color.as("hit_color")).use(rays.traced.directions).use(rays.traced.hits).use(seen);
+    bind_environment(pass, gbuffer).run(rays.draw.half_resolution ? (screen + 1u) / 2u : screen);
+    return seen;
+}
+
 void Resolve::use_own_params(PassGraph& graph, const nlohmann::json& given) {
     params.assign(given);
     graph.set_params(params);

@@ -45,7 +45,11 @@ public:
         return {"resolves/own_rays", "resolves/cone_mips/compress", "resolves/cone_mips/blur",
                 "resolves/cone_mips/fetch"};
     }
-    bool filters_by_motion() const override { return false; }
+    StageReads reads() const override {
+        return {.rays = "resolves/own_rays",
+                .motion = {},
+                .specular = {"resolves/own_rays", "resolves/cone_mips/compress", "resolves/cone_mips/fetch"}};
+    }
 
 private:
     ConeMipsParameters mips_{params};

@@ -1,4 +1,3 @@
-#include "core/gbuffer/environment_images.h"
 #include "variants/resolves/ratio_filter/parameters.h"
 #include "variants/resolves/resolve.h"
 
@@ -7,7 +6,7 @@ namespace {
 class RatioFilter final : public Resolve {
 public:
     Reflections run(PassGraph& graph, const GBuffer& gbuffer, const ResolvedRays& rays) override {
-        const Image ray_seen = see_rays(graph, gbuffer, rays);
+        const Buffer seen = see_rays(graph, gbuffer, rays);
         use_own_params(graph, rays.draw.values());
         const Image resolved = graph.image("resolved", Format::rgba32f),
                     resolved_variance = graph.image("resolved_variance", Format::r32f),
@@ -16,9 +15,9 @@ public:
         const PassGraph::History accumulated = graph.history("accumulated", Format::rgba32f),
                                  variance = graph.history("accumulated_variance", Format::r32f);
         graph.compute("resolves/ratio_filter/spatial.comp")
-            .read(ray_seen)
             .use(rays.traced.directions)
             .use(rays.traced.hits)
+            .use(seen)
             .write(resolved)
             .write(resolved_variance)
             .write(resolved_length)
@@ -42,23 +41,17 @@ public:
     }
 
     std::vector<std::string> stages() const override {
-        return {"resolves/ratio_filter/rays", "resolves/ratio_filter/spatial", "resolves/ratio_filter/temporal",
+        return {"resolves/see_rays", "resolves/ratio_filter/spatial", "resolves/ratio_filter/temporal",
                 "resolves/ratio_filter/bilateral"};
     }
     bool draws_random_numbers() const override { return filter_.spatial_reuse || filter_.bilateral_filter; }
-    bool filters_by_motion() const override { return filter_.temporal_accumulation && filter_.follow_motion; }
-
-private:
-    static Image see_rays(PassGraph& graph, const GBuffer& gbuffer, const ResolvedRays& rays) {
-        const glm::uvec2 screen = graph.extent(), traced = rays.draw.half_resolution ? (screen + 1u) / 2u : screen;
-        const Image ray_seen =
-            graph.image_of("ray_seen", Format::rgba32f, {traced.x * unsigned(rays.draw.max_rays), traced.y});
-        PassGraph::Pass pass = graph.compute("resolves/ratio_filter/rays.comp");
-        pass.read(rays.color.as("hit_color")).use(rays.traced.directions).use(rays.traced.hits).write(ray_seen);
-        bind_environment(pass, gbuffer).run(traced);
-        return ray_seen;
+    StageReads reads() const override {
+        StageReads reads{.rays = "resolves/see_rays", .motion = {}, .specular = {"resolves/ratio_filter/spatial"}};
+        if (filter_.temporal_accumulation && filter_.follow_motion) reads.motion = {"resolves/ratio_filter/temporal"};
+        return reads;
     }
 
+private:
     RatioFilterParameters filter_{params};
     RayDrawParameters draw_{params};
 };

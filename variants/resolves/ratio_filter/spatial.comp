@@ -4,10 +4,10 @@
 #include "common/mirror_ray.glsl"
 #include "resolves/ratio_filter/averages.glsl"
 #include "resolves/ratio_filter/taps.glsl"
+#include "resolves/seen_rays.glsl"
 #include "resolves/solid_angle.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-uniform sampler2D ray_seen;
 uniform writeonly image2D resolved, resolved_variance, resolved_length;
 
 // What a pixel is to the rays that it weighs. View space.
@@ -121,7 +121,8 @@ Sums sums_of(ivec2 pixel, Receiver receiver) {
         if (any(lessThan(traced, ivec2(0))) || any(greaterThanEqual(traced, traced_extent()))) continue;
         ivec2 traced_from = traced_pixel(traced, camera.frame.x);
         for (uint k = 0u; k < max_rays; ++k) {
-            vec4 seen = texelFetch(ray_seen, ivec2(traced.x * int(max_rays) + int(k), traced.y), 0);
+            vec4 seen = seen_by_ray[index_of_ray(traced, k)];
+            seen.rgb = min(seen.rgb, largest_radiance);
             add_ray(sums, receiver, pixel, traced_from, load_ray(index_of_ray(traced, k)), seen);
         }
     }

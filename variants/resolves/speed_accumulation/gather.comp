@@ -3,9 +3,9 @@
 #include "common/mirror_ray.glsl"
 #include "common/motion.glsl"
 #include "resolves/ray.glsl"
+#include "resolves/seen_rays.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-buffer seen_rays { vec4 seen_by_ray[]; };
 uniform writeonly image2D gathered;       // radiance times confidence, confidence
 uniform writeonly image2D target_motion;  // xy uv, as `motion`; z distance from the camera's plane (m)
 

@@ -1,4 +1,3 @@
-#include "core/gbuffer/environment_images.h"
 #include "variants/resolves/resolve.h"
 #include "variants/resolves/speed_accumulation/parameters.h"
 
@@ -7,12 +6,7 @@ namespace {
 class SpeedAccumulation final : public Resolve {
 public:
     Reflections run(PassGraph& graph, const GBuffer& gbuffer, const ResolvedRays& rays) override {
-        const Buffer seen = graph.buffer("seen_rays", rays.traced.directions.size);  // both a vec4 per ray
-        const glm::uvec2 screen = graph.extent();
-        PassGraph::Pass pass = graph.compute("resolves/speed_accumulation/rays.comp");
-        pass.read(rays.color.as("hit_color")).use(rays.traced.directions).use(rays.traced.hits).use(seen);
-        bind_environment(pass, gbuffer).run(rays.draw.half_resolution ? (screen + 1u) / 2u : screen);
-
+        const Buffer seen = see_rays(graph, gbuffer, rays);
         use_own_params(graph, rays.draw.values());
         const PassGraph::History accumulated = graph.history("accumulated", Format::rgba32f),
                                  age = graph.history("age", Format::r32f);
@@ -39,10 +33,13 @@ public:
     }
 
     std::vector<std::string> stages() const override {
-        return {"resolves/speed_accumulation/rays", "resolves/speed_accumulation/gather",
-                "resolves/speed_accumulation/accumulate"};
+        return {"resolves/see_rays", "resolves/speed_accumulation/gather", "resolves/speed_accumulation/accumulate"};
     }
-    bool filters_by_motion() const override { return accumulation_.temporal_accumulation; }
+    StageReads reads() const override {
+        const std::string gather = "resolves/speed_accumulation/gather",
+                          accumulate = "resolves/speed_accumulation/accumulate";
+        return {.rays = "resolves/see_rays", .motion = {gather, accumulate}, .specular = {gather, accumulate}};
+    }
 
 private:
     SpeedAccumulationParameters accumulation_{params};

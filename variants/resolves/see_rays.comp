@@ -1,8 +1,8 @@
-// What each ray sees, asked once though five pixels use it.
+// What each ray sees, asked once for all pixels that reuse it.
 #include "resolves/seen.glsl"
+#include "resolves/seen_rays.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-buffer seen_rays { vec4 seen_by_ray[]; };  // by index of the ray: radiance, confidence
 
 bool is_radiance(vec3 color) {
     return !any(isnan(color)) && !any(isinf(color)) && all(greaterThanEqual(color, vec3(0.0)));
@@ -16,7 +16,7 @@ void main() {
         TracedRay ray = load_ray(index_of_ray(traced, k));
         Seen seen = Seen(vec3(0.0), 0.0);
         if (ray.inverse_density != 0.0 && ray.target != ray_below_horizon) seen = seen_by(pixel, ray);
-        vec3 radiance = is_radiance(seen.radiance) ? seen.radiance : vec3(0.0);  // as HDRP, such colours count as black
+        vec3 radiance = is_radiance(seen.radiance) ? seen.radiance : vec3(0.0);
         seen_by_ray[index_of_ray(traced, k)] = vec4(radiance, seen.confidence);
     }
 }
