@@ -169,7 +169,8 @@ VariantEntry composed_ssr_entry() {
                     preset_of("ratio_filter", "EEVEE's values, with linear averages and without its bilateral filter",
                               ratio_values),
                     preset_of("speed_accumulation", "HDRP's values, with its defects fixed", speed_values),
-                    cone_mips_preset()},
+                    cone_mips_preset(),
+                    preset_of("reservoirs", "kajiya's values, as far as they have a place here", {})},
         .create = [] { return std::make_unique<ComposedSsr>(); },
     };
 }

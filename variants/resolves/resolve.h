@@ -26,6 +26,14 @@ struct OwnRays {
 };
 OwnRays average_own_rays(PassGraph& graph, const GBuffer& gbuffer, const ResolvedRays& rays);
 
+/// One ray of each pixel, another one every frame; black where there is none.
+struct RayImages {
+    Image radiance;   ///< `ray_radiance`, rgba32f: rgb what it sees times the share of it that is known, a that share
+    Image direction;  ///< `ray_direction`, rgba32f: xyz direction times length (m, world space; of a miss the far
+                      ///< plane's distance), w density of that direction in the whole lobe (sr^-1)
+};
+RayImages ray_images(PassGraph& graph, const GBuffer& gbuffer, const ResolvedRays& rays);
+
 /// What each ray sees, for resolves whose pixels share rays: the buffer `seen_rays` of seen_rays.glsl.
 Buffer see_rays(PassGraph& graph, const GBuffer& gbuffer, const ResolvedRays& rays);
 

@@ -15,6 +15,7 @@ ResolveEntry recurrent_blur_resolve();
 ResolveEntry speed_accumulation_resolve();
 ResolveEntry cone_mips_resolve();
 ResolveEntry ratio_filter_resolve();
+ResolveEntry reservoirs_resolve();
 
 std::span<const ResolveEntry> resolve_table() {
     static const std::vector<ResolveEntry> table = {mean_resolve(),
@@ -25,7 +26,8 @@ std::span<const ResolveEntry> resolve_table() {
                                                     recurrent_blur_resolve(),
                                                     speed_accumulation_resolve(),
                                                     cone_mips_resolve(),
-                                                    ratio_filter_resolve()};
+                                                    ratio_filter_resolve(),
+                                                    reservoirs_resolve()};
     return table;
 }
 
@@ -70,6 +72,18 @@ OwnRays average_own_rays(PassGraph& graph, const GBuffer& gbuffer, const Resolve
         .write(own.ray_length);
     bind_environment(pass, gbuffer).run();
     return own;
+}
+
+RayImages ray_images(PassGraph& graph, const GBuffer& gbuffer, const ResolvedRays& rays) {
+    const RayImages images{graph.image("ray_radiance", Format::rgba32f), graph.image("ray_direction", Format::rgba32f)};
+    PassGraph::Pass pass = graph.compute("resolves/ray_images.comp");
+    pass.read(rays.color.as("hit_color"))
+        .use(rays.traced.directions)
+        .use(rays.traced.hits)
+        .write(images.radiance)
+        .write(images.direction);
+    bind_environment(pass, gbuffer).run();
+    return images;
 }
 
 Buffer see_rays(PassGraph& graph, const GBuffer& gbuffer, const ResolvedRays& rays) {

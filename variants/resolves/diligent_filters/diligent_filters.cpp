@@ -1,4 +1,3 @@
-#include "core/gbuffer/environment_images.h"
 #include "variants/diligent_ssr/passes.h"
 #include "variants/resolves/resolve.h"
 
@@ -9,23 +8,15 @@ namespace {
 class DiligentFilters final : public Resolve {
 public:
     Reflections run(PassGraph& graph, const GBuffer& gbuffer, const ResolvedRays& rays) override {
-        const DiligentRays images{.radiance = graph.image("ray_radiance", Format::rgba32f),
-                                  .direction = graph.image("ray_direction", Format::rgba32f)};
-        PassGraph::Pass pass = graph.compute("resolves/diligent_filters/ray_images.comp");
-        pass.read(rays.color.as("hit_color"))
-            .use(rays.traced.directions)
-            .use(rays.traced.hits)
-            .write(images.radiance)
-            .write(images.direction);
-        bind_environment(pass, gbuffer).run();
-
+        const RayImages images = ray_images(graph, gbuffer, rays);
         use_own_params(graph, {{"roughness_threshold", float(rays.draw.max_roughness)},
                                {"float_roughness", true},
                                {"premultiply_confidence", true},
                                {"half_resolution", false}});
         const Image reprojected_depth = diligent_reprojected_depth(graph, gbuffer);
         const DiligentMask mask = diligent_mask(graph, gbuffer, tracing_, filter_);
-        const DiligentResolved resolved = diligent_reconstruct(graph, gbuffer, images, mask, filter_);
+        const DiligentResolved resolved =
+            diligent_reconstruct(graph, gbuffer, {images.radiance, images.direction}, mask, filter_);
         const DiligentHistories histories = diligent_histories(graph, filter_);
         diligent_accumulate(graph, gbuffer, reprojected_depth, resolved, histories, mask, filter_);
         const Image reflections =
@@ -35,15 +26,14 @@ public:
 
     std::vector<std::string> stages() const override {
         const bool is_guided = filter_.bilateral_cleanup && filter_.cleanup.is("guided");
-        std::vector<std::string> stages = {"resolves/diligent_filters/ray_images", "diligent_ssr/reprojected_depth",
-                                           "diligent_ssr/mask", "diligent_ssr/spatial_reconstruction",
-                                           "diligent_ssr/temporal_accumulation"};
+        std::vector<std::string> stages = {"resolves/ray_images", "diligent_ssr/reprojected_depth", "diligent_ssr/mask",
+                                           "diligent_ssr/spatial_reconstruction", "diligent_ssr/temporal_accumulation"};
         if (is_guided) stages.push_back("diligent_ssr/guided_coefficients");
         stages.push_back(is_guided ? "diligent_ssr/guided_cleanup" : "diligent_ssr/bilateral_cleanup");
         return stages;
     }
     StageReads reads() const override {
-        const std::string rays = "resolves/diligent_filters/ray_images";
+        const std::string rays = "resolves/ray_images";
         StageReads reads{.rays = rays, .motion = {}, .specular = {rays, "diligent_ssr/mask"}};
         if (filter_.temporal_accumulation) reads.motion = {"diligent_ssr/temporal_accumulation"};
         return reads;

@@ -1,7 +1,6 @@
 // History and rays are blurred by the same eight neighbours and blended; the result is the next frame's history, so that
 // it is blurred again, by a disk that shrinks while it ages.
-#include "common/halton.h"
-#include "core/shared/brdf.h"
+#include "resolves/lobe_disk.glsl"
 #include "resolves/recurrent_blur/ray_statistics.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -9,7 +8,6 @@ uniform sampler2D reprojected, reprojected_age;
 uniform writeonly image2D blurred, age, reflections;
 
 const int tap_count = 8;
-const float golden_angle = 2.399827721492203;
 const float miss_length = 0.25;  // m, or with scale_free of the distance: what a ray without a hit counts as
 
 // Of a pixel and the four next to it.
@@ -83,22 +81,10 @@ float disk_radius(Receiver receiver, Cross around) {
 mat2x3 disk_axes(Receiver receiver) {
     vec3 view = view_direction(receiver.position);
     vec3 axis = normalize(mix(receiver.normal, reflect(view, receiver.normal), 1.0 - receiver.roughness));
-    vec3 seen = reflect(-axis, receiver.normal), across = cross(receiver.normal, seen);
-    if (dot(across, across) < 1e-6) {
-        mat3 basis = basis_from_normal(receiver.normal);
-        return mat2x3(basis[0], basis[1]);
-    }
-    vec3 tangent = normalize(across);
+    mat2x3 axes = disk_towards(axis, receiver.normal);
     float grazing = acos(clamp(abs(receiver.normal.z), 0.0, 1.0)) / (0.5 * pi);
-    return mat2x3(tangent * mix(1.0, receiver.roughness, grazing), cross(seen, tangent));
-}
-
-// Low-discrepancy over pixels, which moves from frame to frame (Roberts 2018); radians.
-float rotation_of(ivec2 pixel) {
-    const vec2 steps = vec2(0.7548776662, 0.5698402910);
-    uint index = camera.frame.x + pcg4d(uvec4(camera.frame.y, 0u, 0u, 0u)).x % 1024u;
-    vec2 shifted = mod(vec2(pixel) + floor(32.0 * fract(float(index) * steps)), 32.0);
-    return 2.0 * pi * fract(dot(shifted, steps));
+    axes[0] *= mix(1.0, receiver.roughness, grazing);
+    return axes;
 }
 
 float neighbor_weight(Receiver receiver, vec4 own, ivec2 neighbor) {

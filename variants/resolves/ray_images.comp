@@ -1,5 +1,4 @@
-// One ray of each pixel as DiligentFX's filters read it: DiligentRays of diligent_ssr/passes.h. Its density is that of
-// the whole lobe, as there. With several rays per pixel another one every frame.
+// One ray of each pixel as an image: RayImages of resolve.h. With several rays per pixel another one every frame.
 #include "resolves/seen.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
