@@ -1,6 +1,7 @@
 #include "core/error.h"
 #include "core/gpu/pipelines/double_shader.h"
 #include "tests/variants/variant_fixture.h"
+#include "variants/resolves/resolves.h"
 
 #include <filesystem>
 #include <fstream>
@@ -19,7 +20,7 @@ std::string contents(const std::filesystem::path& file) {
 /// The converted text with its doubles called floats again, and without what converting adds.
 std::string narrowed(std::string text) {
     const std::pair<const char*, const char*> changes[] = {{R"(\bdouble\b)", "float"},
-                                                           {R"(\bd((vec|mat)[234])\b)", "$1"},
+                                                           {R"(\bd((vec|mat)[234](x[234])?)\b)", "$1"},
                                                            {R"((\d|\.)LF\b)", "$1"},
                                                            {R"(\bwide_(\w+)\b)", "$1"},
                                                            {R"(= vec4\( (vec4\([^;]*\))\);)", "= $1;"}};
@@ -49,14 +50,23 @@ TEST(DoublePrecision, OfEveryShaderOnlyTypesChange) {
 
 /// So that `ssrlab stability --precision` can say something of every stage of every technique.
 TEST(DoublePrecision, EveryShaderCompiles) {
+    size_t count = 0;
+    const auto compile_all = [&](const std::string& folder, const ParameterSet& params,
+                                 const ShaderIncludes& includes) {
+        for (const auto& file : std::filesystem::directory_iterator(variants / folder)) {
+            if (file.path().extension() != ".comp" && file.path().extension() != ".frag") continue;
+            const std::string name = folder + "/" + file.path().filename().string();
+            EXPECT_NO_THROW(compile(name, "", shader_prelude(params), includes, ShaderLanguage::vulkan,
+                                    {.is_double = true, .image_formats = {}}))
+                << name;
+            ++count;
+        }
+    };
     for (const VariantEntry& entry : variant_table()) {
         const std::unique_ptr<Variant> variant = make_variant(entry.name, {}, "");
-        for (const auto& file : std::filesystem::directory_iterator(variants / entry.name)) {
-            if (file.path().extension() != ".comp" && file.path().extension() != ".frag") continue;
-            const std::string name = entry.name + "/" + file.path().filename().string();
-            EXPECT_NO_THROW(compile(name, "", shader_prelude(variant->params), variant->shader_includes(),
-                                    ShaderLanguage::vulkan, {.is_double = true, .image_formats = {}}))
-                << name;
-        }
+        compile_all(entry.name, variant->params, variant->shader_includes());
     }
+    compile_all("resolves", make_variant("composed_ssr")->params, {});  // what reads rays
+    for (const ResolveEntry& entry : resolve_table()) compile_all("resolves/" + entry.name, entry.create()->params, {});
+    EXPECT_GT(count, 50u);
 }

@@ -5,6 +5,10 @@
 
 uniform sampler2D previous_depth;
 
+vec4 world_position(ivec2 pixel) {
+    return vec4(world_from_screen(screen_from_pixel(pixel) * camera.extent.zw, texelFetch(depth, pixel, 0).r), 1.0);
+}
+
 // From here on all is in the previous camera's view space.
 vec3 geometric_normal_before(ivec2 pixel) {
     return mat3(camera.previous_view_from_world) * texelFetch(geometric_normal, pixel, 0).xyz;

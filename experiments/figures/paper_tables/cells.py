@@ -16,6 +16,7 @@ from paper_tables.means import ASSETS, SAMPLED, largest, mean
 SOURCES = {  # name to (file, columns of value, low and high)
     "effects": ("effects.csv", ("ratio", "low_holm", "high_holm")),  # intervals that agree with the verdict
     "results": ("summary.csv", ("value", "low", "high")),
+    "seeds": ("results.csv", ("value", "low", "high")),  # the same for each `seed`
     "splits": ("splits.csv", None),  # its quantities are columns: see _split_rows()
     "times": ("time_summary.csv", ("median_ms", "low_ms", "high_ms")),
     "time_effects": ("time_effects.csv", ("ratio", "low", "high")),
@@ -121,7 +122,7 @@ class Selection:
             rows = list(_estimate_rows(rows))
         if table.of == "splits":
             rows = list(_split_rows(rows))
-        if table.of in ("results", "limits", "agreement", "eye"):
+        if table.of in ("results", "seeds", "limits", "agreement", "eye"):
             rows = representative_rows(rows)
         if table.of == "hits":
             last = {s["shot"]: str(s["frame"]) for s in self.shots if "frame" in s}

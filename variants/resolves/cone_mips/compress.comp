@@ -83,6 +83,7 @@ void main() {
     ivec2 traced = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(traced, traced_extent()))) return;
     ivec2 pixel = traced_pixel(traced, camera.frame.x);
-    imageStore(finest, traced, stored_color(texelFetch(own_radiance, pixel, 0)));
+    vec4 own = texelFetch(own_radiance, pixel, 0);
+    imageStore(finest, traced, stored_color(own));
     imageStore(cone_level, traced, vec4(reflects(pixel, max_roughness) ? level_of(pixel) : 0.0));
 }

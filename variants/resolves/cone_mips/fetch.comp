@@ -46,7 +46,8 @@ vec4 at_half_resolution(ivec2 pixel) {
         vec2 weights = mix(1.0 - share, share, vec2(i & 1, i >> 1));
         float weight = weights.x * weights.y * exp(alike[i] - (exact_upsampling ? most : 0.0));
         vec2 uv = (vec2(traced[i]) + 0.5) * texel_size;
-        sum += weight * weighed_color(textureLod(reflection_mips, uv, texelFetch(cone_level, traced[i], 0).r));
+        float level = texelFetch(cone_level, traced[i], 0).r;
+        sum += weight * weighed_color(textureLod(reflection_mips, uv, level));
         weight_sum += weight;
     }
     return weight_sum > 0.0 ? with_confidence(sum / weight_sum) : vec4(0.0);
