@@ -152,6 +152,14 @@ TEST(Standings, DecideTheirPairsAmongEffects) {
     set_verdicts(effects, {}, decided_by_standings(errors));
     EXPECT_EQ(effects[0].verdict, verdict::not_distinguishable);
     EXPECT_LT(*effects[0].low_holm, 1.0);
+
+    // Both far below any level, the standing's farther: the interval stays that of the effect.
+    errors[1].p_best = 1e-40;
+    effects[0].p = 1e-28;
+    set_verdicts(effects, {}, decided_by_standings(errors));
+    EXPECT_EQ(effects[0].verdict, verdict::more);
+    EXPECT_EQ(effects[0].low_holm, effects[0].low);
+    EXPECT_EQ(effects[0].high_holm, effects[0].high);
 }
 
 TEST(Fronts, HoldWhatNoRankedPointBeatsAtLess) {
