@@ -314,16 +314,15 @@ def exact_rays():
 
 
 def resolves():
-    cells = grid("resolves", "matrix")
-    marches = [m for m in dict.fromkeys(row for row, _ in cells) if m != "exact_scene"]
-    of_all = [*marches, "exact_scene"]
+    cells = {tuple(word.split(" = ")[1] for word in place): cell for place, cell in grid("resolves", "matrix").items()}
+    marches = list(dict.fromkeys(march for march, _ in cells))
 
     def mark(march, resolve):
-        color, shape = style.series(marches.index(march)) if march in marches else (GREY, "|")
-        return Mark(march if march in marches else "exact rays", color, shape, cells[march, resolve])
+        color, shape = (GREY, "|") if march == "exact_scene" else style.series(marches.index(march))
+        return Mark("exact rays" if march == "exact_scene" else march, color, shape, cells[march, resolve])
 
-    by_error = sorted(dict.fromkeys(column for _, column in cells), key=lambda r: cells["cells", r].value)
-    return Picture([Panel("", [(r, [mark(m, r) for m in of_all]) for r in by_error])], "MSE over that of no reflections, mean over scenes like these, 95 % intervals", columns=1)
+    by_error = sorted(dict.fromkeys(resolve for _, resolve in cells), key=lambda r: cells["cells", r].value)
+    return Picture([Panel("", [(r, [mark(m, r) for m in marches]) for r in by_error])], "MSE over that of no reflections, mean over scenes like these, 95 % intervals", columns=1)
 
 
 PUBLISHED_PRESETS = ("default", "sdk_1_5", "current", "frostbite_2015", "blog", "high")

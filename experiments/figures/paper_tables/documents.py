@@ -130,15 +130,18 @@ class Numbers:
 
     def share_of_variance(self, study, table, kind, without=()):
         """"share [low, high]" in percent of the variance of ln error over all pairs of two parts that is the first's, the second's or both
-        together's (variance_shares.py). Of a table of errors whose rows are shots and whose columns are "second, first, seed", of two
-        seeds; `without`: firsts and seconds that are left out."""
+        together's (variance_shares.py). Of a table of errors whose rows are shots and whose columns are "second, first, seed"; a pair
+        without random numbers has one seed, which stands for all. `without`: firsts and seconds that are left out."""
         about, cells = self._table(study, table)
         errors = {}
         for c in cells:
-            second, first, seed = c.column.split(", ")
+            second, first, seed = (word.split(" = ")[-1] for word in c.column.split(", "))
             if not {first, second} & set(without):
-                errors.setdefault(c.row, {}).setdefault(seed, {})[first, second] = math.log(c.value)
-        scenes = [(about["assets"][shot], list(seeds.values())) for shot, seeds in errors.items()]
+                errors.setdefault(c.row, {}).setdefault((first, second), {})[seed] = math.log(c.value)
+        scenes = []
+        for shot, pairs in errors.items():
+            seeds = sorted({seed for by_seed in pairs.values() for seed in by_seed})[:2]
+            scenes.append((about["assets"][shot], [{pair: by_seed.get(seed, next(iter(by_seed.values()))) for pair, by_seed in pairs.items()} for seed in seeds]))
         share, *ends = (v if v is None else f"{100 * v:.0f}" for v in variance_shares(scenes)[kind])
         return share if None in ends else f"{share} [{', '.join(ends)}]"
 

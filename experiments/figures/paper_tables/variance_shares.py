@@ -41,15 +41,15 @@ def _ratio(parts, totals):
     if square <= 0:
         return mean / mean_total, 0.0, 1.0
     root = math.sqrt(max(half**2 - square * constant, 0.0))
-    return mean / mean_total, max((half - root) / square, 0.0), min((half + root) / square, 1.0)
+    return mean / mean_total, *(min(max(end / square, 0.0), 1.0) for end in (half - root, half + root))
 
 
 def variance_shares(scenes):
     """{kind: (share, low, high)}, over scenes. `scenes`: (asset, [errors of two seeds]) with errors {(first, second): ln error}.
 
     In each scene the variance of ln error over all pairs is that of the first part's means, that of the second's, and what is left, which
-    both have together. Each is taken as the mean product of two seeds' effects, not as a square: noise, which is independent between
-    seeds, then adds nothing to any of them on average. Shares are ratios of means over scenes, so that a scene counts by how much is
+    both have together. Each is taken as the mean product of two seeds' effects, not as a square: the techniques' noise, which is independent
+    between seeds, then adds nothing to any of them on average. That of the reference, which both seeds and all pairs share, mostly cancels. Shares are ratios of means over scenes, so that a scene counts by how much is
     at stake in it, scenes of one asset averaged first. No ends below four scenes.
     """
     parts = {kind: [] for kind in KINDS}

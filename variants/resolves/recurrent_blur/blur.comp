@@ -1,6 +1,7 @@
 // History and rays are blurred by the same eight neighbours and blended; the result is the next frame's history, so that
 // it is blurred again, by a disk that shrinks while it ages.
 #include "resolves/lobe_disk.glsl"
+#include "resolves/pixel_scale.glsl"
 #include "resolves/recurrent_blur/ray_statistics.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -45,8 +46,9 @@ struct Receiver {
     bool has_miss;
 };
 
-float share_of_view(float ray_length, float camera_distance) {
-    return clamp(ray_length / (camera_distance * view_height()), 0.0, 1.0);
+// A length over the height of the view at a position.
+float share_of_view(float ray_length, vec3 position) {
+    return clamp(ray_length * pixels_per_metre(position) * camera.extent.w, 0.0, 1.0);
 }
 
 // Half the angle (rad) within which neighbours' normals count.
@@ -64,7 +66,7 @@ Receiver receiver_at(ivec2 pixel, float frames, Cross around) {
     receiver.camera_distance = abs(receiver.position.z);
     receiver.roughness = texelFetch(normal, pixel, 0).w;
     receiver.aggressivity = 1.0 - max(pow(frames, strength - 1.0), 0.05);
-    receiver.hit_share = share_of_view(around.ray_length, receiver.camera_distance);
+    receiver.hit_share = share_of_view(around.ray_length, receiver.position);
     receiver.cone_angle = cone_of_normals(receiver.roughness, receiver.aggressivity);
     receiver.has_miss = around.has_miss;
     return receiver;
@@ -99,7 +101,7 @@ float neighbor_weight(Receiver receiver, vec4 own, ivec2 neighbor) {
     float by_luminance = 10.0 * luma_phi * abs(luminance_of(color) - luminance_of(own)) / color_unit;
     float ray_length = texelFetch(own_length, neighbor, 0).r;
     bool is_miss = ray_length == 0.0;
-    float hit_share = is_miss ? 1.0 : share_of_view(ray_length, abs(position.z));
+    float hit_share = is_miss ? 1.0 : share_of_view(ray_length, position);
     float length_unit = scale_free ? 1.0 : receiver.camera_distance;
     float by_length = is_miss && receiver.has_miss ? 1.0
                                                    : length_phi * abs(receiver.hit_share - hit_share) / length_unit;
@@ -128,15 +130,15 @@ Sums blurred_at(ivec2 pixel, float frames, Cross around) {
     vec2 pull = vec2(0.0);
     for (int i = 0; i < tap_count; ++i) {
         float turn = (float(i) + 0.5) * golden_angle;
-        vec2 direction = vec2(cos(turn), sin(turn));
-        if (dot(pull, pull) > 1e-3) direction = mix(direction, normalize(max(pull, 1e-6)), adapt * receiver.aggressivity);
+        vec2 even = vec2(cos(turn), sin(turn)), direction = even;
+        if (dot(pull, pull) > 1e-3) direction = mix(even, normalize(max(pull, 1e-6)), adapt * receiver.aggressivity);
         vec2 offset = rotation * direction * sqrt((float(i) + 0.5) / float(tap_count)) * shrink;
         vec2 uv = screen_from_view(receiver.position + axes * offset).xy;
         ivec2 neighbor = pixel_from_screen((1.0 - abs(1.0 - abs(uv))) * camera.extent.xy);  // mirrored at the border
         float weight = 0.0;
         if (is_on_screen(neighbor) && reflects(neighbor, max_roughness)) weight = neighbor_weight(receiver, own, neighbor);
         shrink = mix(shrink, weight, adapt);
-        pull = mix(pull, direction * (weight - 0.5), 0.5);
+        pull = mix(pull, even * (weight - 0.5), 0.5);
         if (weight == 0.0) continue;
         float other_age = texelFetch(reprojected_age, neighbor, 0).r;
         if (smooth_disocclusions && other_age < frames) {

@@ -18,7 +18,4 @@ float luminance_of(vec4 color) { return luminance_bt709(color.rgb); }
 
 // Of colours that are compared: bright ones count less.
 vec4 damped(vec4 color) { return color / (1.0 + 10.0 * flicker_suppression * luminance_of(color)); }
-
-// Height of the view at a distance along the camera's axis, over that distance.
-float view_height() { return 2.0 / abs(camera.clip_from_view[1][1]); }
 #endif

@@ -8,8 +8,18 @@ layout(local_size_x = 8, local_size_y = 8) in;
 uniform sampler2D previous_normal, previous_blurred, previous_age;
 uniform writeonly image2D reprojected, reprojected_age;
 
+// Luma, orange to blue, green to violet; confidence.
+vec4 ycocg_of(vec4 color) {
+    return vec4(dot(color.rgb, vec3(0.25, 0.5, 0.25)), 0.5 * (color.r - color.b),
+                dot(color.rgb, vec3(-0.25, 0.5, -0.25)), color.a);
+}
+vec4 color_of(vec4 ycocg) {
+    float rest = ycocg.x - ycocg.z;
+    return vec4(rest + ycocg.y, ycocg.x + ycocg.z, rest - ycocg.y, ycocg.w);
+}
+
 struct Neighborhood {
-    vec4 mean, deviation;      // of damped colours of 3x3 pixels
+    vec4 mean, deviation;      // of damped colours of 3x3 pixels, as ycocg_of() has them
     float mean_length;         // m, of those with hits
     float length_deviation;    // m
     float share_of_misses;
@@ -20,7 +30,7 @@ Neighborhood neighborhood_of(ivec2 pixel) {
     vec3 lengths = vec3(0.0);  // 1, length, its square
     for (int i = 0; i < 9; ++i) {
         ivec2 neighbor = clamped_to_screen(pixel + ivec2(i % 3, i / 3) - 1);
-        vec4 color = damped(traced_color(neighbor));
+        vec4 color = ycocg_of(damped(traced_color(neighbor)));
         sum += color;
         squares += color * color;
         float ray_length = texelFetch(own_length, neighbor, 0).r;
@@ -41,11 +51,11 @@ Place mirror_image_before(vec3 position, Neighborhood around) {
 
 struct History {
     vec4 color;
-    float age;           // frames
+    float age;           // frames; harmonic mean of its texels', so that a young one is not trusted for an old one's sake
     float best, worst;   // of its texels: likeness of their surfaces, 0 to 1
 };
 
-const History no_history = History(vec4(0.0), 0.0, 0.0, 0.0);
+const History no_history = History(vec4(0.0), 1.0, 0.0, 0.0);
 
 // How alike the surface is that a texel showed.
 float likeness(ivec2 texel, vec3 position, vec3 plane_normal, vec3 ws_normal) {
@@ -62,8 +72,8 @@ History history_at(ivec2 pixel, vec2 place) {
     vec3 position = (camera.previous_view_from_world * world_position(pixel)).xyz;
     vec3 ws_normal = texelFetch(normal, pixel, 0).xyz, plane_normal = mat3(camera.previous_view_from_world) * ws_normal;
     vec2 corner = floor(place - 0.5), share = place - 0.5 - corner;
-    History sum = History(vec4(0.0), 0.0, 0.0, 1.0);
-    float weight_sum = 0.0;
+    History sum = History(vec4(0.0), 1.0, 0.0, 1.0);
+    float weight_sum = 0.0, share_sum = 0.0;
     for (int i = 0; i < 4; ++i) {
         ivec2 side = ivec2(i & 1, i >> 1), texel = clamped_to_screen(ivec2(corner) + side);
         float age = texelFetch(previous_age, texel, 0).r;
@@ -71,13 +81,13 @@ History history_at(ivec2 pixel, vec2 place) {
         vec2 weights = mix(1.0 - share, share, vec2(side));
         float weight = weights.x * weights.y * alike;
         sum.color += weight * texelFetch(previous_blurred, texel, 0);
-        sum.age += weight * age;
+        share_sum += weight / max(age, 1.0);
         sum.best = max(sum.best, alike);
         sum.worst = min(sum.worst, alike);
         weight_sum += weight;
     }
     if (weight_sum <= 0.01) return no_history;
-    return History(sum.color / weight_sum, sum.age / weight_sum, sum.best, sum.worst);
+    return History(sum.color / weight_sum, weight_sum / share_sum, sum.best, sum.worst);
 }
 
 // How far normals differ from those of the next pixels, as a sum of lengths.
@@ -132,21 +142,21 @@ Found reproject(ivec2 pixel, vec4 traced) {
     float weight = mirror_weight + surface_weight;
     if (weight <= 0.0) return Found(traced, 1.0);
     vec4 history = (mirror_weight * in_mirror.color + surface_weight * on_surface.color) / weight;
-    float age = on_surface.age > 0.0 ? on_surface.age : in_mirror.age;
     float confidence = (mirror_weight * in_mirror.best + surface_weight * on_surface.best) / weight;
     float stretched = stretch(pixel);
     confidence *= stretched * stretched;
 
     float still = 1.0 - moved, reach = mix(0.5, 1.0, still * still);
     float scale = 1.0 + 10.0 * flicker_suppression * luminance_of(history);
-    vec4 clipped = scale * towards_box(history / scale, around.mean, reach * around.deviation);
+    vec4 clipped = scale * color_of(towards_box(ycocg_of(history / scale), around.mean, reach * around.deviation));
     float share = clamp_intensity * max(min(1.0, 10.0 * moved), 0.25) *
                   (1.0 + clamp((1.0 - stretched) + (1.0 - trust), 0.0, 1.0));
     float color_unit = scale_free ? max(luminance_of(history), 1e-6) : 1.0;
     float change = length(history.rgb - clipped.rgb) / color_unit;
     confidence *= exp(-30.0 * share * change) * mix(1.0, 0.95 + 0.05 * trust, clamp(100.0 * moved, 0.0, 1.0));
     if (confidence < 1e-6) return Found(traced, 1.0);
-    return Found(mix(history, clipped, share), min(age * confidence + 1.0, max_frames));
+    // How old it is, the surface's history says, though the mirror's may be shown.
+    return Found(max(mix(history, clipped, min(share, 1.0)), 0.0), min(on_surface.age * confidence + 1.0, max_frames));
 }
 
 void main() {
