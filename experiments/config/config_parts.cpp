@@ -85,7 +85,7 @@ Keys table_keys() {
             {"caption", any_text(), required, "what stands above it"},
             {"of",
              one_of({"effects", "results", "splits", "times", "time_effects", "hits", "costs", "compiled", "estimates",
-                     "limits", "agreement", "eye", "seeds", "at_cost", "changes", "over_scenes"}),
+                     "limits", "agreement", "eye", "variance", "at_cost", "changes", "over_scenes"}),
              required, "where its numbers come from, below"},
             {"where", any_object, otherwise("all rows"),
              "column to the value, or array of values, of the rows that count; rows and columns of the table stand in "

@@ -39,7 +39,7 @@ const std::map<std::string, Source>& sources() {
     static const std::map<std::string, Source> all = {
         {"effects", alike(columns_of<EffectRow>())},
         {"results", alike(columns_of<MetricSummary>())},
-        {"seeds", alike(columns_of<ResultRow>())},
+        {"variance", {columns_of<ResultRow>(), {"shot", "part", "value"}}},
         {"limits", alike(columns_of<MetricSummary>())},
         {"splits", alike(columns_of<SplitRow>({"metric", "value", "low", "high"}))},
         {"times", alike(columns_of<TimeSummary>())},

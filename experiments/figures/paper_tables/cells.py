@@ -9,14 +9,14 @@ from paper_figures import tradeoff
 from ssrlab.csv_files import number, whole
 from ssrlab.mistakes import ResultsError
 from ssrlab.results import BEST, TIED, representative_rows
-from paper_tables import agreement, limits
+from paper_tables import agreement, limits, variance_shares
 from paper_tables.cell import EXACT, Cell
 from paper_tables.means import ASSETS, SAMPLED, largest, mean
 
 SOURCES = {  # name to (file, columns of value, low and high)
     "effects": ("effects.csv", ("ratio", "low_holm", "high_holm")),  # intervals that agree with the verdict
     "results": ("summary.csv", ("value", "low", "high")),
-    "seeds": ("results.csv", ("value", "low", "high")),  # the same for each `seed`
+    "variance": ("results.csv", ("value", "low", "high")),  # of the logarithm of errors, by two parameters: variance_shares.py
     "splits": ("splits.csv", None),  # its quantities are columns: see _split_rows()
     "times": ("time_summary.csv", ("median_ms", "low_ms", "high_ms")),
     "time_effects": ("time_effects.csv", ("ratio", "low", "high")),
@@ -122,7 +122,7 @@ class Selection:
             rows = list(_estimate_rows(rows))
         if table.of == "splits":
             rows = list(_split_rows(rows))
-        if table.of in ("results", "seeds", "limits", "agreement", "eye"):
+        if table.of in ("results", "variance", "limits", "agreement", "eye"):
             rows = representative_rows(rows)
         if table.of == "hits":
             last = {s["shot"]: str(s["frame"]) for s in self.shots if "frame" in s}
@@ -130,6 +130,8 @@ class Selection:
         self.rows = [r for r in rows if all(self._is_inside(r, k) for k in table.where)]
         if table.of == "limits":
             self.rows = list(limits.limit_rows(self.rows, self.shots))
+        if table.of == "variance":
+            self.rows = list(self._variance_rows())
         if table.of == "agreement":
             self.rows = list(agreement.agreement_rows(results, self.rows))
         if table.of == "eye":
@@ -146,6 +148,22 @@ class Selection:
             return GROUPS[key](self.results, row)
         value = self.parameters.get((row.get("variant"), row.get("point")), {}).get(key)
         return value if value is None or isinstance(value, str) else json.dumps(value)
+
+    def _variance_rows(self):
+        """A row for each shot and `part`: the two parameters that `where` names, and "both together"."""
+        names = [k for k in self.table.where if k not in self.rows[0]]
+        if len(names) != 2:
+            raise ResultsError(f"table '{self.table.name}': 'where' must name two parameters, whose values are all combined, not {', '.join(names) or 'none'}")
+        errors = {}
+        for row in self.rows:
+            pair = tuple(self.entry(row, name) for name in names)
+            errors.setdefault(row["shot"], {}).setdefault(pair, {})[row["seed"]] = number(row, "value")
+        for shot, values in errors.items():
+            if any(not v for by_seed in values.values() for v in by_seed.values()):
+                continue  # nothing reflects, or somebody is exact
+            pairs = {pair: {seed: math.log(v) for seed, v in by_seed.items()} for pair, by_seed in values.items()}
+            for part, value in variance_shares.variance_parts(pairs).items():
+                yield {"shot": shot, "part": dict(zip(variance_shares.KINDS, (*names, "both together")))[part], "value": repr(value)}
 
     def _is_inside(self, row, key):
         listed = [v if isinstance(v, str) else json.dumps(v) for v in self.table.where[key]]

@@ -17,7 +17,7 @@ from ssrlab.text_files import path_inside, read_text
 from paper_tables import summary_file
 from paper_tables.agreement import kendall_tau
 from paper_tables.halving import halving_share
-from paper_tables.variance_shares import variance_shares
+from paper_tables.variance_shares import share_of_total
 from paper_tables.markdown import markdown, number, with_interval
 
 BLOCK = re.compile(r"(?P<head><!-- table (?P<study>\S+) (?P<name>\S+)(?: (?P<excerpt>\{[^\n]*\}))? -->\n)(?P<text>.*?)(?P<end><!-- end of table -->)", re.DOTALL)
@@ -128,21 +128,15 @@ class Numbers:
         share, *ends = (v if v is None else "0" if v == 0 else f"{v:.1f}" if v < 10 else f"{v:.0f}" for v in self.halving_share(*chosen))
         return share if None in ends else f"{share} [{', '.join(ends)}]"
 
-    def share_of_variance(self, study, table, kind, without=()):
-        """"share [low, high]" in percent of the variance of ln error over all pairs of two parts that is the first's, the second's or both
-        together's (variance_shares.py). Of a table of errors whose rows are shots and whose columns are "second, first, seed"; a pair
-        without random numbers has one seed, which stands for all. `without`: firsts and seconds that are left out."""
+    def share_of_variance(self, study, table, part):
+        """"share [low, high]" in percent of the variance of ln error that a part has, over scenes. Of a table of `variance` whose rows are
+        shots and whose columns are parts."""
         about, cells = self._table(study, table)
-        errors = {}
-        for c in cells:
-            second, first, seed = (word.split(" = ")[-1] for word in c.column.split(", "))
-            if not {first, second} & set(without):
-                errors.setdefault(c.row, {}).setdefault((first, second), {})[seed] = math.log(c.value)
-        scenes = []
-        for shot, pairs in errors.items():
-            seeds = sorted({seed for by_seed in pairs.values() for seed in by_seed})[:2]
-            scenes.append((about["assets"][shot], [{pair: by_seed.get(seed, next(iter(by_seed.values()))) for pair, by_seed in pairs.items()} for seed in seeds]))
-        share, *ends = (v if v is None else f"{100 * v:.0f}" for v in variance_shares(scenes)[kind])
+        shots = list(dict.fromkeys(c.row for c in cells))
+        values = {(c.row, c.column): c.value for c in cells}
+        columns = list(dict.fromkeys(c.column for c in cells))
+        totals = [(about["assets"][shot], sum(values[shot, column] for column in columns)) for shot in shots]
+        share, *ends = (v if v is None else f"{100 * v:.0f}" for v in share_of_total([(about["assets"][shot], values[shot, part]) for shot in shots], totals))
         return share if None in ends else f"{share} [{', '.join(ends)}]"
 
     def text(self, expression):

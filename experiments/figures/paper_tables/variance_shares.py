@@ -26,9 +26,22 @@ def _effects(errors):
     }
 
 
-def _ratio(parts, totals):
-    """(ratio, low, high) of the means over scenes of (asset, value) pairs. The interval has all ratios at which the mean of part -
-    ratio * total may be 0 (Fieller 1954), within [0, 1]: that of the linearized ratio is too short where a few scenes have most of it.
+def variance_parts(pairs):
+    """{kind: variance} of one scene: of the first part's means, of the second's, and what is left, which both have together. `pairs`:
+    {(first, second): {seed: ln error}}, all pairs; one without random numbers has one seed, which stands for all.
+
+    Each is the mean product of two seeds' effects, not a square: the techniques' noise, which is independent between seeds, then adds
+    nothing to any of them on average. That of the reference, which both seeds and all pairs share, mostly cancels.
+    """
+    seeds = sorted({seed for by_seed in pairs.values() for seed in by_seed})[:2]
+    one, other = (_effects({pair: by_seed.get(seed, next(iter(by_seed.values()))) for pair, by_seed in pairs.items()}) for seed in (seeds[0], seeds[-1]))
+    return {kind: _mean(one[kind][pair] * other[kind][pair] for pair in pairs) for kind in KINDS}
+
+
+def share_of_total(parts, totals):
+    """(share, low, high): the ratio of the means over scenes of (asset, value) pairs, so that a scene counts by how much is at stake in
+    it, scenes of one asset averaged first. The interval has all ratios at which the mean of part - ratio * total may be 0 (Fieller 1954),
+    within [0, 1]: that of the linearized ratio is too short where a few scenes have most of it. No ends below four scenes.
     """
     mean, low, high = statistics.mean_over_scenes(parts)[:3]
     mean_total, low_total, high_total = statistics.mean_over_scenes(totals)[:3]
@@ -42,20 +55,3 @@ def _ratio(parts, totals):
         return mean / mean_total, 0.0, 1.0
     root = math.sqrt(max(half**2 - square * constant, 0.0))
     return mean / mean_total, *(min(max(end / square, 0.0), 1.0) for end in (half - root, half + root))
-
-
-def variance_shares(scenes):
-    """{kind: (share, low, high)}, over scenes. `scenes`: (asset, [errors of two seeds]) with errors {(first, second): ln error}.
-
-    In each scene the variance of ln error over all pairs is that of the first part's means, that of the second's, and what is left, which
-    both have together. Each is taken as the mean product of two seeds' effects, not as a square: the techniques' noise, which is independent
-    between seeds, then adds nothing to any of them on average. That of the reference, which both seeds and all pairs share, mostly cancels. Shares are ratios of means over scenes, so that a scene counts by how much is
-    at stake in it, scenes of one asset averaged first. No ends below four scenes.
-    """
-    parts = {kind: [] for kind in KINDS}
-    for asset, seeds in scenes:
-        one, other = (_effects(errors) for errors in seeds)
-        for kind in KINDS:
-            parts[kind].append((asset, _mean(one[kind][pair] * other[kind][pair] for pair in one[kind])))
-    totals = [(asset, sum(parts[kind][i][1] for kind in KINDS)) for i, (asset, _) in enumerate(scenes)]
-    return {kind: _ratio(parts[kind], totals) for kind in KINDS}

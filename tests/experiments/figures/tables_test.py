@@ -23,7 +23,7 @@ from paper_tables.cell import Cell  # noqa: E402
 from paper_tables.documents import Numbers  # noqa: E402
 from paper_tables.halving import halving_share  # noqa: E402
 from paper_tables.markdown import markdown  # noqa: E402
-from paper_tables.variance_shares import variance_shares  # noqa: E402
+from paper_tables.variance_shares import KINDS, share_of_total, variance_parts  # noqa: E402
 from tables_study import ONE_SEED, RATIOS, SHOTS, TABLES, footer, manifest, read, write, write_results, write_rows  # noqa: E402
 
 
@@ -156,19 +156,26 @@ def test_halving_covers():
 def made_up_scene(draw, scale, noise):
     """Two seeds of 6 x 6 pairs whose first part has a variance of 1, the second of 4, both together of 0.25, times `scale` squared."""
     firsts, seconds, both = ([draw.gauss(0, deviation) for _ in range(n)] for n, deviation in ((6, 1), (6, 2), (36, 0.5)))
-    return [{(i, j): scale * (firsts[i] + seconds[j] + both[6 * i + j]) + draw.gauss(0, noise) for i in range(6) for j in range(6)} for _ in range(2)]
+    return {(i, j): {seed: scale * (firsts[i] + seconds[j] + both[6 * i + j]) + draw.gauss(0, noise) for seed in "01"} for i in range(6) for j in range(6)}
+
+
+def variance_shares(scenes):
+    parts = [variance_parts(pairs) for pairs in scenes]
+    totals = [(f"scene {i}", sum(of_scene.values())) for i, of_scene in enumerate(parts)]
+    return {kind: share_of_total([(f"scene {i}", of_scene[kind]) for i, of_scene in enumerate(parts)], totals) for kind in KINDS}
 
 
 def test_variance_shares():
     """Of parts with known effects the shares are those effects'; of heavy-tailed scenes, with noise as large as the smallest part, intervals
     hold the share of all scenes that are drawn from."""
     effects = {(i, j): 1.0 * (i - 1) + 2.0 * (j - 1) + (0.5 if (i, j) in ((0, 0), (2, 2)) else -0.5 if (i, j) in ((0, 2), (2, 0)) else 0) for i in range(3) for j in range(3)}
-    shares = variance_shares([(f"scene {i}", [effects, effects]) for i in range(5)])
+    seeds = {pair: {"0": effect, "1": effect} for pair, effect in effects.items()} | {(0, 1): {"1": effects[0, 1]}}  # one without noise
+    shares = variance_shares([seeds] * 5)
     total = 2 / 3 + 8 / 3 + 1 / 9
     for kind, variance in zip(("first", "second", "both together"), (2 / 3, 8 / 3, 1 / 9)):
         share, low, high = shares[kind]
         check(abs(share - variance / total) < 1e-12 and abs(low - share) < 1e-12 and abs(high - share) < 1e-12, f"{kind}: {share} [{low}, {high}]")
-    check(variance_shares([(f"scene {i}", [effects, effects]) for i in range(3)])["first"][1:] == (None, None), "too few scenes for an interval")
+    check(variance_shares([seeds] * 3)["first"][1:] == (None, None), "too few scenes for an interval")
 
     draw, covered, means = random.Random(2), {"first": 0, "second": 0, "both together": 0}, {"first": 0, "second": 0, "both together": 0}
     expected = {"first": 1 * 5 / 6, "second": 4 * 5 / 6, "both together": 0.25 * 25 / 36}  # of variances over six, and 6 x 6
@@ -176,7 +183,7 @@ def test_variance_shares():
     expected["second"] += 0.25 * 5 / 36
     whole, draws = sum(expected.values()), 300
     for _ in range(draws):
-        scenes = [(f"scene {i}", made_up_scene(draw, math.exp(draw.gauss(0, 0.5)), 0.5)) for i in range(30)]
+        scenes = [made_up_scene(draw, math.exp(draw.gauss(0, 0.5)), 0.5) for _ in range(30)]
         for kind, (share, low, high) in variance_shares(scenes).items():
             covered[kind] += low <= expected[kind] / whole <= high
             means[kind] += share / draws
