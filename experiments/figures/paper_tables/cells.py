@@ -163,7 +163,7 @@ class Selection:
                 continue  # nothing reflects, or somebody is exact
             pairs = {pair: {seed: math.log(v) for seed, v in by_seed.items()} for pair, by_seed in values.items()}
             for part, value in variance_shares.variance_parts(pairs).items():
-                yield {"shot": shot, "part": dict(zip(variance_shares.KINDS, (*names, "both together")))[part], "value": repr(value)}
+                yield {"shot": shot, "part": dict(zip(variance_shares.KINDS, (*names, "both together")))[part], "value": repr(value), "low": "", "high": ""}
 
     def _is_inside(self, row, key):
         listed = [v if isinstance(v, str) else json.dumps(v) for v in self.table.where[key]]
