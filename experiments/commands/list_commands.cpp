@@ -1,8 +1,10 @@
 // The commands that list things: describe, list.
+#include "core/error.h"
 #include "core/files.h"
 #include "core/gpu/chips/chip_compiler.h"
 #include "core/gpu/device.h"
 #include "core/json.h"
+#include "core/near_miss.h"
 #include "core/scene/load_scene.h"
 #include "core/scene/scene_family.h"
 #include "core/shown_text.h"
@@ -151,7 +153,14 @@ void describe_command(const DescribeOptions& options) {
         return describe_tracer(find_tracer(options.variant), params);
     }
     if (is_resolve(options.variant)) return describe_resolve(find_resolve(options.variant));
-    if (!options.variant.empty()) find_variant(options.variant);
+    if (!options.variant.empty() && !std::ranges::count(variant_table(), options.variant, &VariantEntry::name)) {
+        std::vector<std::string> names;
+        for (const VariantEntry& entry : variant_table()) names.push_back(entry.name);
+        for (const TracerEntry& tracer : tracer_table()) names.push_back(tracer.name);
+        for (const ResolveEntry& resolve : resolve_table()) names.push_back(resolve.name);
+        fail("unknown variant, tracer or resolve '", shortened(options.variant), "'",
+             suggestion(options.variant, names));
+    }
     for (const VariantEntry& entry : variant_table()) {
         if (!options.variant.empty() && entry.name != options.variant) continue;
         std::cout << entry.name << ": " << entry.title << "\n  " << entry.description << "\n  Source: " << entry.source

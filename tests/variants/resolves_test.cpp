@@ -194,8 +194,10 @@ TEST_F(ResolvesTest, KeepConstantLightConstant) {
     };
     for (const ResolveEntry& entry : resolve_table()) {
         SCOPED_TRACE(entry.name);
-        // With its preset: the original of AMD's denoiser also averages what was never written.
-        const auto variant = make_variant("composed_ssr", {{"cells.edge_fade", true}}, entry.name);
+        // With its preset, if it has one: the original of AMD's denoiser also averages what was never written.
+        const bool has_preset = std::ranges::count(find_variant("composed_ssr").presets, entry.name, &Preset::name) > 0;
+        const auto variant = make_variant("composed_ssr", {{"cells.edge_fade", true}, {"resolve", entry.name}},
+                                          has_preset ? entry.name : "");
         const Frames frames = render(*variant, white, {67, 45}, 4, {0.02f, 0.01f, -0.03f}, 1.0f);
         // Its weights are densities, not divided by their sum: one holds in the mean over pixels only.
         const bool is_normalized = entry.name != "reservoirs";
@@ -225,6 +227,10 @@ TEST_F(ResolvesTest, SayWhichStagesTheyHave) {
         ParameterSet params;
         Resolves resolves(params, entry.name);
         for (const std::string& stage : resolves.chosen().stages()) said.push_back(stage);
+        const StageReads reads = resolves.chosen().reads();
+        EXPECT_TRUE(std::ranges::count(said, reads.rays)) << reads.rays;
+        for (const auto* readers : {&reads.motion, &reads.specular})
+            for (const std::string& stage : *readers) EXPECT_TRUE(std::ranges::count(said, stage)) << stage;
         for (const std::string& stage : render(*variant, glossy_floor, {67, 45}).stages)
             if (stage != "clear") run.push_back(stage);
         EXPECT_EQ(run, said);
@@ -249,6 +255,25 @@ TEST_F(ResolvesTest, RefuseRaysWithoutTheDensitiesThatTheyNeed) {
         }
     }
     EXPECT_GE(refused, 2u);
+}
+
+/// What a technique has of a resolve's parameters is what the resolve reads.
+TEST_F(ResolvesTest, DeclareTheirParameters) {
+    for (const ResolveEntry& entry : resolve_table()) {
+        ParameterSet declared;
+        entry.declare(declared);
+        const std::unique_ptr<Resolve> resolve = entry.create();
+        EXPECT_NO_THROW(resolve->params.assign(declared.values())) << entry.name;
+        RayDrawParameters{declared};
+        size_t own = 0;
+        for (const Parameter& p : resolve->params) own += !std::ranges::count(declared, p.name, &Parameter::name);
+        const bool has_tracing =
+            entry.name == "amd_denoiser" || entry.name == "diligent_filters";  // of their techniques
+        if (!has_tracing) {
+            EXPECT_EQ(own, 0u) << entry.name << " reads parameters that nobody can set";
+        }
+        for (const std::string& name : entry.given) EXPECT_EQ(std::ranges::count(declared, name, &Parameter::name), 1);
+    }
 }
 
 TEST_F(ResolvesTest, HaveNamesOfTheirOwn) {
