@@ -40,9 +40,12 @@ void describe_tracers(const ParameterSet& params) {
     }
 }
 
+/// But for those that the technique decides.
 ParameterSet parameters_of(const ResolveEntry& resolve) {
-    ParameterSet params;
-    resolve.declare(params);
+    ParameterSet declared, params;
+    resolve.declare(declared);
+    for (const Parameter& p : declared)
+        if (!std::ranges::count(resolve.given, p.name)) params.add(p);
     return params;
 }
 

@@ -221,7 +221,11 @@ void judge(EffectRow& e, double p_holm, size_t count) {
     e.p_holm = p_holm, e.verdict = verdict_of(p_holm, *e.ratio);
     const double factor = adjustment_factor(*e.p, p_holm, count);
     const bool is_exact = e.estimate.standard_error == 0;
-    set_adjusted_interval(e, is_exact ? std::pair(*e.low, *e.high) : e.estimate.interval(significance / factor));
+    const auto ends = is_exact ? std::pair(*e.low, *e.high) : e.estimate.interval(significance / factor);
+    // A standing's verdict that the effect's own interval does not show stands without one.
+    const bool holds_1 = ends.first <= 1 && ends.second >= 1, is_significant = p_holm < significance;
+    if (p_holm < *e.p && holds_1 == is_significant) return;
+    set_adjusted_interval(e, ends);
 }
 
 using Table = std::map<Quantity, std::map<Point, SeedsOfPoint>>;

@@ -114,7 +114,6 @@ TEST_F(ConeMips, EachLevelIsAsWideAsItsFormula) {
     }
 }
 
-/// Roughness, length of the ray on the screen over its width, and level, of Godot's formula at 1920 pixels of width.
 /// Roughness, length of the ray on the screen over its width, and level, by Godot's formula at 1920 pixels of width.
 TEST_F(ConeMips, ConeOfRoughnessAndLengthChoosesTheWidth) {
     extent = {256, 256};
@@ -198,10 +197,11 @@ TEST_F(ConeMips, MirrorsShowTheirOwnRays) {
     EXPECT_EQ(shown.values, drawn.values);
 }
 
-/// Of any size, with each correction and without, up to the border.
+/// Of any size, with the corrections and without, up to the border.
 TEST_F(ConeMips, ConstantPicturesStayConstant) {
     const glm::vec4 color(3, 0.5f, 20, 0.75f);
-    for (const nlohmann::json& corrections : {nlohmann::json::object(), all_corrections()})
+    for (const nlohmann::json& corrections :
+         {nlohmann::json::object(), all_corrections(), nlohmann::json{{"average_linear", true}}})
         for (const bool half_resolution : {false, true})
             for (const glm::uvec2 size : {glm::uvec2(1, 1), glm::uvec2(1, 9), glm::uvec2(67, 41)}) {
                 extent = size;
@@ -220,7 +220,8 @@ TEST_F(ConeMips, StaysFiniteAndInRange) {
     roughness = 0.45f;
     std::mt19937 random(1);
     std::uniform_real_distribution<float> uniform(0, 1);
-    for (const nlohmann::json& corrections : {nlohmann::json::object(), all_corrections()})
+    for (const nlohmann::json& corrections :
+         {nlohmann::json::object(), all_corrections(), nlohmann::json{{"average_linear", true}}})
         for (const bool half_resolution : {false, true})
             for (const bool orthographic : {false, true})
                 for (const glm::vec3 direction : {glm::vec3(0), glm::vec3(0.5f, 1, 0), glm::vec3(1, 0, 0)}) {

@@ -75,7 +75,8 @@ TracingVariant::Needless ComposedSsr::find_needless(const SceneFacts& facts) {
 }
 
 bool ComposedSsr::depends_on_seed() const {
-    return draw_directions_ || tracers_.needs().random || resolves_.chosen().draws_random_numbers();
+    const bool has_turns = draw_.half_resolution;  // of pixels, in an order of the seed's
+    return draw_directions_ || has_turns || tracers_.needs().random || resolves_.chosen().draws_random_numbers();
 }
 
 std::string ComposedSsr::not_repeatable() const {
@@ -87,7 +88,7 @@ namespace {
 
 const nlohmann::json repaired = {{"repair_inputs", true}};
 
-/// A resolve with the values that the best preset of its own technique has.
+/// A resolve of the same name, with faulty inputs repaired.
 Preset preset_of(const std::string& resolve, const std::string& meaning, const nlohmann::json& of_resolve) {
     nlohmann::json parameters = changed(repaired, {{"resolve", resolve}});
     for (const auto& [name, value] : of_resolve.items()) parameters[resolve + "." + name] = value;
@@ -141,7 +142,8 @@ const nlohmann::json cone_values = {{"square_lengths", true},  {"lobe_cone", tru
 
 /// Behind the mirror rays that it is made for.
 Preset cone_mips_preset() {
-    Preset preset = preset_of("cone_mips", "mirror rays, and Godot's values with its defects fixed", cone_values);
+    Preset preset = preset_of(
+        "cone_mips", "mirror rays; Godot's values with its defects fixed, and no fade by roughness", cone_values);
     preset.parameters["draw_directions"] = false;
     return preset;
 }
@@ -154,9 +156,9 @@ VariantEntry composed_ssr_entry() {
         .title = "Any march and any resolve, behind one draw of directions",
         .source = "ssrlab; the draw is that of Stachowiak & Uludag 2015, Stochastic Screen-Space Reflections",
         .description =
-            "Rays are drawn from the lobe, marched by the chosen tracer and made a picture of by the chosen resolve, "
-            "each "
-            "with the parameters that it has in its own technique.",
+            "Rays are drawn from the lobe, marched by the chosen tracer and made a picture of by the chosen resolve; "
+            "both "
+            "have the parameters that they have elsewhere.",
         .presets = {preset_of("mean", "the pixel's own ray", {}),
                     preset_of("blur", "a blur of one size", {{"blur_width", 0.04}}),
                     preset_of("amd_denoiser", "with the values of amd_sssr's best_1x", amd_values),
@@ -166,7 +168,9 @@ VariantEntry composed_ssr_entry() {
                               "three.js's values, with lengths and colours in proportion, misses reprojected, and "
                               "nothing that darkens",
                               recurrent_values),
-                    preset_of("ratio_filter", "EEVEE's values, with linear averages and without its bilateral filter",
+                    preset_of("ratio_filter",
+                              "EEVEE's values with linear averages, neighbours' rays in their own direction, sharp "
+                              "mirrors, and no bilateral filter",
                               ratio_values),
                     preset_of("speed_accumulation", "HDRP's values, with its defects fixed", speed_values),
                     cone_mips_preset(),

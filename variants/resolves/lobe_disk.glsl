@@ -4,7 +4,7 @@
 #include "common/halton.h"
 #include "core/shared/brdf.h"
 
-const float golden_angle = 2.399827721492203;
+const float golden_angle = 2.399827721492203;  // three.js; 1e-4 less than the golden angle is
 
 // Unit axes of the disk on which a mirror shows what is seen along `axis`; the first across the plane of both.
 mat2x3 disk_towards(vec3 axis, vec3 surface_normal) {

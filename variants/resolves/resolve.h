@@ -9,7 +9,8 @@
 #include <vector>
 
 /// What a technique's draw and march hand to a resolve. Shaders that read rays (seen.glsl, ray.glsl) run with the
-/// technique's parameters, of which there are those of ray_draw.h, `misses` (weight, fallback) and `previous_frame`.
+/// technique's parameters, of which there are those of ray_draw.h, `draw_directions`, `misses` (weight, fallback) and
+/// `previous_frame`.
 struct ResolvedRays {
     TracedRays traced;
     Image color;          ///< the lit image that hits show: of this frame, or with `previous_frame` of the last one
@@ -30,7 +31,8 @@ OwnRays average_own_rays(PassGraph& graph, const GBuffer& gbuffer, const Resolve
 struct RayImages {
     Image radiance;   ///< `ray_radiance`, rgba32f: rgb what it sees times the share of it that is known, a that share
     Image direction;  ///< `ray_direction`, rgba32f: xyz direction times length (m, world space; of a miss the far
-                      ///< plane's distance), w density of that direction in the whole lobe (sr^-1)
+                      ///< plane's distance), w density with which it came about, as if none of the lobe were cut
+                      ///< off (sr^-1)
 };
 RayImages ray_images(PassGraph& graph, const GBuffer& gbuffer, const ResolvedRays& rays);
 

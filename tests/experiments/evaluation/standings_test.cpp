@@ -160,6 +160,14 @@ TEST(Standings, DecideTheirPairsAmongEffects) {
     EXPECT_EQ(effects[0].verdict, verdict::more);
     EXPECT_EQ(effects[0].low_holm, effects[0].low);
     EXPECT_EQ(effects[0].high_holm, effects[0].high);
+
+    // The effect alone is not significant, the standing is: no interval says otherwise.
+    errors[1].p_best = 0.01;
+    effects[0].estimate.standard_error = 0.5;
+    effects[0].p = 0.3;
+    set_verdicts(effects, {}, decided_by_standings(errors));
+    EXPECT_EQ(effects[0].verdict, verdict::more);
+    EXPECT_FALSE(effects[0].low_holm || effects[0].high_holm);
 }
 
 TEST(Fronts, HoldWhatNoRankedPointBeatsAtLess) {

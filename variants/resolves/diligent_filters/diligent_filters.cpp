@@ -12,6 +12,7 @@ public:
         use_own_params(graph, {{"roughness_threshold", float(rays.draw.max_roughness)},
                                {"float_roughness", true},
                                {"premultiply_confidence", true},
+                               {"distribution_floor", false},  // nor is it in the densities of the rays
                                {"half_resolution", false}});
         const Image reprojected_depth = diligent_reprojected_depth(graph, gbuffer);
         const DiligentMask mask = diligent_mask(graph, gbuffer, tracing_, filter_);
@@ -55,5 +56,6 @@ ResolveEntry diligent_filters_resolve() {
                 "was, and a bilateral filter where the variance is high.",
             .folder = "variants/resolves/diligent_filters/",
             .declare = [](ParameterSet& params) { DiligentFilterParameters{params}; },
+            .given = {"distribution_floor", "scale_radius", "nearest_half_rays"},
             .create = [] { return std::make_unique<DiligentFilters>(); }};
 }

@@ -49,7 +49,8 @@ History history_at(Place place) {
     History history = History(vec4(0.0), 0.0, 0.0);
     if (!place.is_known) return history;
     vec2 farthest = camera.extent.xy + 0.5;
-    if (any(lessThan(place.position, vec2(-0.5))) || any(greaterThan(place.position, farthest))) return history;
+    bool is_near = all(greaterThanEqual(place.position, vec2(-0.5))) && all(lessThanEqual(place.position, farthest));
+    if (!is_near) return history;
     vec2 corner = floor(place.position - 0.5), share = place.position - 0.5 - corner;
     for (int i = 0; i < 4; ++i) {
         ivec2 side = ivec2(i & 1, i >> 1), texel = ivec2(corner) + side;

@@ -68,7 +68,8 @@ float likeness(ivec2 texel, vec3 position, vec3 plane_normal, vec3 ws_normal) {
 }
 
 History history_at(ivec2 pixel, vec2 place) {
-    if (any(lessThan(place, vec2(0.0))) || any(greaterThanEqual(place, camera.extent.xy))) return no_history;
+    bool is_inside = all(greaterThanEqual(place, vec2(0.0))) && all(lessThan(place, camera.extent.xy));
+    if (!is_inside) return no_history;
     vec3 position = (camera.previous_view_from_world * world_position(pixel)).xyz;
     vec3 ws_normal = texelFetch(normal, pixel, 0).xyz, plane_normal = mat3(camera.previous_view_from_world) * ws_normal;
     vec2 corner = floor(place - 0.5), share = place - 0.5 - corner;

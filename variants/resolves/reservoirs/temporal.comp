@@ -12,11 +12,13 @@ uniform writeonly image2D reservoir_radiance, reservoir_hit, reservoir_origin;
 float target_of(Reservoir kept) { return max(luminance_bt709(kept.radiance), min_luminance) * kept.density; }
 
 // Densities are those of the whole lobe, though rays below the horizon or in the tail are not drawn: what is shown is
-// the mean of what the others see.
-Reservoir traced_reservoir(ivec2 pixel, vec3 origin) {
+// the mean of what the others see. With half_resolution the ray is that of a pixel beside, with its place and density.
+Reservoir traced_reservoir(ivec2 pixel) {
     vec4 seen = texelFetch(ray_radiance, pixel, 0), ray = texelFetch(ray_direction, pixel, 0);
     if (ray.w <= 0.0) return empty_reservoir;
-    float density = density_of(lobe_at(pixel), normalize(mat3(camera.view_from_world) * ray.xyz));
+    vec3 origin = world_position(traced_pixel(half_resolution ? pixel >> 1 : pixel, camera.frame.x)).xyz;
+    float density = ray.w;
+    if (!half_resolution) density = density_of(lobe_at(pixel), normalize(mat3(camera.view_from_world) * ray.xyz));
     if (density < 1e-12) return empty_reservoir;
     density = min(density, max_density);
     vec3 radiance = seen.rgb + (1.0 - seen.a) * texelFetch(fallback, pixel, 0).rgb;
@@ -26,8 +28,8 @@ Reservoir traced_reservoir(ivec2 pixel, vec3 origin) {
 Reservoir reservoir_before(ivec2 pixel) {
     vec2 place = surface_before(pixel);
     bool is_first_frame = camera.frame.w == 0u;
-    if (is_first_frame || any(lessThan(place, vec2(0.0))) || any(greaterThanEqual(place, camera.extent.xy)))
-        return empty_reservoir;
+    bool is_inside = all(greaterThanEqual(place, vec2(0.0))) && all(lessThan(place, camera.extent.xy));
+    if (is_first_frame || !is_inside) return empty_reservoir;
     ivec2 texel = ivec2(place);
     return unpacked_reservoir(texelFetch(previous_reservoir_radiance, texel, 0),
                               texelFetch(previous_reservoir_hit, texel, 0),
@@ -72,7 +74,7 @@ void main() {
     Reservoir kept = empty_reservoir;
     if (reflects(pixel, max_roughness)) {
         vec3 origin = world_position(pixel).xyz, vs_position = view_position(pixel);
-        kept = traced_reservoir(pixel, origin);
+        kept = traced_reservoir(pixel);
         Reservoir before = reservoir_before(pixel);
         if (temporal_reuse && before.weight > 0.0) {
             vec4 surface = texelFetch(normal, pixel, 0);

@@ -29,7 +29,7 @@ struct SpeedAccumulationParameters {
         {"", "what moves: the surface, what its ray met, or their sum", "HDRP, speed of surface and of target"},
         Use::uniform};
     Param<float> speed_rejection{params, "speed_rejection", 0.5f, {0.0f, 1.0f},
-        {"", "how much speed takes from history; 0: nothing, except with legacy_screen", "HDRP, speed rejection"}};
+        {"", "how much speed takes from history; 0: nothing, except with legacy_screen, and from the largest speed on with world_hard", "HDRP, speed rejection"}};
     Param<float> world_speed_scale{params, "world_speed_scale", 0.2f, {0.001f, 1.0f},
         {"", "the largest speed in space is the square of a tenth of it: m per frame", "HDRP, speed scaler"}};
 

@@ -38,7 +38,9 @@ public:
     StageReads reads() const override {
         const std::string gather = "resolves/speed_accumulation/gather",
                           accumulate = "resolves/speed_accumulation/accumulate";
-        return {.rays = "resolves/see_rays", .motion = {gather, accumulate}, .specular = {gather, accumulate}};
+        StageReads reads{.rays = "resolves/see_rays", .motion = {gather}, .specular = {gather, accumulate}};
+        if (accumulation_.temporal_accumulation) reads.motion.push_back(accumulate);
+        return reads;
     }
 
 private:
