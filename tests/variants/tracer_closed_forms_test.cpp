@@ -21,6 +21,7 @@ std::vector<std::string> screen_tracers() {
 nlohmann::json fine_steps(const std::string& tracer) {
     if (tracer == "view_space") return {{"view_space.steps", 8192}};             // 5 mm
     if (tracer == "frostbite_linear") return {{"frostbite.linear_steps", 512}};  // single pixels
+    if (tracer == "secant") return {{"secant.linear_steps", 4096}};              // no more than pixels
     if (tracer == "exact_layer") return {{"exact_layer.thickness_from", "parameter"}};
     return nlohmann::json::object();
 }

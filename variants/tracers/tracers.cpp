@@ -16,6 +16,7 @@ TracerEntry hzb_tracer();
 TracerEntry fixed_stride_tracer();
 TracerEntry cells_tracer();
 TracerEntry view_space_tracer();
+TracerEntry secant_tracer();
 TracerEntry exact_layer_tracer();
 TracerEntry exact_scene_tracer();
 
@@ -29,6 +30,7 @@ std::span<const TracerEntry> tracer_table() {
         fixed_stride_tracer(),
         cells_tracer(),
         view_space_tracer(),
+        secant_tracer(),
         exact_layer_tracer(),
         exact_scene_tracer(),
     };
