@@ -67,7 +67,8 @@ std::vector<BenchEnd> TracerBench::trace(const std::string& tracer, const std::v
         graph.upload(image, pixels);
         return image;
     };
-    const std::vector<Image> inputs{upload("depth", Format::r32f, depth), upload("normal", Format::rgba32f, normal),
+    const HostImage& shading = shading_normal.values.empty() ? normal : shading_normal;
+    const std::vector<Image> inputs{upload("depth", Format::r32f, depth), upload("normal", Format::rgba32f, shading),
                                     upload("geometric_normal", Format::rgba32f, normal)};
     const glm::uvec2 line(unsigned(rays.size()), 1);
     HostImage starts(line, 2), directions(line, 4);

@@ -31,6 +31,7 @@ public:
 
     CameraData camera{};
     HostImage depth, normal;                   ///< device depth; world-space normal, geometric and shading
+    HostImage shading_normal;                  ///< that for shading, where it is another one; else empty
     float device_depth(float distance) const;  ///< of a distance from the camera plane (m)
 
     void show(const SyntheticScene& scene);

@@ -17,6 +17,7 @@ TracerEntry fixed_stride_tracer();
 TracerEntry cells_tracer();
 TracerEntry view_space_tracer();
 TracerEntry secant_tracer();
+TracerEntry godot_tracer();
 TracerEntry exact_layer_tracer();
 TracerEntry exact_scene_tracer();
 
@@ -31,6 +32,7 @@ std::span<const TracerEntry> tracer_table() {
         cells_tracer(),
         view_space_tracer(),
         secant_tracer(),
+        godot_tracer(),
         exact_layer_tracer(),
         exact_scene_tracer(),
     };
