@@ -1,20 +1,12 @@
 // Blends each pixel with what was reflected in the frame before: where its surface was, and where a mirror showed what
 // its rays meet. Which of both counts is decided by how well they go with this frame's neighbours.
+#include "common/ycocg.glsl"
 #include "resolves/place_before.glsl"
 #include "resolves/ratio_filter/shown.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 uniform sampler2D resolved, resolved_variance, resolved_length, previous_accumulated, previous_accumulated_variance;
 uniform writeonly image2D accumulated, accumulated_variance;
-
-// Luma, which weighs green twice, and two differences of colours, all four times as large as usual. w: confidence.
-vec4 ycocg_of(vec4 color) {
-    float red_blue = color.r + color.b;
-    return vec4(red_blue + 2.0 * color.g, 2.0 * (color.r - color.b), 2.0 * color.g - red_blue, color.a);
-}
-vec4 color_of_ycocg(vec4 v) {
-    return vec4(0.25 * (v.x + v.y - v.z), 0.25 * (v.x + v.z), 0.25 * (v.x - v.y - v.z), v.w);
-}
 
 struct Neighborhood {
     vec4 mean, deviation;  // of 3x3 pixels, those that reflect
@@ -34,7 +26,7 @@ Neighborhood neighborhood_of(ivec2 pixel, vec4 center) {
         squares += difference * difference;
         count += 1.0;
     }
-    const float least_deviation = 1e-4;
+    const float least_deviation = 0.25e-4;  // EEVEE: 1e-4 of colours that are four times as large
     vec4 mean = sum / count;
     return Neighborhood(center + mean, max(sqrt(max(squares / count - mean * mean, 0.0)), least_deviation));
 }

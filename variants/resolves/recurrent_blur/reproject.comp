@@ -1,5 +1,6 @@
 // Where each pixel's reflection was in the frame before, and how many frames that holds. Two places are asked: where its
 // surface was, and where a flat mirror showed what its rays meet.
+#include "common/ycocg.glsl"
 #include "frostbite_sssr/previous_view.glsl"
 #include "resolves/place_before.glsl"
 #include "resolves/recurrent_blur/ray_statistics.glsl"
@@ -7,16 +8,6 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 uniform sampler2D previous_normal, previous_blurred, previous_age;
 uniform writeonly image2D reprojected, reprojected_age;
-
-// Luma, orange to blue, green to violet; confidence.
-vec4 ycocg_of(vec4 color) {
-    return vec4(dot(color.rgb, vec3(0.25, 0.5, 0.25)), 0.5 * (color.r - color.b),
-                dot(color.rgb, vec3(-0.25, 0.5, -0.25)), color.a);
-}
-vec4 color_of(vec4 ycocg) {
-    float rest = ycocg.x - ycocg.z;
-    return vec4(rest + ycocg.y, ycocg.x + ycocg.z, rest - ycocg.y, ycocg.w);
-}
 
 struct Neighborhood {
     vec4 mean, deviation;      // of damped colours of 3x3 pixels, as ycocg_of() has them
@@ -149,7 +140,7 @@ Found reproject(ivec2 pixel, vec4 traced) {
 
     float still = 1.0 - moved, reach = mix(0.5, 1.0, still * still);
     float scale = 1.0 + 10.0 * flicker_suppression * luminance_of(history);
-    vec4 clipped = scale * color_of(towards_box(ycocg_of(history / scale), around.mean, reach * around.deviation));
+    vec4 clipped = scale * color_of_ycocg(towards_box(ycocg_of(history / scale), around.mean, reach * around.deviation));
     float share = clamp_intensity * max(min(1.0, 10.0 * moved), 0.25) *
                   (1.0 + clamp((1.0 - stretched) + (1.0 - trust), 0.0, 1.0));
     float color_unit = scale_free ? max(luminance_of(history), 1e-6) : 1.0;
