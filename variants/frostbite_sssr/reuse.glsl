@@ -2,6 +2,7 @@
 #ifndef FROSTBITE_SSSR_REUSE_GLSL
 #define FROSTBITE_SSSR_REUSE_GLSL
 #include "frostbite_sssr/previous_view.glsl"
+#include "resolves/aimed_ray.glsl"
 #include "resolves/hit_color.glsl"
 #include "resolves/ray.glsl"
 #include "resolves/solid_angle.glsl"
@@ -42,12 +43,11 @@ OwnRay as_own_ray(Surface surface, ReusedRay ray) {
     if (!is_hit(ray.traced)) return own;
     own.ray_length = ray.traced.ray_length;
     bool is_reaimed = neighbor_ray == 0u;
-    // In this order the pixel's own ray keeps its direction to the last bits, as narrow lobes need.
-    vec3 to_hit = (ray.origin - surface.position) + ray.traced.ray_length * ray.traced.direction;
-    float to_hit_length = length(to_hit);
-    if (!is_reaimed || to_hit_length == 0.0) return own;
-    own.direction = to_hit / to_hit_length;
-    own.ray_length = to_hit_length;
+    if (!is_reaimed) return own;
+    AimedRay aimed = aimed_at_hit(ray.origin - surface.position, ray.traced);
+    if (aimed.ray_length == 0.0) return own;
+    own.direction = aimed.direction;
+    own.ray_length = aimed.ray_length;
     float length_ratio = ray.traced.ray_length / own.ray_length;
     if (reuse_jacobian)
         own.inverse_density *= solid_angle_ratio(ray.hit_normal, ray.traced.direction, own.direction, length_ratio);

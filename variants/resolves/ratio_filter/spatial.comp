@@ -2,6 +2,7 @@
 // drawn.
 #include "common/ggx_lobe.h"
 #include "common/mirror_ray.glsl"
+#include "resolves/aimed_ray.glsl"
 #include "resolves/ratio_filter/averages.glsl"
 #include "resolves/ratio_filter/taps.glsl"
 #include "resolves/seen_rays.glsl"
@@ -60,13 +61,12 @@ OwnRay as_own_ray(Receiver receiver, ivec2 pixel, ivec2 traced_from, TracedRay r
     float nearness = max(0.2, clamp((0.75 - receiver.roughness) / 0.45, 0.0, 1.0));
     vec3 offset = is_on_plane ? nearness * (receiver.steps * vec2(traced_from - pixel))
                               : view_position(traced_from) - receiver.position;
-    vec3 to_hit = offset + ray.ray_length * ray.direction;
-    float to_hit_length = length(to_hit);
-    if (to_hit_length == 0.0) return own;
-    own.direction = to_hit / to_hit_length;
+    AimedRay aimed = aimed_at_hit(offset, ray);
+    if (aimed.ray_length == 0.0) return own;
+    own.direction = aimed.direction;
     if (reuse_jacobian && !is_on_plane)
         own.inverse_density *= solid_angle_ratio(view_geometric_normal(pixel_of_target(ray.target)), ray.direction,
-                                                 own.direction, ray.ray_length / to_hit_length);
+                                                 own.direction, ray.ray_length / aimed.ray_length);
     return own;
 }
 

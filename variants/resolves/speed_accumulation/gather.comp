@@ -2,7 +2,7 @@
 #include "common/ggx_lobe.h"
 #include "common/mirror_ray.glsl"
 #include "common/motion.glsl"
-#include "resolves/ray.glsl"
+#include "resolves/aimed_ray.glsl"
 #include "resolves/seen_rays.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -36,12 +36,10 @@ float weight_of_origin(ivec2 origin_pixel, vec3 direction) {
                        : ggx_reflection_weight(abs(mu_o), abs(mu_i), alpha);
 }
 
-// The direction in which the pixel itself would look at what the ray met. In this order its own ray keeps its direction
-// to the last bits, as narrow lobes need.
+// The direction in which the pixel itself would look at what the ray met.
 vec3 direction_to_hit(Receiver receiver, ivec2 origin_pixel, TracedRay ray) {
     if (!is_hit(ray)) return ray.direction;
-    vec3 to_hit = (view_position(origin_pixel) - receiver.position) + ray.ray_length * ray.direction;
-    return dot(to_hit, to_hit) > 0.0 ? normalize(to_hit) : ray.direction;
+    return aimed_at_hit(view_position(origin_pixel) - receiver.position, ray).direction;
 }
 
 struct Sums {
