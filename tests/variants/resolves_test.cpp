@@ -29,6 +29,18 @@ SyntheticHit floor_before_waves(const CameraRay& ray) {
     return hit;
 }
 
+/// What is compared here: a mean of rays of every pixel, whose misses are not known, but for what is `given`.
+nlohmann::json plain(const nlohmann::json& given) {
+    return changed({{"resolve", "mean"},
+                    {"tracer", "cells"},
+                    {"dda.thickness", 0.1},
+                    {"dda.relative_thickness", 0.0},
+                    {"misses", "weight"},
+                    {"half_resolution", false},
+                    {"importance_bias", 0.3}},
+                   given);
+}
+
 struct ResolvesTest : VariantTest {
     CameraPose pose{.vertical_fov = 1.2f, .near = 0.1f, .far = 100.0f};
 
@@ -89,7 +101,7 @@ struct ResolvesTest : VariantTest {
 
     void expect_equal(const nlohmann::json& composed, const std::string& technique, const nlohmann::json& parameters,
                       const SyntheticScene& scene, glm::vec3 tilt = glm::vec3(0)) {
-        const auto parts = make_variant("composed_ssr", composed), whole = make_variant(technique, parameters);
+        const auto parts = make_variant("composed_ssr", plain(composed)), whole = make_variant(technique, parameters);
         const glm::uvec2 extent(67, 45);
         const glm::vec3 step(0.02f, 0.01f, -0.03f);
         const Frames of_parts = render(*parts, scene, extent, 4, step, {}, tilt),
@@ -155,8 +167,9 @@ TEST_F(ResolvesTest, MeanIsThatOfTheLobe) {
         const RoughFloor floor{.roughness = 0.7f, .pose = pose, .extent = extent};
         const RoughFloor::Mean expected = floor.of_lobe();
         const auto variant = make_variant(
-            "composed_ssr", changed(RoughFloor::march(),
-                                    {{"lobe", lobe}, {"max_rays", 4}, {"importance_bias", 0.0}, {"max_roughness", 1}}));
+            "composed_ssr",
+            plain(changed(RoughFloor::march(),
+                          {{"lobe", lobe}, {"max_rays", 4}, {"importance_bias", 0.0}, {"max_roughness", 1}})));
         const Frames frames = render(*variant, floor.scene(), extent, 60);
         const RoughFloor::Mean mean = floor.mean([&](unsigned frame) { return frames.images[frame]; }, 60);
         // Five standard errors: one false alarm in a million. A ratio of four rays is biased by about a quarter of the
@@ -170,8 +183,8 @@ TEST_F(ResolvesTest, AreBelievable) {
     for (const ResolveEntry& entry : resolve_table())
         for (const glm::uvec2 extent : {glm::uvec2(67, 45), glm::uvec2(1, 1)}) {
             SCOPED_TRACE(entry.name + ", " + std::to_string(extent.x));
-            const auto variant =
-                make_variant("composed_ssr", {{"resolve", entry.name}, {"tracer", "dda"}, {"half_resolution", true}});
+            const auto variant = make_variant(
+                "composed_ssr", {{"resolve", entry.name}, {"misses", entry.takes_probe ? "probe" : "fallback"}});
             const Frames frames = render(*variant, glossy_floor, extent, 3, {0.02f, 0.01f, -0.03f});
             for (const HostImage& image : frames.images) {
                 size_t bad = 0;
@@ -196,7 +209,7 @@ TEST_F(ResolvesTest, KeepConstantLightConstant) {
         SCOPED_TRACE(entry.name);
         // With its preset, if it has one: the original of AMD's denoiser also averages what was never written.
         const bool has_preset = std::ranges::count(find_variant("composed_ssr").presets, entry.name, &Preset::name) > 0;
-        const auto variant = make_variant("composed_ssr", {{"cells.edge_fade", true}, {"resolve", entry.name}},
+        const auto variant = make_variant("composed_ssr", plain({{"cells.edge_fade", true}, {"resolve", entry.name}}),
                                           has_preset ? entry.name : "");
         const Frames frames = render(*variant, white, {67, 45}, 4, {0.02f, 0.01f, -0.03f}, 1.0f);
         // Its weights are densities, not divided by their sum: one holds in the mean over pixels only.
@@ -222,7 +235,7 @@ TEST_F(ResolvesTest, KeepConstantLightConstant) {
 TEST_F(ResolvesTest, SayWhichStagesTheyHave) {
     for (const ResolveEntry& entry : resolve_table()) {
         SCOPED_TRACE(entry.name);
-        const auto variant = make_variant("composed_ssr", {{"resolve", entry.name}, {"tracer", "dda"}});
+        const auto variant = make_variant("composed_ssr", plain({{"resolve", entry.name}, {"tracer", "dda"}}));
         std::vector<std::string> said = {"composed_ssr/trace"}, run;
         ParameterSet params;
         Resolves resolves(params, entry.name);
@@ -237,10 +250,29 @@ TEST_F(ResolvesTest, SayWhichStagesTheyHave) {
     }
 }
 
+TEST_F(ResolvesTest, TakeTheProbeOrRefuseIt) {
+    for (const ResolveEntry& entry : resolve_table()) {
+        SCOPED_TRACE(entry.name);
+        const auto variant = make_variant("composed_ssr", plain({{"resolve", entry.name}, {"misses", "probe"}}));
+        if (entry.takes_probe) {
+            const std::vector<std::string> stages = render(*variant, glossy_floor, {16, 16}).stages;
+            for (const std::string& stage : screen_probe_stages())
+                EXPECT_TRUE(std::ranges::count(stages, stage)) << stage;
+            continue;
+        }
+        try {
+            render(*variant, glossy_floor, {16, 16});
+            ADD_FAILURE() << "was run";
+        } catch (const Error& error) {
+            EXPECT_NE(std::string(error.what()).find("take fallback or weight"), std::string::npos) << error.what();
+        }
+    }
+}
+
 TEST_F(ResolvesTest, RefuseRaysWithoutTheDensitiesThatTheyNeed) {
     size_t refused = 0;
     for (const ResolveEntry& entry : resolve_table()) {
-        const auto variant = make_variant("composed_ssr", {{"resolve", entry.name}, {"draw_directions", false}});
+        const auto variant = make_variant("composed_ssr", plain({{"resolve", entry.name}, {"draw_directions", false}}));
         if (!entry.needs_density) {
             EXPECT_NO_THROW(render(*variant, glossy_floor, {16, 16}));
             continue;

@@ -5,7 +5,7 @@
 #include "variants/tracers/tracing_variant.h"
 
 /// Any march and any resolve (variants/resolves), behind Frostbite's draw of directions: what a technique is made of,
-/// so that its parts can be compared one by one.
+/// so that its parts can be compared one by one. Its defaults are a technique of our own.
 class ComposedSsr final : public TracingVariant {
 public:
     bool depends_on_seed() const override;
@@ -20,22 +20,24 @@ private:
     // clang-format off
     Switch draw_directions_{params, "draw_directions", true,
         {"", "draws each ray's direction from the lobe; otherwise it is the mirror's", "ssrlab, to measure the stage"}};
-    Choice misses_{params, "misses", "weight", {"weight", "fallback"},
+    Choice misses_{params, "misses", "probe", {"weight", "fallback", "probe"},
         {"", "what a ray without a hit contributes. weight: only less confidence; fallback: the environment in its "
-         "direction", "ssrlab"}};
+         "direction; probe: what the screen says of the surroundings there (variants/common/screen_probe), for scenes "
+         "without reflection probes", "ssrlab"}};
     Switch previous_frame_{params, "previous_frame", false,
         {"", "hits take their colour from the previous frame's lit image, where they were then; otherwise from this frame's",
          "ssrlab"}};
     // clang-format on
     Tracers tracers_{params,
-                     {{"tracer", "trace", "cells", "the march that finds what a ray meets"}},
+                     {{"tracer", "trace", "dda", "the march that finds what a ray meets"}},
                      "ssrlab",
-                     {{"half_resolution", false},
-                      {"lobe", "visible_normals"},
-                      {"importance_bias", 0.3},
+                     {{"lobe", "visible_normals"},
+                      {"importance_bias", 0.1},
+                      {"dda.relative_thickness", 0.02},
+                      {"dda.thickness", 0.0},
                       {"cells.relative_thickness", 0.01},
                       {"cells.thickness", 0.0}}};
-    mutable Resolves resolves_{params, "mean"};
+    mutable Resolves resolves_{params, "ratio_accumulation"};
 
     LitHistory lit_;
     FrostbiteHorizonImage horizon_;
@@ -49,7 +51,8 @@ Reflections ComposedSsr::render_passes(PassGraph& graph, const GBuffer& gbuffer)
         .color = previous_frame_ ? lit_.previous(graph, gbuffer.lit) : gbuffer.lit,
         .below_horizon = horizon_.on(graph, draw_),
         .draw = draw_,
-        .misses_see_environment = misses_.is("fallback"),
+        .probe = misses_.is("probe") ? std::optional(screen_probe(graph, gbuffer)) : std::nullopt,
+        .misses_are_known = !misses_.is("weight"),
         .previous_frame = previous_frame_};
     PassGraph::Pass pass = graph.compute("composed_ssr/trace.comp");
     pass.read(rays.below_horizon).use(rays.traced.directions).use(rays.traced.hits);
@@ -60,9 +63,12 @@ Reflections ComposedSsr::render_passes(PassGraph& graph, const GBuffer& gbuffer)
 
 TracingVariant::Needless ComposedSsr::find_needless(const SceneFacts& facts) {
     Needless needless{.such_a_surface = "as smooth as max_roughness", .stages = {"composed_ssr/trace"}};
-    needless.rays = !facts.has_reflective || facts.min_roughness > draw_.max_roughness;
+    const bool answers_rough = misses_.is("probe") && resolves_.chosen().answers_rough_surfaces();
+    needless.rays = !facts.has_reflective || (facts.min_roughness > draw_.max_roughness && !answers_rough);
     if (tracers_.needs_pyramid()) needless.stages.insert(needless.stages.begin(), "common/depth_pyramid");
     if (previous_frame_) needless.stages.insert(needless.stages.begin(), "common/keep_lit");
+    if (misses_.is("probe"))
+        for (const std::string& stage : screen_probe_stages()) needless.stages.push_back(stage);
     const std::vector<std::string> of_resolve = resolves_.chosen().stages();
     needless.stages.insert(needless.stages.end(), of_resolve.begin(), of_resolve.end());
     const StageReads reads = resolves_.chosen().reads();
@@ -70,7 +76,7 @@ TracingVariant::Needless ComposedSsr::find_needless(const SceneFacts& facts) {
     needless.specular_readers.insert(needless.specular_readers.begin(), "composed_ssr/trace");
     needless.motion_readers = reads.motion;
     if (previous_frame_ && !std::ranges::count(reads.motion, reads.rays)) needless.motion_readers.push_back(reads.rays);
-    if (misses_.is("fallback")) needless.environment_readers = {reads.rays};
+    if (!misses_.is("weight")) needless.environment_readers = {reads.rays};
     return needless;
 }
 
@@ -86,11 +92,14 @@ std::string ComposedSsr::not_repeatable() const {
 
 namespace {
 
-const nlohmann::json repaired = {{"repair_inputs", true}};
+/// What the resolves are compared behind: a ray for every pixel, and nothing in place of misses.
+const nlohmann::json compared_behind = {
+    {"repair_inputs", true},  {"tracer", "cells"},    {"misses", "weight"},           {"half_resolution", false},
+    {"importance_bias", 0.3}, {"dda.thickness", 0.1}, {"dda.relative_thickness", 0.0}};
 
 /// A resolve of the same name, with faulty inputs repaired.
 Preset preset_of(const std::string& resolve, const std::string& meaning, const nlohmann::json& of_resolve) {
-    nlohmann::json parameters = changed(repaired, {{"resolve", resolve}});
+    nlohmann::json parameters = changed(compared_behind, {{"resolve", resolve}});
     for (const auto& [name, value] : of_resolve.items()) parameters[resolve + "." + name] = value;
     return {resolve, meaning, parameters};
 }
@@ -153,12 +162,14 @@ Preset cone_mips_preset() {
 VariantEntry composed_ssr_entry() {
     return {
         .name = "composed_ssr",
-        .title = "Any march and any resolve, behind one draw of directions",
+        .title = "Any march and any resolve, behind one draw of directions; by default a technique of our own",
         .source = "ssrlab; the draw is that of Stachowiak & Uludag 2015, Stochastic Screen-Space Reflections",
         .description =
             "Rays are drawn from the lobe, marched by the chosen tracer and made a picture of by the chosen resolve; "
             "both "
-            "have the parameters that they have elsewhere.",
+            "have the parameters that they have elsewhere. By default one pixel in four starts a ray, all frames since "
+            "the pixel's reflection came into sight are one ratio estimator, and what the screen does not show is "
+            "guessed from what it does, for rough surfaces without a ray.",
         .presets = {preset_of("mean", "the pixel's own ray", {}),
                     preset_of("blur", "a blur of one size", {{"blur_width", 0.04}}),
                     preset_of("amd_denoiser", "with the values of amd_sssr's best_1x", amd_values),
@@ -174,6 +185,8 @@ VariantEntry composed_ssr_entry() {
                               ratio_values),
                     preset_of("speed_accumulation", "HDRP's values, with its defects fixed", speed_values),
                     cone_mips_preset(),
+                    preset_of("ratio_accumulation", "the defaults' resolve behind the march and the draw of the others",
+                              {}),
                     preset_of("reservoirs", "kajiya's values, as far as they have a place here", {})},
         .create = [] { return std::make_unique<ComposedSsr>(); },
     };

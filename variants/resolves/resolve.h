@@ -1,22 +1,25 @@
 #pragma once
 #include "core/variant.h"
+#include "variants/common/screen_probe/screen_probe.h"
 #include "variants/resolves/ray_draw.h"
 #include "variants/resolves/traced_rays.h"
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 /// What a technique's draw and march hand to a resolve. Shaders that read rays (seen.glsl, ray.glsl) run with the
-/// technique's parameters, of which there are those of ray_draw.h, `draw_directions`, `misses` (weight, fallback) and
-/// `previous_frame`.
+/// technique's parameters, of which there are those of ray_draw.h, `draw_directions`, `misses` (weight, fallback,
+/// probe) and `previous_frame`.
 struct ResolvedRays {
     TracedRays traced;
     Image color;          ///< the lit image that hits show: of this frame, or with `previous_frame` of the last one
     Image below_horizon;  ///< of FrostbiteHorizonImage: share of draws that go below the horizon
     const RayDrawParameters& draw;
-    bool misses_see_environment = false;  ///< `misses` is fallback
+    std::optional<ScreenProbe> probe;  ///< where `misses` is probe
+    bool misses_are_known = false;     ///< to see the environment, or what the probe guesses
     bool previous_frame = false;
 };
 
@@ -39,6 +42,9 @@ RayImages ray_images(PassGraph& graph, const GBuffer& gbuffer, const ResolvedRay
 /// What each ray sees, for resolves whose pixels share rays: the buffer `seen_rays` of seen_rays.glsl.
 Buffer see_rays(PassGraph& graph, const GBuffer& gbuffer, const ResolvedRays& rays);
 
+/// The images of common/screen_probe/lookup.glsl; others, which nothing reads, where there is no probe.
+PassGraph::Pass& bind_probe(PassGraph::Pass& pass, const ResolvedRays& rays);
+
 /// Which stages of a resolve read what a scene may not need.
 struct StageReads {
     std::string rays;                   ///< what rays see, and so the environment and the motion of hits, if at all
@@ -60,6 +66,8 @@ public:
     virtual bool draws_random_numbers() const { return false; }
     virtual std::string not_repeatable() const { return {}; }  ///< as of Variant::not_repeatable()
     virtual StageReads reads() const = 0;
+    /// Shows something on surfaces rougher than max_roughness, too.
+    virtual bool answers_rough_surfaces() const { return false; }
 
     ParameterSet params;
 
@@ -73,6 +81,7 @@ struct ResolveEntry {
     std::string name, title, source, description;
     std::string folder;         ///< with its sources: "variants/resolves/mean/"
     bool needs_density = true;  ///< weighs neighbours' rays by densities, which mirror rays lack
+    bool takes_probe = true;    ///< sees misses as seen.glsl does, which knows the probe
     /// Declares the parameters that a technique has of it, in which their names begin with the resolve's:
     /// `blur.blur_width`.
     std::function<void(ParameterSet&)> declare = [](ParameterSet&) {};

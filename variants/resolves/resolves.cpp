@@ -16,6 +16,7 @@ ResolveEntry speed_accumulation_resolve();
 ResolveEntry cone_mips_resolve();
 ResolveEntry ratio_filter_resolve();
 ResolveEntry reservoirs_resolve();
+ResolveEntry ratio_accumulation_resolve();
 
 std::span<const ResolveEntry> resolve_table() {
     static const std::vector<ResolveEntry> table = {mean_resolve(),
@@ -27,7 +28,8 @@ std::span<const ResolveEntry> resolve_table() {
                                                     speed_accumulation_resolve(),
                                                     cone_mips_resolve(),
                                                     ratio_filter_resolve(),
-                                                    reservoirs_resolve()};
+                                                    reservoirs_resolve(),
+                                                    ratio_accumulation_resolve()};
     return table;
 }
 
@@ -62,27 +64,34 @@ nlohmann::json RayDrawParameters::values() const {
             {"max_regenerations", unsigned(max_regenerations)}};
 }
 
+namespace {
+
+/// What shaders that include seen.glsl read.
+PassGraph::Pass& bind_seen(PassGraph::Pass& pass, const GBuffer& gbuffer, const ResolvedRays& rays) {
+    pass.read(rays.color.as("hit_color")).use(rays.traced.directions).use(rays.traced.hits);
+    bind_probe(pass, rays);
+    return bind_environment(pass, gbuffer);
+}
+
+}  // namespace
+
+PassGraph::Pass& bind_probe(PassGraph::Pass& pass, const ResolvedRays& rays) {
+    const Image& unread = rays.color;
+    return pass.read_linear((rays.probe ? rays.probe->surfaces : unread).as("screen_probe"))
+        .read((rays.probe ? rays.probe->nearness : unread).as("screen_probe_nearness"));
+}
+
 OwnRays average_own_rays(PassGraph& graph, const GBuffer& gbuffer, const ResolvedRays& rays) {
     const OwnRays own{graph.image("own_radiance", Format::rgba32f), graph.image("own_length", Format::r32f)};
     PassGraph::Pass pass = graph.compute("resolves/own_rays.comp");
-    pass.read(rays.color.as("hit_color"))
-        .use(rays.traced.directions)
-        .use(rays.traced.hits)
-        .write(own.radiance)
-        .write(own.ray_length);
-    bind_environment(pass, gbuffer).run();
+    bind_seen(pass, gbuffer, rays).write(own.radiance).write(own.ray_length).run();
     return own;
 }
 
 RayImages ray_images(PassGraph& graph, const GBuffer& gbuffer, const ResolvedRays& rays) {
     const RayImages images{graph.image("ray_radiance", Format::rgba32f), graph.image("ray_direction", Format::rgba32f)};
     PassGraph::Pass pass = graph.compute("resolves/ray_images.comp");
-    pass.read(rays.color.as("hit_color"))
-        .use(rays.traced.directions)
-        .use(rays.traced.hits)
-        .write(images.radiance)
-        .write(images.direction);
-    bind_environment(pass, gbuffer).run();
+    bind_seen(pass, gbuffer, rays).write(images.radiance).write(images.direction).run();
     return images;
 }
 
@@ -90,8 +99,7 @@ Buffer see_rays(PassGraph& graph, const GBuffer& gbuffer, const ResolvedRays& ra
     const Buffer seen = graph.buffer("seen_rays", rays.traced.directions.size);  // both a vec4 per ray
     const glm::uvec2 screen = graph.extent();
     PassGraph::Pass pass = graph.compute("resolves/see_rays.comp");
-    pass.read(rays.color.as("hit_color")).use(rays.traced.directions).use(rays.traced.hits).use(seen);
-    bind_environment(pass, gbuffer).run(rays.draw.half_resolution ? (screen + 1u) / 2u : screen);
+    bind_seen(pass, gbuffer, rays).use(seen).run(rays.draw.half_resolution ? (screen + 1u) / 2u : screen);
     return seen;
 }
 
@@ -136,6 +144,9 @@ Reflections Resolves::run(PassGraph& graph, const GBuffer& gbuffer, const Resolv
         fail("resolve = ", entry.name,
              " weighs rays by the densities with which they were drawn, which mirror rays lack: "
              "draw_directions must be true");
+    if (rays.probe && !entry.takes_probe)
+        fail("resolve = ", entry.name,
+             " has its own way to see what rays met, which does not know misses = probe: take fallback or weight");
     const ParameterSet& params = graph.params();
     const Reflections reflections = chosen().run(graph, gbuffer, rays);
     graph.set_params(params);

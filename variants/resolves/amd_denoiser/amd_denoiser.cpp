@@ -14,7 +14,7 @@ public:
         // Above the alpha of the roughest surface that is traced, which roughness_threshold_alpha excludes.
         const float alpha = rays.draw.max_roughness * rays.draw.max_roughness;
         use_own_params(graph, {{"roughness_threshold_alpha", std::min(std::nextafter(alpha, 2.0f), 1.0f)},
-                               {"misses", rays.misses_see_environment ? "fallback" : "weight"},
+                               {"misses", rays.misses_are_known ? "fallback" : "weight"},
                                {"rate_stored_roughness", true},
                                {"float_roughness", true}});
         const Image confidence = graph.image("confidence", Format::r8);

@@ -9,7 +9,7 @@ class FrostbiteReuse final : public Resolve {
 public:
     Reflections run(PassGraph& graph, const GBuffer& gbuffer, const ResolvedRays& rays) override {
         nlohmann::json given = rays.draw.values();
-        given["misses"] = rays.misses_see_environment ? "fallback" : "weight";
+        given["misses"] = rays.misses_are_known ? "fallback" : "weight";
         given["previous_frame"] = rays.previous_frame;
         use_own_params(graph, given);
         const Image color = resolve_.filtered_sampling ? frostbite_color_pyramid(graph, rays.color) : rays.color;
@@ -50,6 +50,7 @@ ResolveEntry frostbite_reuse_resolve() {
                 "Each pixel weighs its neighbours' rays by its own lobe over their densities; colours as wide as the "
                 "lobe's cone; history from where the mirror image was, in the box of the neighbours.",
             .folder = "variants/resolves/frostbite_reuse/",
+            .takes_probe = false,
             .declare = [](ParameterSet& params) { FrostbiteResolveParameters{params}; },
             .given = {"misses", "previous_frame"},
             .create = [] { return std::make_unique<FrostbiteReuse>(); }};

@@ -1,0 +1,54 @@
+// Guesses what lies in directions that the screen never showed.
+#include "common/screen_probe/octahedral_map.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+uniform sampler2D probe_seen, probe_facts;  // of gather.comp
+uniform writeonly image2D screen_probe, screen_probe_nearness;
+
+// How much a direction says about another one: inverse distances (Shepard 1968), in which a turn about the vertical, y in
+// glTF, counts as less than one up or down. The numbers are ours.
+float likeness(vec3 a, vec3 b) {
+    const float of_turns = 0.3, blunt = 0.02, sharpness = 3.0;
+    vec3 difference = (a - b) * vec3(of_turns, 1.0, of_turns);
+    return pow(blunt + dot(difference, difference), -sharpness);
+}
+
+struct Guess {
+    vec4 surfaces;  // as of ScreenProbe
+    float nearness;
+};
+
+Guess guess_at(vec3 direction) {
+    const int blocks = probe_width / 2;  // of 2x2 texels, whose mean a sampler gives at their common corner
+    const float doubt = 1e-3;      // weight of there being nothing
+    vec4 surfaces = vec4(0.0);
+    float nearness = 0.0, weights = doubt;
+    for (int i = 0; i < blocks * blocks; ++i) {
+        vec2 corner = (vec2(i % blocks, i / blocks) + 0.5) / float(blocks);
+        vec2 facts = textureLod(probe_facts, corner, 0.0).xy;
+        if (facts.y == 0.0) continue;
+        float weight = likeness(direction_of_place(2.0 * corner - 1.0), direction);
+        surfaces += weight * textureLod(probe_seen, corner, 0.0);
+        nearness += weight * facts.x;
+        weights += weight * facts.y;
+    }
+    if (surfaces.a == 0.0) return Guess(vec4(0.0), 0.0);
+    // Where the sky shows between things there is more of it beyond the screen; a window in a wall is no sky.
+    const float open = 0.4, closed = 0.9;
+    float share = smoothstep(open, closed, surfaces.a / weights);
+    return Guess(share / surfaces.a * surfaces, nearness / surfaces.a);
+}
+
+void main() {
+    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(texel, ivec2(probe_width + 2)))) return;
+    vec2 place = place_within(2.0 * (vec2(texel) - 0.5) / float(probe_width) - 1.0);
+    Guess guess = guess_at(direction_of_place(place));
+    ivec2 inside = ivec2((0.5 * place + 0.5) * float(probe_width));
+    vec4 seen = texelFetch(probe_seen, inside, 0);
+    vec2 facts = texelFetch(probe_facts, inside, 0).xy;
+    float of_guess = 1.0 - facts.y, nearness = of_guess * guess.surfaces.a * guess.nearness + facts.x;
+    vec4 surfaces = of_guess * guess.surfaces + seen;
+    imageStore(screen_probe, texel, surfaces);
+    imageStore(screen_probe_nearness, texel, vec4(surfaces.a > 0.0 ? nearness / surfaces.a : 0.0));
+}

@@ -1,0 +1,137 @@
+// One ratio estimator over neighbours and frames: the sum of what rays see times the density of the pixel's own lobe
+// over theirs, over the sum of these ratios. So a mirror takes nothing from rays that are not its own, and a pixel that
+// had no ray of its own in this frame keeps what it knew.
+#include "common/screen_probe/lookup.glsl"
+#include "resolves/ratio_accumulation/history.glsl"
+#include "resolves/seen_rays.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+uniform writeonly image2D accumulated, moments, reflected_length;  // of state.glsl
+
+struct Sums {
+    vec4 shown;    // of weights: radiance times confidence, confidence
+    float weight;
+    vec2 lengths;  // of weights of hits: length, 1
+};
+
+// Of three traced pixels; those that do not count have no density.
+const uint most_rays = 3u * 4u;
+struct Rays {
+    TracedRay ray[most_rays];
+    vec4 seen[most_rays];  // as of seen_rays.glsl
+};
+
+// Of the traced pixel and of those on both sides, in turns across and along the screen; every other time farther ones,
+// which wide lobes take.
+Rays rays_around(ivec2 center) {
+    uint turn = camera.frame.x & 3u;
+    int reach = turn >= 2u ? 2 : 1;
+    ivec2 offset = (turn & 1u) == 0u ? ivec2(reach, 0) : ivec2(0, reach), last = traced_extent() - 1;
+    Rays rays;
+    for (uint n = 0u; n < 3u * max_rays; ++n) {
+        uint from = n / max_rays;
+        ivec2 traced = from == 0u ? center : from == 1u ? center - offset : center + offset;
+        bool exists = traced == clamp(traced, ivec2(0), last) && (from == 0u || reuse_neighbors);
+        uint index = index_of_ray(clamp(traced, ivec2(0), last), n % max_rays);
+        rays.ray[n] = load_ray(index);
+        rays.seen[n] = seen_by_ray[index];
+        if (!exists || rays.ray[n].target == ray_below_horizon) rays.ray[n].inverse_density = 0.0;
+    }
+    return rays;
+}
+
+Sums sums_of(Rays rays, Receiver receiver) {
+    Sums sums = Sums(vec4(0.0), 0.0, vec2(0.0));
+    for (uint n = 0u; n < 3u * max_rays; ++n) {
+        TracedRay ray = rays.ray[n];
+        vec3 i = ray.direction * receiver.view_from_local;
+        bool counts = ray.inverse_density != 0.0 && i.z > 0.0;
+        const float largest_ratio = 4.0;  // so that no ray decides alone
+        float ratio = lobe_density(lobe_of_visible_normals, receiver.o, i, receiver.alpha) * ray.inverse_density;
+        float weight = counts ? min(ratio, largest_ratio) + least_ratio : 0.0;
+        sums.shown += weight * shown_color(rays.seen[n]);
+        sums.weight += weight;
+        if (is_hit(ray)) sums.lengths += weight * vec2(ray.ray_length, 1.0);
+    }
+    return sums;
+}
+
+State state_of(Sums sums) {
+    if (sums.weight == 0.0) return no_state;
+    vec4 shown = sums.shown / sums.weight;
+    float ray_length = sums.lengths.y > 0.0 ? sums.lengths.x / sums.lengths.y : 0.0;
+    return State(shown, first_moments(sums.weight, shown), ray_length);
+}
+
+// How much of its weight history keeps where the mean over few frames lies by more standard deviations of its own from
+// that over many than noise lets it.
+float kept_after_change(vec4 moments, float weight, float now_weight) {
+    const float least_difference = 0.01;  // of compressed luminance: rounding and what noise has not yet shown
+    float variance = max(moments.w - moments.z * moments.z, 0.0) / (2.0 * change_frames - 1.0);
+    float excess = abs(moments.y - moments.z) / (change_deviations * sqrt(variance) + least_difference);
+    if (excess <= 1.0) return weight;
+    // Not less than the mean over few has, or one ray decides.
+    return min(weight, max(weight / (excess * excess), (change_frames - 1.0) * now_weight));
+}
+
+State blended(ivec2 pixel, State now, State before) {
+    float now_weight = now.moments.x, weight = before.moments.x, share = now_weight / (now_weight + weight);
+    float of_few = max(share, min(now_weight, 1.0) / change_frames), of_many = max(share, now_weight / max_history);
+    vec4 moments = mix(before.moments, now.moments, vec4(0.0, of_few, of_many, of_many));
+    weight /= 1.0 + motion_of_hit(pixel) / moved_pixels;
+    if (change_deviations > 0.0) weight = kept_after_change(moments, weight, now_weight);
+    moments.x = min(weight + now_weight, max_history);
+    const float of_length = 0.25;  // at least, since lengths are compared with this frame's
+    float ray_length = mix(before.ray_length, now.ray_length, max(share, of_length * min(now_weight, 1.0)));
+    return State(mix(before.shown, now.shown, now_weight / (now_weight + weight)), moments, ray_length);
+}
+
+State traced(ivec2 pixel, Receiver receiver, Rays rays) {
+    State now = state_of(sums_of(rays, receiver));
+    bool has_history = temporal_accumulation && camera.frame.w != 0u;
+    if (!has_history) return now;
+    Place place = place_of(pixel, receiver, now.ray_length);
+    State before = history_at(pixel, receiver, place);
+    if (!stays(pixel, place)) before.moments.x = moved_weight(pixel, receiver, place, before);
+    return before.moments.x > 0.0 ? blended(pixel, now, before) : now;
+}
+
+// Without a ray: what the probe says about the middle of the lobe, which leans towards the normal (Lagarde and de
+// Rousiers 2014, "Moving Frostbite to Physically Based Rendering", section 4.9.3).
+State guessed(Receiver receiver) {
+    vec3 mirrored = vec3(-receiver.o.xy, receiver.o.z);
+    float smoothness = 1.0 - receiver.alpha;
+    vec3 axis = normalize(mix(vec3(0.0, 0.0, 1.0), mirrored, smoothness * (sqrt(smoothness) + receiver.alpha)));
+    mat3 world_from_view = mat3(camera.world_from_view);
+    vec4 surfaces = surfaces_along(world_from_view * receiver.position, world_from_view * (receiver.view_from_local * axis));
+    return State(surfaces, vec4(0.0), 0.0);
+}
+
+bool is_finite(vec4 color) { return !any(isnan(color)) && !any(isinf(color)); }
+
+void accumulate(ivec2 pixel, Rays rays) {
+    State state = no_state;
+    float device_depth = texelFetch(depth, pixel, 0).r;
+    if (!is_background(device_depth) && has_specular(pixel)) {
+        Receiver receiver = receiver_at(pixel, device_depth, texelFetch(normal, pixel, 0));
+        bool is_traced = receiver.roughness <= max_roughness;
+        if (receiver.o.z > 0.0 && is_traced) state = traced(pixel, receiver, rays);
+        if (receiver.o.z > 0.0 && !is_traced && rough_from_probe) state = guessed(receiver);
+        if (!is_finite(state.shown) || !is_finite(state.moments)) state = no_state;  // of sums that overflow
+    }
+    imageStore(accumulated, pixel, known_color(state.shown));
+    imageStore(moments, pixel, state.moments);
+    imageStore(reflected_length, pixel, vec4(state.ray_length));
+}
+
+// Once for all pixels that have the same traced pixel, whose rays are loaded once.
+void main() {
+    ivec2 center = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(center, traced_extent()))) return;
+    Rays rays = rays_around(center);
+    const int side = half_resolution ? 2 : 1;
+    for (int n = 0; n < side * side; ++n) {
+        ivec2 pixel = side * center + ivec2(n % side, n / side);
+        if (is_on_screen(pixel)) accumulate(pixel, rays);
+    }
+}
