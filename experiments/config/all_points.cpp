@@ -22,7 +22,8 @@ std::vector<std::string> names_of_point(const VariantConfig& point) {
 std::vector<VariantConfig> all_points(const std::vector<std::string>& names) {
     std::vector<VariantConfig> points;
     for (const VariantEntry& entry : variant_table()) {
-        if (entry.presets.empty() || entry.name == "mcguire_dda") points.push_back(single_point(entry.name));
+        if (entry.presets.empty() || entry.name == "mcguire_dda" || entry.name == "composed_ssr")
+            points.push_back(single_point(entry.name));
         for (const Preset& preset : entry.presets) points.push_back(single_point(entry.name, preset.name));
         if (entry.name != "mcguire_dda") continue;
         for (const TracerEntry& tracer : tracer_table())

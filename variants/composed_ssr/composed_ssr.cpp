@@ -170,7 +170,8 @@ VariantEntry composed_ssr_entry() {
             "have the parameters that they have elsewhere. By default one pixel in four starts a ray, all frames since "
             "the pixel's reflection came into sight are one ratio estimator, and what the screen does not show is "
             "guessed from what it does, for rough surfaces without a ray.",
-        .presets = {preset_of("mean", "the pixel's own ray", {}),
+        .presets = {{"repaired", "the defaults, with faulty inputs repaired", {{"repair_inputs", true}}},
+                    preset_of("mean", "the pixel's own ray", {}),
                     preset_of("blur", "a blur of one size", {{"blur_width", 0.04}}),
                     preset_of("amd_denoiser", "with the values of amd_sssr's best_1x", amd_values),
                     preset_of("diligent_filters", "with the values of diligent_ssr's best_2x", diligent_values),

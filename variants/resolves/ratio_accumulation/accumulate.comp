@@ -6,13 +6,15 @@
 #include "resolves/seen_rays.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-uniform writeonly image2D accumulated, moments, reflected_length;  // of state.glsl
+uniform writeonly image2D accumulated, moments;  // of state.glsl
 
 struct Sums {
     vec4 shown;    // of weights: radiance times confidence, confidence
     float weight;
     vec2 lengths;  // of weights of hits: length, 1
 };
+
+const float wide_roughness = 0.2;  // perceptual, from which on lobes count as wide
 
 // Of three traced pixels; those that do not count have no density.
 const uint most_rays = 3u * 4u;
@@ -60,40 +62,56 @@ State state_of(Sums sums) {
     if (sums.weight == 0.0) return no_state;
     vec4 shown = sums.shown / sums.weight;
     float ray_length = sums.lengths.y > 0.0 ? sums.lengths.x / sums.lengths.y : 0.0;
-    return State(shown, first_moments(sums.weight, shown), ray_length);
+    return State(shown, vec4(sums.weight, compressed_luminance(shown), 0.0, ray_length));
 }
 
-// How much of its weight history keeps where the mean over few frames lies by more standard deviations of its own from
-// that over many than noise lets it.
-float kept_after_change(vec4 moments, float weight, float now_weight) {
-    const float least_difference = 0.01;  // of compressed luminance: rounding and what noise has not yet shown
-    float variance = max(moments.w - moments.z * moments.z, 0.0) / (2.0 * change_frames - 1.0);
-    float excess = abs(moments.y - moments.z) / (change_deviations * sqrt(variance) + least_difference);
-    if (excess <= 1.0) return weight;
-    // Not less than the mean over few has, or one ray decides.
-    return min(weight, max(weight / (excess * excess), (change_frames - 1.0) * now_weight));
+// What is known, made as bright as a compressed luminance says: dimmed, or with what this frame's rays saw added.
+vec4 as_bright(vec4 shown, float compressed, vec4 now) {
+    const float largest = 0.999999;
+    float wanted = min(compressed, largest) / (1.0 - min(compressed, largest));
+    vec3 has = known_color(shown).rgb, of_now = known_color(now).rgb;
+    float too_dark = wanted - luminance_bt709(has), luminance_of_now = luminance_bt709(of_now);
+    if (too_dark < 0.0) return vec4(shown.rgb * (wanted / luminance_bt709(has)), shown.a);
+    return luminance_of_now > 0.0 ? vec4(shown.rgb + shown.a * too_dark / luminance_of_now * of_now, shown.a) : shown;
 }
 
-State blended(ivec2 pixel, State now, State before) {
-    float now_weight = now.moments.x, weight = before.moments.x, share = now_weight / (now_weight + weight);
-    float of_few = max(share, min(now_weight, 1.0) / change_frames), of_many = max(share, now_weight / max_history);
-    vec4 moments = mix(before.moments, now.moments, vec4(0.0, of_few, of_many, of_many));
-    weight /= 1.0 + motion_of_hit(pixel) / moved_pixels;
-    if (change_deviations > 0.0) weight = kept_after_change(moments, weight, now_weight);
-    moments.x = min(weight + now_weight, max_history);
+// The mean over many frames, no farther from that over few than noise lets the latter be.
+vec4 within_reach(vec4 shown, float recent, float variance, float frames, vec4 now) {
+    const float least = 0.01;  // of rounding, and of noise that is not known yet
+    float reach = change_deviations * sqrt(variance / (2.0 * frames - 1.0)) + least;
+    float lasting = compressed_luminance(shown), allowed = clamp(lasting, max(recent - reach, 0.0), recent + reach);
+    return allowed == lasting ? shown : as_bright(shown, allowed, now);
+}
+
+State blended(ivec2 pixel, Receiver receiver, State now, State before) {
+    float now_weight = now.moments.x, weight = before.moments.x / (1.0 + motion_of_hit(pixel) / moved_pixels);
+    float share = now_weight / (now_weight + weight);
+    vec4 shown = mix(before.shown, now.shown, share);
+
+    float of_many = max(share, now_weight / max_history);
+    float frames = mix(1.0, change_frames, min(receiver.roughness / wide_roughness, 1.0));  // a mirror's rays have no noise
+    float of_few = max(share, min(now_weight, 1.0) / frames);
+    float difference = now.moments.y - before.moments.y, variance = before.moments.z;
+    const float first = 1e-4, outlier = 16.0;  // a change that happens once is no noise
+    variance = mix(variance, min(difference * difference, outlier * variance + first), of_many);
+    float recent = mix(before.moments.y, now.moments.y, of_few);
+    const float wholly = 0.99;  // known: luminances of less are of other things
+    if (change_deviations > 0.0 && before.shown.a >= wholly && now.shown.a >= wholly)
+        shown = within_reach(shown, recent, variance, frames, now.shown);
+
     const float of_length = 0.25;  // at least, since lengths are compared with this frame's
-    float ray_length = mix(before.ray_length, now.ray_length, max(share, of_length * min(now_weight, 1.0)));
-    return State(mix(before.shown, now.shown, now_weight / (now_weight + weight)), moments, ray_length);
+    float ray_length = mix(before.moments.w, now.moments.w, max(share, of_length * min(now_weight, 1.0)));
+    return State(shown, vec4(min(weight + now_weight, max_history), recent, variance, ray_length));
 }
 
 State traced(ivec2 pixel, Receiver receiver, Rays rays) {
     State now = state_of(sums_of(rays, receiver));
     bool has_history = temporal_accumulation && camera.frame.w != 0u;
     if (!has_history) return now;
-    Place place = place_of(pixel, receiver, now.ray_length);
+    Place place = place_of(pixel, receiver, now.moments.w);
     State before = history_at(pixel, receiver, place);
     if (!stays(pixel, place)) before.moments.x = moved_weight(pixel, receiver, place, before);
-    return before.moments.x > 0.0 ? blended(pixel, now, before) : now;
+    return before.moments.x > 0.0 ? blended(pixel, receiver, now, before) : now;
 }
 
 // Without a ray: what the probe says about the middle of the lobe, which leans towards the normal (Lagarde and de
@@ -104,7 +122,7 @@ State guessed(Receiver receiver) {
     vec3 axis = normalize(mix(vec3(0.0, 0.0, 1.0), mirrored, smoothness * (sqrt(smoothness) + receiver.alpha)));
     mat3 world_from_view = mat3(camera.world_from_view);
     vec4 surfaces = surfaces_along(world_from_view * receiver.position, world_from_view * (receiver.view_from_local * axis));
-    return State(surfaces, vec4(0.0), 0.0);
+    return State(surfaces, vec4(0.0));
 }
 
 bool is_finite(vec4 color) { return !any(isnan(color)) && !any(isinf(color)); }
@@ -121,7 +139,6 @@ void accumulate(ivec2 pixel, Rays rays) {
     }
     imageStore(accumulated, pixel, known_color(state.shown));
     imageStore(moments, pixel, state.moments);
-    imageStore(reflected_length, pixel, vec4(state.ray_length));
 }
 
 // Once for all pixels that have the same traced pixel, whose rays are loaded once.

@@ -6,7 +6,7 @@
 #include "resolves/ratio_accumulation/state.glsl"
 
 // Of the images of state.glsl.
-uniform sampler2D previous_accumulated, previous_moments, previous_reflected_length, previous_normal;
+uniform sampler2D previous_accumulated, previous_moments, previous_normal;
 
 // Where what a mirror shows at that length was; what is rough, and what no ray met, keeps to its surface.
 Place place_of(ivec2 pixel, Receiver receiver, float ray_length) {
@@ -53,11 +53,10 @@ State history_at(ivec2 pixel, Receiver receiver, Place place) {
         float weight = sides.x * sides.y;
         sum.shown += weight * shown_color(texelFetch(previous_accumulated, texel, 0));
         sum.moments += weight * moments;
-        sum.ray_length += weight * texelFetch(previous_reflected_length, texel, 0).r;
         weights += weight;
     }
     if (weights == 0.0) return no_state;
-    return State(sum.shown / weights, sum.moments / weights, sum.ray_length / weights);
+    return State(sum.shown / weights, sum.moments / weights);
 }
 
 // Weight of history that was in another place. What is read between texels blurs, which wide lobes hide; and what was
@@ -66,7 +65,7 @@ float moved_weight(ivec2 pixel, Receiver receiver, Place place, State before) {
     float weight = before.moments.x;
     if (receiver.roughness >= surface_roughness) return weight;
     weight = min(weight, mix(moving_history, max_history, receiver.roughness / surface_roughness));
-    Place other = place_of(pixel, receiver, before.ray_length);
+    Place other = place_of(pixel, receiver, before.moments.w);
     if (!other.is_known) return 0.0;
     float apart = length(other.position - place.position) / (1.0 + parallax_of_roughness * receiver.roughness);
     return weight / (1.0 + apart * apart);

@@ -30,9 +30,9 @@ struct RatioAccumulationParameters {
         {"pixels", "that what a ray met moves in a frame beside the camera's motion, for half of the history", "ssrlab; after "
          "Unity HDRP, speed of target"}};
     Param<float> change_deviations{params, "change_deviations", 3.0f, {0.0f, 1e6f},
-        {"standard deviations", "that the mean over few frames may lie from that over many before history is given up; 0: any number",
-         "ssrlab; after the antilag of Zhdan 2021, ReBLUR (Ray Tracing Gems II, chapter 49)"}};
+        {"standard deviations", "of a mean over few frames that the luminance of history may lie from it, beyond which it is moved; "
+         "0: any number", "ssrlab; after the fast history of Zhdan 2021, ReBLUR (Ray Tracing Gems II, chapter 49)"}};
     Param<float> change_frames{params, "change_frames", 4.0f, {1.0f, 64.0f},
-        {"frames", "of the mean over few", "ssrlab"}};
+        {"frames", "of the mean over few; for mirrors one", "ssrlab"}};
     // clang-format on
 };

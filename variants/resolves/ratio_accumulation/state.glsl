@@ -24,26 +24,24 @@ Receiver receiver_at(ivec2 pixel, float device_depth, vec4 normal_roughness) {
     return receiver;
 }
 
-// In images: `accumulated`, the colour of what is known and the share of it that is known; `moments`;
-// `reflected_length`.
+// In images: `accumulated`, the colour of what is known and the share of it that is known, and `moments`.
 struct State {
-    vec4 shown;        // colour times that share, that share
-    // x: weight, the sum of ratios, 0 where nothing is reflected. Of the luminance l / (1 + l), in which one bright ray
-    // decides little: y the mean over few frames, z over many, w that of its square over many.
+    vec4 shown;  // colour times that share, that share
+    // x: weight, the sum of ratios, 0 where no ray counts; y, z: mean over few frames of the compressed luminance of what is
+    // known, and variance of a frame about it; w: mean length of rays that hit (m), 0: none did.
     vec4 moments;
-    float ray_length;  // mean of those that hit (m); 0: none did
 };
 
-const State no_state = State(vec4(0.0), vec4(0.0), 0.0);
+const State no_state = State(vec4(0.0), vec4(0.0));
 
 vec4 shown_color(vec4 known) { return vec4(known.rgb * known.a, known.a); }
 vec4 known_color(vec4 shown) {
     const float least_share = 1e-6;  // below which the quotient says nothing
     return shown.a > least_share ? vec4(shown.rgb / shown.a, min(shown.a, 1.0)) : vec4(0.0);
 }
-
-vec4 first_moments(float weight, vec4 shown) {
-    float luminance = luminance_bt709(shown.rgb), compressed = luminance / (1.0 + luminance);
-    return vec4(weight, compressed, compressed, compressed * compressed);
+// In which one bright ray decides little.
+float compressed_luminance(vec4 shown) {
+    float luminance = luminance_bt709(known_color(shown).rgb);
+    return luminance / (1.0 + luminance);
 }
 #endif
