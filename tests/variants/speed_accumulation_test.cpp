@@ -1,88 +1,13 @@
 // The resolve speed_accumulation, with rays that the tests make up, against closed forms.
-#include "tests/variants/frostbite_bench.h"
+#include "tests/variants/resolve_bench.h"
 #include "tests/variants/variant_fixture.h"
-#include "variants/resolves/resolves.h"
 
-#include <bit>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 #include <random>
 
 namespace {
-
-unsigned packed(glm::uvec2 pixel) { return pixel.x | pixel.y << 16; }
-
-/// What one frame is made of. By default each pixel's ray mirrors the view and shows the colour of the pixel itself.
-struct RayFrame {
-    std::function<glm::vec3(glm::uvec2)> color = [](glm::uvec2) { return glm::vec3(0); };
-    std::function<glm::vec2(glm::uvec2)> motion = [](glm::uvec2) { return glm::vec2(0); };
-    std::function<void(glm::uvec2, StoredRay&)> change = [](glm::uvec2, StoredRay&) {};
-};
-
-RayFrame of_one_color(float value) {
-    return {.color = [=](glm::uvec2) { return glm::vec3(value); }};
-}
-
-class SpeedAccumulationBench {
-public:
-    SpeedAccumulationBench(Device& device, const CameraPose& pose, glm::uvec2 extent, SyntheticScene scene,
-                           const nlohmann::json& parameters)
-        : pose(pose), graph(device, extent), scene_(std::move(scene)) {
-        technique_.assign({{"half_resolution", false}, {"max_roughness", 1}});
-        resolve_->params.assign(parameters);
-    }
-
-    /// Channels: radiance, confidence.
-    HostImage next(const RayFrame& frame) {
-        const glm::uvec2 extent = graph.extent();
-        const FrameView view{.extent = extent, .frame = frame_++};
-        const CameraData camera = camera_data(pose, view.frame > 0 ? &pose : nullptr, view);
-        GBuffer gbuffer = upload_gbuffer(graph, pose, camera, scene_);
-        HostImage color(extent, 4), motion(extent, 2);
-        std::vector<glm::vec4> directions;
-        std::vector<glm::uvec4> hits;
-        for (unsigned y = 0; y < extent.y; ++y)
-            for (unsigned x = 0; x < extent.x; ++x) {
-                const CameraRay seen = camera_ray(pose, extent, glm::vec2(x, y) + 0.5f);
-                const glm::vec3 mirrored = reflect(seen.direction, scene_(seen).normal);
-                StoredRay ray{.direction = transpose(glm::mat3(pose.world_from_view)) * mirrored,
-                              .inverse_density = 1,
-                              .target = packed({x, y}),
-                              .length = 1};
-                frame.change({x, y}, ray);
-                directions.emplace_back(ray.direction, ray.inverse_density);
-                hits.emplace_back(ray.target, std::bit_cast<unsigned>(ray.length),
-                                  std::bit_cast<unsigned>(ray.confidence), 0);
-                const glm::vec3 rgb = frame.color({x, y});
-                for (int c = 0; c < 3; ++c) color.pixel(x, y)[c] = rgb[c];
-                for (int c = 0; c < 2; ++c) motion.pixel(x, y)[c] = frame.motion({x, y})[c];
-            }
-        graph.upload(gbuffer.motion, motion);
-        graph.begin_frame(camera, technique_, gbuffer.images());
-        const ResolvedRays rays{.traced = {.directions = graph.buffer("directions", directions.size() * 16),
-                                           .hits = graph.buffer("hits", hits.size() * 16)},
-                                .color = graph.image("shown_by_hits", Format::rgba32f),
-                                .below_horizon = {},
-                                .draw = draw_};
-        graph.upload(rays.traced.directions, std::as_bytes(std::span(directions)));
-        graph.upload(rays.traced.hits, std::as_bytes(std::span(hits)));
-        graph.upload(rays.color, color);
-        return graph.download(resolve_->run(graph, gbuffer, rays).radiance);
-    }
-
-    CameraPose pose;
-    PassGraph graph;
-
-private:
-    SyntheticScene scene_;
-    ParameterSet technique_;
-    RayDrawParameters draw_{technique_};
-    Choice misses_{technique_, "misses", "weight", {"weight", "fallback"}, {"", "as composed_ssr's", "test"}};
-    Switch previous_frame_{technique_, "previous_frame", false, {"", "as composed_ssr's", "test"}};
-    std::unique_ptr<Resolve> resolve_ = find_resolve("speed_accumulation").create();
-    unsigned frame_ = 0;
-};
 
 struct SpeedAccumulationTest : VariantTest {
     static constexpr glm::uvec2 extent{16, 12}, middle{8, 6};
@@ -99,13 +24,14 @@ struct SpeedAccumulationTest : VariantTest {
                 .metalness = 1,
                 .specular = 1};
     }
-    SpeedAccumulationBench bench(const nlohmann::json& parameters) {
-        return {device(), pose, extent, [this](const CameraRay& ray) { return wall(ray); }, parameters};
+    ResolveBench bench(const nlohmann::json& parameters) {
+        return {device(),  "speed_accumulation", pose, extent, [this](const CameraRay& ray) { return wall(ray); },
+                parameters};
     }
     static const float* middle_of(const HostImage& image) { return image.pixel(middle.x, middle.y); }
 
     /// Share of the new frame in the mean (A* of the law): white after three black ones.
-    float share(SpeedAccumulationBench&& bench, const RayFrame& white) {
+    float share(ResolveBench&& bench, const RayFrame& white) {
         for (int i = 0; i < 3; ++i) bench.next(of_one_color(0));
         return *middle_of(bench.next(white));
     }
@@ -121,7 +47,7 @@ TEST_F(SpeedAccumulationTest, ConstantRadianceStays) {
     const nlohmann::json corrected = {
         {"ratio_estimator", true}, {"average_confidence", true}, {"reproject_history", true}, {"average_evenly", true}};
     for (const nlohmann::json& parameters : {plain, corrected}) {
-        SpeedAccumulationBench constant = bench(parameters);
+        ResolveBench constant = bench(parameters);
         for (unsigned frame = 0; frame < 6; ++frame) {
             RayFrame rays{.color = [](glm::uvec2) { return glm::vec3(2, 3, 4); },
                           .motion = [=](glm::uvec2) { return glm::vec2(2e-4f * float(frame), 0); }};
@@ -209,7 +135,7 @@ TEST_F(SpeedAccumulationTest, WeightsAreThoseOfTheLobe) {
 TEST_F(SpeedAccumulationTest, AtRestTheMeanIsExponential) {
     for (const auto& [accumulation, expected_share] :
          {std::pair(0.75, share_at_rest), {0.25, 0.29730178}, {0.0, 1.0}}) {
-        SpeedAccumulationBench step = bench({{"accumulation", accumulation}});
+        ResolveBench step = bench({{"accumulation", accumulation}});
         for (const float value : {9.0f, 7.0f, 0.0f})
             EXPECT_NEAR(*middle_of(step.next(of_one_color(value))), value, 1e-5);
         for (int k = 1; k <= 8; ++k)
@@ -219,7 +145,7 @@ TEST_F(SpeedAccumulationTest, AtRestTheMeanIsExponential) {
 
 /// What was seen fades, and keeps its colour.
 TEST_F(SpeedAccumulationTest, MissesTakeConfidenceAlone) {
-    SpeedAccumulationBench fading = bench(plain);
+    ResolveBench fading = bench(plain);
     RayFrame misses;
     misses.change = [](glm::uvec2, StoredRay& ray) { ray.target = ray_missed; };
     for (int i = 0; i < 3; ++i) fading.next(of_one_color(5));
@@ -231,7 +157,7 @@ TEST_F(SpeedAccumulationTest, MissesTakeConfidenceAlone) {
 }
 
 TEST_F(SpeedAccumulationTest, AveragesEvenlySinceTheLastRejection) {
-    SpeedAccumulationBench even = bench({{"average_evenly", true}});
+    ResolveBench even = bench({{"average_evenly", true}});
     for (int n = 1; n <= 6; ++n) EXPECT_NEAR(*middle_of(even.next(of_one_color(float(n)))), 0.5 * (n + 1), 1e-5);
     RayFrame fast = of_one_color(10);
     fast.motion = [](glm::uvec2) { return glm::vec2(0.1f, 0); };
@@ -289,7 +215,7 @@ TEST_F(SpeedAccumulationTest, TheFirstPixelRejectsOnlyInTheOriginal) {
     misses.change = [](glm::uvec2, StoredRay& ray) { ray.target = ray_missed; };
     // No confidence is new: 1 - A* of it is left.
     const auto left = [&](const nlohmann::json& parameters) {
-        SpeedAccumulationBench fading = bench(parameters);
+        ResolveBench fading = bench(parameters);
         for (int i = 0; i < 3; ++i) fading.next(of_one_color(1));
         return middle_of(fading.next(misses))[3];
     };
@@ -305,9 +231,8 @@ TEST_F(SpeedAccumulationTest, TheFirstPixelRejectsOnlyInTheOriginal) {
     for (const bool is_corrected : {false, true}) {
         const float distance = is_corrected ? wall_distance : wall_distance / 2;
         const float per_uv = std::tan(pose.vertical_fov / 2) * distance * pose.far / (pose.far - distance);
-        SpeedAccumulationBench target(
-            device(), pose, extent, with_corner,
-            {{"rejection", "world_smooth"}, {"speed_of", "target"}, {"depth_of_target", is_corrected}});
+        ResolveBench target(device(), "speed_accumulation", pose, extent, with_corner,
+                            {{"rejection", "world_smooth"}, {"speed_of", "target"}, {"depth_of_target", is_corrected}});
         EXPECT_NEAR(share(std::move(target), moving({0, 0}, {0, 1e-4f / per_uv})), mixed(0.25 * 0.5), 1e-3);
     }
 }
@@ -316,7 +241,7 @@ TEST_F(SpeedAccumulationTest, TheFirstPixelRejectsOnlyInTheOriginal) {
 TEST_F(SpeedAccumulationTest, HistoryMovesWithTheSurface) {
     const auto color = [](glm::uvec2 pixel) { return glm::vec3(float(pixel.x * pixel.x)); };
     for (const bool is_corrected : {false, true}) {
-        SpeedAccumulationBench sliding =
+        ResolveBench sliding =
             bench({{"reproject_history", is_corrected}, {"speed_rejection", 0.0}, {"reuse_neighbors", false}});
         for (int i = 0; i < 3; ++i) sliding.next({.color = color});
         RayFrame black = of_one_color(0);
@@ -351,7 +276,7 @@ TEST_F(SpeedAccumulationTest, ExtremesStayFinite) {
                 hit.roughness = ray.direction.x + ray.origin.x < 0 ? 0.0f : 1.0f;
                 return hit;
             };
-            SpeedAccumulationBench extremes(device(), pose, size, scene, parameters);
+            ResolveBench extremes(device(), "speed_accumulation", pose, size, scene, parameters);
             for (int frame = 0; frame < 5; ++frame) {
                 RayFrame rays{.color = [&](glm::uvec2) { return glm::vec3(any_of(values), any_of(values), 1); },
                               .motion = [&](glm::uvec2) { return glm::vec2(any_of(values), 0); }};

@@ -1,0 +1,75 @@
+#include "tests/variants/resolve_bench.h"
+
+#include "variants/resolves/first_turn.h"
+#include "variants/resolves/resolves.h"
+
+ResolveBench::ResolveBench(Device& device, const std::string& resolve, const CameraPose& pose, glm::uvec2 extent,
+                           SyntheticScene scene, const nlohmann::json& own, const nlohmann::json& of_technique)
+    : pose(pose), graph(device, extent), scene_(std::move(scene)), resolve_(find_resolve(resolve).create()) {
+    technique_.assign({{"half_resolution", false}, {"max_roughness", 1}});
+    technique_.assign(of_technique);
+    resolve_->params.assign(own);
+}
+
+/// As traced_pixel.glsl says of the seed 0.
+std::vector<glm::uvec2> ResolveBench::traced_pixels() const {
+    const unsigned side = draw_.half_resolution ? 2 : 1, turn = frame_ + first_turn(0);
+    const glm::uvec2 of_quad = side == 1 ? glm::uvec2(0) : glm::uvec2((turn ^ turn >> 1) & 1, turn & 1);
+    std::vector<glm::uvec2> pixels;
+    for (unsigned y = 0; y < graph.extent().y; y += side)
+        for (unsigned x = 0; x < graph.extent().x; x += side)
+            pixels.push_back(glm::min(glm::uvec2(x, y) + of_quad, graph.extent() - 1u));
+    return pixels;
+}
+
+/// In images of their own; in the first frame its own.
+void ResolveBench::keep_previous(GBuffer& gbuffer) {
+    const auto keep = [&](Image& input, const char* name, const Image& current, HostImage& before) {
+        const HostImage now = graph.download(current);
+        input = graph.image(std::string("kept_") + name, current.format).as(name);
+        graph.upload(input, frame_ > 0 ? before : now);
+        before = now;
+    };
+    keep(gbuffer.previous_depth, "previous_depth", gbuffer.depth, depth_before_);
+    keep(gbuffer.previous_normal, "previous_normal", gbuffer.normal, normal_before_);
+}
+
+HostImage ResolveBench::next(const RayFrame& frame) {
+    const glm::uvec2 extent = graph.extent();
+    const FrameView view{.extent = extent, .frame = frame_};
+    const CameraData camera = camera_data(pose, frame_ > 0 ? &pose_before_ : nullptr, view);
+    GBuffer gbuffer = upload_gbuffer(graph, pose, camera, scene_);
+    keep_previous(gbuffer);
+    const bool has_moved = frame_ > 0 && pose.world_from_view != pose_before_.world_from_view;
+    HostImage color(extent, 4), motion = has_moved ? motion_of(pose, camera, scene_) : HostImage(extent, 2);
+    for (unsigned y = 0; y < extent.y; ++y)
+        for (unsigned x = 0; x < extent.x; ++x) {
+            color.set_rgb(size_t(y) * extent.x + x, frame.color({x, y}));
+            for (int c = 0; c < 2; ++c) motion.pixel(x, y)[c] += frame.motion({x, y})[c];
+        }
+    graph.upload(gbuffer.motion, motion);
+    std::vector<StoredRay> rays;
+    for (const glm::uvec2 pixel : traced_pixels()) {
+        const CameraRay seen = camera_ray(pose, extent, glm::vec2(pixel) + 0.5f);
+        const glm::vec3 mirrored = reflect(seen.direction, scene_(seen).normal);
+        rays.push_back({.direction = transpose(glm::mat3(pose.world_from_view)) * mirrored,
+                        .inverse_density = 1,
+                        .target = packed(pixel),
+                        .length = 1});
+        frame.change(pixel, rays.back());
+    }
+    graph.begin_frame(camera, technique_, gbuffer.images());
+    if (misses_.is("probe")) probe = screen_probe(graph, gbuffer);
+    const ResolvedRays resolved{.traced = upload_rays(graph, rays),
+                                .color = graph.image("shown_by_hits", Format::rgba32f),
+                                .below_horizon = {},
+                                .draw = draw_,
+                                .probe = probe,
+                                .misses_are_known = !misses_.is("weight")};
+    graph.upload(resolved.color, color);
+    const HostImage radiance = graph.download(resolve_->run(graph, gbuffer, resolved).radiance);
+    graph.set_params(technique_);
+    ++frame_;
+    pose_before_ = pose;
+    return radiance;
+}

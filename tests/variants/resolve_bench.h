@@ -1,0 +1,47 @@
+#pragma once
+#include "tests/variants/frostbite_bench.h"
+#include "variants/resolves/resolve.h"
+
+/// What one frame is made of. By default each traced pixel's ray mirrors the view and shows the colour of the pixel
+/// itself.
+struct RayFrame {
+    std::function<glm::vec3(glm::uvec2)> color = [](glm::uvec2) { return glm::vec3(0); };
+    /// Beside what the camera's motion makes (uv).
+    std::function<glm::vec2(glm::uvec2)> motion = [](glm::uvec2) { return glm::vec2(0); };
+    std::function<void(glm::uvec2, StoredRay&)> change = [](glm::uvec2, StoredRay&) {};
+};
+
+inline RayFrame of_one_color(float value) {
+    return {.color = [=](glm::uvec2) { return glm::vec3(value); }};
+}
+
+inline unsigned packed(glm::uvec2 pixel) { return pixel.x | pixel.y << 16; }
+
+/// Frames in a row of one resolve, with rays that a test makes up.
+class ResolveBench {
+public:
+    ResolveBench(Device& device, const std::string& resolve, const CameraPose& pose, glm::uvec2 extent,
+                 SyntheticScene scene, const nlohmann::json& own,
+                 const nlohmann::json& of_technique = nlohmann::json::object());
+
+    /// Channels: radiance, confidence.
+    HostImage next(const RayFrame& frame);
+
+    CameraPose pose;  ///< of the next frame
+    PassGraph graph;
+    std::optional<ScreenProbe> probe;  ///< of the last frame, where `misses` is probe
+
+private:
+    std::vector<glm::uvec2> traced_pixels() const;
+    void keep_previous(GBuffer& gbuffer);
+
+    SyntheticScene scene_;
+    ParameterSet technique_;
+    RayDrawParameters draw_{technique_};
+    Choice misses_{technique_, "misses", "weight", {"weight", "fallback", "probe"}, {"", "as composed_ssr's", "test"}};
+    Switch previous_frame_{technique_, "previous_frame", false, {"", "as composed_ssr's", "test"}};
+    std::unique_ptr<Resolve> resolve_;
+    CameraPose pose_before_;
+    HostImage depth_before_, normal_before_;
+    unsigned frame_ = 0;
+};
