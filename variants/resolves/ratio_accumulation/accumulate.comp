@@ -135,7 +135,9 @@ void accumulate(ivec2 pixel, Rays rays) {
         bool is_traced = receiver.roughness <= max_roughness;
         if (receiver.o.z > 0.0 && is_traced) state = traced(pixel, receiver, rays);
         if (receiver.o.z > 0.0 && !is_traced && rough_from_probe) state = guessed(receiver);
-        if (!is_finite(state.shown) || !is_finite(state.moments)) state = no_state;  // of sums that overflow
+        // Of sums that overflow; of the largest floats so does a quotient.
+        bool is_number = is_finite(state.shown) && is_finite(known_color(state.shown)) && is_finite(state.moments);
+        if (!is_number) state = no_state;
     }
     imageStore(accumulated, pixel, known_color(state.shown));
     imageStore(moments, pixel, state.moments);
