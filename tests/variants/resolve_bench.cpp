@@ -40,8 +40,9 @@ HostImage ResolveBench::next(const RayFrame& frame) {
     const CameraData camera = camera_data(pose, frame_ > 0 ? &pose_before_ : nullptr, view);
     GBuffer gbuffer = upload_gbuffer(graph, pose, camera, scene_);
     keep_previous(gbuffer);
+    graph.upload(gbuffer.fallback, HostImage(extent, 4, environment));
     const bool has_moved = frame_ > 0 && pose.world_from_view != pose_before_.world_from_view;
-    HostImage color(extent, 4), motion = has_moved ? motion_of(pose, camera, scene_) : HostImage(extent, 2);
+    HostImage color(extent, 4, 1), motion = has_moved ? motion_of(pose, camera, scene_) : HostImage(extent, 2);
     for (unsigned y = 0; y < extent.y; ++y)
         for (unsigned x = 0; x < extent.x; ++x) {
             color.set_rgb(size_t(y) * extent.x + x, frame.color({x, y}));

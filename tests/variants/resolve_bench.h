@@ -29,6 +29,7 @@ public:
 
     CameraPose pose;  ///< of the next frame
     PassGraph graph;
+    float environment = 0;             ///< everywhere
     std::optional<ScreenProbe> probe;  ///< of the last frame, where `misses` is probe
 
 private:
