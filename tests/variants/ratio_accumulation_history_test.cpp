@@ -18,8 +18,8 @@ TEST_F(RatioAccumulationTest, ChangesOfLightShortenHistory) {
         }
         return most + 1;
     };
-    EXPECT_LE(frames_to_follow(3, 0.44, 12), 12) << "three times change_frames";
-    EXPECT_LE(frames_to_follow(3, 0.9, 80), 80) << "half of max_history";
+    EXPECT_LE(frames_to_follow(2, 0.44, 12), 12) << "three times change_frames";
+    EXPECT_LE(frames_to_follow(2, 0.9, 80), 80) << "half of max_history";
     EXPECT_NEAR(frames_to_follow(0, 0.44, 80), 0.44 / 0.56 * 100, 2);
 }
 
@@ -41,7 +41,7 @@ TEST_F(RatioAccumulationTest, NoiseIsNoChange) {
         }
         return squares;
     };
-    EXPECT_LE(variance(3), 1.5 * variance(0));
+    EXPECT_LE(variance(2), 1.5 * variance(0));
 }
 
 /// White after three black frames; all rays hit one pixel. Motion of moved_pixels takes half of the history.

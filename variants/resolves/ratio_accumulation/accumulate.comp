@@ -6,7 +6,7 @@
 #include "resolves/seen_rays.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-uniform writeonly image2D accumulated, moments;  // of state.glsl
+uniform writeonly image2D accumulated, moments, reflected_length;  // of state.glsl
 
 struct Sums {
     vec4 shown;    // of weights: radiance times confidence, confidence
@@ -62,25 +62,20 @@ State state_of(Sums sums) {
     if (sums.weight == 0.0) return no_state;
     vec4 shown = sums.shown / sums.weight;
     float ray_length = sums.lengths.y > 0.0 ? sums.lengths.x / sums.lengths.y : 0.0;
-    return State(shown, vec4(sums.weight, compressed_luminance(shown), 0.0, ray_length));
+    float compressed = compressed_luminance(shown);
+    return State(shown, vec4(sums.weight, compressed, compressed, 0.0), ray_length);
 }
 
-// What is known, made as bright as a compressed luminance says: dimmed, or with what this frame's rays saw added.
-vec4 as_bright(vec4 shown, float compressed, vec4 now) {
+float luminance_of(float compressed) {
     const float largest = 0.999999;
-    float wanted = min(compressed, largest) / (1.0 - min(compressed, largest));
-    vec3 has = known_color(shown).rgb, of_now = known_color(now).rgb;
-    float too_dark = wanted - luminance_bt709(has), luminance_of_now = luminance_bt709(of_now);
-    if (too_dark < 0.0) return vec4(shown.rgb * (wanted / luminance_bt709(has)), shown.a);
-    return luminance_of_now > 0.0 ? vec4(shown.rgb + shown.a * too_dark / luminance_of_now * of_now, shown.a) : shown;
+    return min(compressed, largest) / (1.0 - min(compressed, largest));
 }
 
-// The mean over many frames, no farther from that over few than noise lets the latter be.
-vec4 within_reach(vec4 shown, float recent, float variance, float frames, vec4 now) {
-    const float least = 0.01;  // of rounding, and of noise that is not known yet
-    float reach = change_deviations * sqrt(variance / (2.0 * frames - 1.0)) + least;
-    float lasting = compressed_luminance(shown), allowed = clamp(lasting, max(recent - reach, 0.0), recent + reach);
-    return allowed == lasting ? shown : as_bright(shown, allowed, now);
+// What is known, from one compressed luminance to another: dimmed, or with what this frame's rays saw added.
+vec4 brightened(vec4 shown, float from, float to, vec4 now) {
+    float before = luminance_of(from), after = luminance_of(to), of_now = luminance_bt709(known_color(now).rgb);
+    if (after < before) return vec4(shown.rgb * (after / before), shown.a);
+    return of_now > 0.0 ? vec4(shown.rgb + shown.a * (after - before) / of_now * known_color(now).rgb, shown.a) : shown;
 }
 
 State blended(ivec2 pixel, Receiver receiver, State now, State before) {
@@ -88,29 +83,34 @@ State blended(ivec2 pixel, Receiver receiver, State now, State before) {
     float share = now_weight / (now_weight + weight);
     vec4 shown = mix(before.shown, now.shown, share);
 
-    float of_many = max(share, now_weight / max_history);
     float frames = mix(1.0, change_frames, min(receiver.roughness / wide_roughness, 1.0));  // a mirror's rays have no noise
-    float of_few = max(share, min(now_weight, 1.0) / frames);
-    float difference = now.moments.y - before.moments.y, variance = before.moments.z;
+    float of_few = max(share, min(now_weight, 1.0) / frames), of_many = max(share, now_weight / max_history);
+    vec3 means = mix(before.moments.yzw, now.moments.yzw, vec3(of_few, share, 0.0));
+    float recent = means.x, lasting = means.y, difference = now.moments.y - before.moments.y, variance = before.moments.w;
     const float first = 1e-4, outlier = 16.0;  // a change that happens once is no noise
     variance = mix(variance, min(difference * difference, outlier * variance + first), of_many);
-    float recent = mix(before.moments.y, now.moments.y, of_few);
-    const float wholly = 0.99;  // known: luminances of less are of other things
-    if (change_deviations > 0.0 && before.shown.a >= wholly && now.shown.a >= wholly)
-        shown = within_reach(shown, recent, variance, frames, now.shown);
 
+    // What lasts lies no farther from the recent mean than noise lets that be from it; what is moved there is no longer
+    // the mean of so many rays. Where little is known luminances are of other things.
+    const float least = 0.01, wholly = 0.99;  // of rounding, and of noise that is not known yet
+    float reach = change_deviations * sqrt(variance / (2.0 * frames - 1.0)) + least;
+    float allowed = clamp(lasting, max(recent - reach, 0.0), recent + reach);
+    bool is_followed = change_deviations > 0.0 && before.shown.a >= wholly && now.shown.a >= wholly;
+    if (is_followed && allowed != lasting) {
+        shown = brightened(shown, lasting, allowed, now.shown);
+        weight *= 1.0 - (allowed - lasting) / (recent - lasting);
+        lasting = allowed;
+    }
     const float of_length = 0.25;  // at least, since lengths are compared with this frame's
-    float ray_length = mix(before.moments.w, now.moments.w, max(share, of_length * min(now_weight, 1.0)));
-    return State(shown, vec4(min(weight + now_weight, max_history), recent, variance, ray_length));
+    float ray_length = mix(before.ray_length, now.ray_length, max(share, of_length * min(now_weight, 1.0)));
+    return State(shown, vec4(min(weight + now_weight, max_history), recent, lasting, variance), ray_length);
 }
 
 State traced(ivec2 pixel, Receiver receiver, Rays rays) {
     State now = state_of(sums_of(rays, receiver));
     bool has_history = temporal_accumulation && camera.frame.w != 0u;
     if (!has_history) return now;
-    Place place = place_of(pixel, receiver, now.moments.w);
-    State before = history_at(pixel, receiver, place);
-    if (!stays(pixel, place)) before.moments.x = moved_weight(pixel, receiver, place, before);
+    State before = history_of(pixel, receiver, now.ray_length);
     return before.moments.x > 0.0 ? blended(pixel, receiver, now, before) : now;
 }
 
@@ -122,7 +122,7 @@ State guessed(Receiver receiver) {
     vec3 axis = normalize(mix(vec3(0.0, 0.0, 1.0), mirrored, smoothness * (sqrt(smoothness) + receiver.alpha)));
     mat3 world_from_view = mat3(camera.world_from_view);
     vec4 surfaces = surfaces_along(world_from_view * receiver.position, world_from_view * (receiver.view_from_local * axis));
-    return State(surfaces, vec4(0.0));
+    return State(surfaces, vec4(0.0), 0.0);
 }
 
 bool is_finite(vec4 color) { return !any(isnan(color)) && !any(isinf(color)); }
@@ -140,6 +140,7 @@ void accumulate(ivec2 pixel, Rays rays) {
         if (!is_number) state = no_state;
     }
     imageStore(accumulated, pixel, known_color(state.shown));
+    imageStore(reflected_length, pixel, vec4(state.ray_length));
     imageStore(moments, pixel, state.moments);
 }
 

@@ -6,7 +6,7 @@
 #include "resolves/ratio_accumulation/state.glsl"
 
 // Of the images of state.glsl.
-uniform sampler2D previous_accumulated, previous_moments, previous_normal;
+uniform sampler2D previous_accumulated, previous_moments, previous_reflected_length, previous_normal;
 
 // Where what a mirror shows at that length was; what is rough, and what no ray met, keeps to its surface.
 Place place_of(ivec2 pixel, Receiver receiver, float ray_length) {
@@ -28,6 +28,11 @@ bool is_alike(Receiver receiver, ivec2 texel) {
     return dot(before.xyz, receiver.ws_normal) >= 0.9 && abs(before.w - receiver.roughness) <= 0.1;
 }
 
+State state_at(ivec2 texel) {
+    return State(shown_color(texelFetch(previous_accumulated, texel, 0)), texelFetch(previous_moments, texel, 0),
+                 texelFetch(previous_reflected_length, texel, 0).r);
+}
+
 // Mean of those of the four texels around a place that showed the same plane; without any its weight is 0.
 State history_at(ivec2 pixel, Receiver receiver, Place place) {
     bool is_inside = all(greaterThanEqual(place.position, vec2(0.0))) &&
@@ -47,16 +52,17 @@ State history_at(ivec2 pixel, Receiver receiver, Place place) {
     for (int i = 0; i < count; ++i) {
         ivec2 side = ivec2(i & 1, i >> 1), texel = ivec2(corner) + side;
         if (!is_on_screen(texel) || !showed_plane(texel, position, plane_normal) || !is_alike(receiver, texel)) continue;
-        vec4 moments = texelFetch(previous_moments, texel, 0);
-        if (moments.x == 0.0) continue;
+        State state = state_at(texel);
+        if (state.moments.x == 0.0) continue;
         vec2 sides = mix(1.0 - share, share, vec2(side));
         float weight = sides.x * sides.y;
-        sum.shown += weight * shown_color(texelFetch(previous_accumulated, texel, 0));
-        sum.moments += weight * moments;
+        sum.shown += weight * state.shown;
+        sum.moments += weight * state.moments;
+        sum.ray_length += weight * state.ray_length;
         weights += weight;
     }
     if (weights == 0.0) return no_state;
-    return State(sum.shown / weights, sum.moments / weights);
+    return State(sum.shown / weights, sum.moments / weights, sum.ray_length / weights);
 }
 
 // Weight of history that was in another place. What is read between texels blurs, which wide lobes hide; and what was
@@ -65,10 +71,19 @@ float moved_weight(ivec2 pixel, Receiver receiver, Place place, State before) {
     float weight = before.moments.x;
     if (receiver.roughness >= surface_roughness) return weight;
     weight = min(weight, mix(moving_history, max_history, receiver.roughness / surface_roughness));
-    Place other = place_of(pixel, receiver, before.moments.w);
+    Place other = place_of(pixel, receiver, before.ray_length);
     if (!other.is_known) return 0.0;
     float apart = length(other.position - place.position) / (1.0 + parallax_of_roughness * receiver.roughness);
     return weight / (1.0 + apart * apart);
+}
+
+// What is left of what was reflected before.
+State history_of(ivec2 pixel, Receiver receiver, float ray_length) {
+    if (scene_is_still) return state_at(pixel);
+    Place place = place_of(pixel, receiver, ray_length);
+    State before = history_at(pixel, receiver, place);
+    if (!stays(pixel, place)) before.moments.x = moved_weight(pixel, receiver, place, before);
+    return before;
 }
 
 // Pixels by which what the pixel's own ray hit moved in a frame beside what the camera's motion moved it.

@@ -29,7 +29,7 @@ struct RatioAccumulationParameters {
     Param<float> moved_pixels{params, "moved_pixels", 0.2f, {0.001f, 1e6f},
         {"pixels", "that what a ray met moves in a frame beside the camera's motion, for half of the history", "ssrlab; after "
          "Unity HDRP, speed of target"}};
-    Param<float> change_deviations{params, "change_deviations", 3.0f, {0.0f, 1e6f},
+    Param<float> change_deviations{params, "change_deviations", 2.0f, {0.0f, 1e6f},
         {"standard deviations", "of a mean over few frames that the luminance of history may lie from it, beyond which it is moved; "
          "0: any number", "ssrlab; after the fast history of Zhdan 2021, ReBLUR (Ray Tracing Gems II, chapter 49)"}};
     Param<float> change_frames{params, "change_frames", 4.0f, {1.0f, 64.0f},

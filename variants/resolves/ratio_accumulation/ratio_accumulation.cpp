@@ -12,15 +12,18 @@ public:
         given["rough_from_probe"] = rays.probe.has_value();
         use_own_params(graph, given);
         const PassGraph::History accumulated = graph.history("accumulated", Format::rgba32f),
-                                 moments = graph.history("moments", Format::rgba32f);
+                                 moments = graph.history("moments", Format::rgba32f),
+                                 lengths = graph.history("reflected_length", Format::r32f);
         PassGraph::Pass pass = graph.compute("resolves/ratio_accumulation/accumulate.comp");
         pass.use(rays.traced.directions)
             .use(rays.traced.hits)
             .use(seen)
             .read(accumulated.previous)
             .read(moments.previous)
+            .read(lengths.previous)
             .write(accumulated.current)
-            .write(moments.current);
+            .write(moments.current)
+            .write(lengths.current);
         const glm::uvec2 screen = graph.extent();
         bind_probe(pass, rays).run(rays.draw.half_resolution ? (screen + 1u) / 2u : screen);
         return {accumulated.current, accumulated.current, 3};

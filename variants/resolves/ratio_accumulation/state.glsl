@@ -24,15 +24,16 @@ Receiver receiver_at(ivec2 pixel, float device_depth, vec4 normal_roughness) {
     return receiver;
 }
 
-// In images: `accumulated`, the colour of what is known and the share of it that is known, and `moments`.
+// In images: `accumulated`, the colour of what is known and the share of it that is known; `moments`; `reflected_length`.
 struct State {
     vec4 shown;  // colour times that share, that share
-    // x: weight, the sum of ratios, 0 where no ray counts; y, z: mean over few frames of the compressed luminance of what is
-    // known, and variance of a frame about it; w: mean length of rays that hit (m), 0: none did.
+    // x: weight, the sum of ratios, 0 where no ray counts. Of the compressed luminance of what is known: y mean over few
+    // frames, z over as many as `shown`, w variance of a frame about the first.
     vec4 moments;
+    float ray_length;  // mean of rays that hit (m), 0: none did
 };
 
-const State no_state = State(vec4(0.0), vec4(0.0));
+const State no_state = State(vec4(0.0), vec4(0.0), 0.0);
 
 vec4 shown_color(vec4 known) { return vec4(known.rgb * known.a, known.a); }
 vec4 known_color(vec4 shown) {
