@@ -325,9 +325,21 @@ def resolves():
     return Picture([Panel("", [(r, [mark(m, r) for m in marches]) for r in by_error])], "MSE over that of no reflections, mean over scenes like these, 95 % intervals", columns=1)
 
 
+def composed():
+    def panel(title, table, label, line):
+        cells = grid("composed", table)
+        points = sorted({row for row, _ in cells}, key=lambda p: cells[p, "mse"].value)
+        marks = lambda point: [Mark(metric.upper(), style.COLORS[i], style.MARKS[i], cells[point, metric]) for i, metric in enumerate(("mse", "flip"))]  # noqa: E731
+        return Panel(title, [(label(p), marks(p)) for p in points], line)
+
+    part = lambda point: point.split(" ")[-1].removeprefix("ratio_accumulation.")  # noqa: E731
+    panels = [panel("over no reflections", "techniques", str, 1.0), panel("composed_ssr with one part changed, over its defaults", "parts", part, 1.0)]
+    return Picture(panels, "error, mean over third-party scenes, 95 % intervals", columns=2)
+
+
 PUBLISHED_PRESETS = ("default", "sdk_1_5", "current", "frostbite_2015", "blog", "high")
 
-PICTURES = {p.__name__: p for p in (techniques, budgets, rooms, metrics, causes, limit, third_party, traced_environment, corrections, estimators, march, thickness, temporal, fragments, resolution, compilers, gpu_times, exact_rays, resolves)}
+PICTURES = {p.__name__: p for p in (techniques, budgets, rooms, metrics, causes, limit, third_party, traced_environment, corrections, estimators, march, thickness, temporal, fragments, resolution, compilers, gpu_times, exact_rays, resolves, composed)}
 
 
 def save(name, folder):

@@ -77,6 +77,7 @@ TracingVariant::Needless ComposedSsr::find_needless(const SceneFacts& facts) {
     needless.motion_readers = reads.motion;
     if (previous_frame_ && !std::ranges::count(reads.motion, reads.rays)) needless.motion_readers.push_back(reads.rays);
     if (!misses_.is("weight")) needless.environment_readers = {reads.rays};
+    if (misses_.is("probe")) needless.environment_readers.push_back(screen_probe_stages().front());
     return needless;
 }
 

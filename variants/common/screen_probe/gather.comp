@@ -1,20 +1,44 @@
 // Asks the screen what lies in the directions of each texel, and remembers what has left it.
 #include "common/mirror_ray.glsl"
+#include "common/luminance.glsl"
 #include "common/screen_probe/octahedral_map.glsl"
+#include "core/shaders/gbuffer/environment.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 uniform sampler2D lit, previous_probe_seen, previous_probe_facts;
 // Seen: a share of the texel's directions in which there are surfaces, rgb that times their radiance. Facts: x that times
 // the mean of 1 / distance (1/m), y share of the directions that were on the screen.
 uniform writeonly image2D probe_seen, probe_facts;
+// Of the surfaces on the screen, by texel: sums of luminance and of luminance times normal (world space), as they are lit,
+// and as the whole environment alone would light them.
+uniform writeonly image2D probe_lit, probe_unoccluded;
+// Of the environment in the texel's directions: luminance times solid angle over that of all directions, alone (w) and
+// times the direction.
+uniform sampler2D previous_probe_environment;
+uniform writeonly image2D probe_environment;
 
 struct Samples {
     float on_screen;        // number
     vec4 surfaces;          // of those with a surface: sum of radiance, number
     float inverse_lengths;  // of the same: sum
+    vec4 lit, unoccluded;   // of probe_lit, probe_unoccluded
+    vec4 environment;       // of probe_environment
 };
 
-void add_pixel(inout Samples samples, ivec2 pixel) {
+// Mean over all directions, of the frame before.
+vec4 environment_moments() {
+    const int blocks = probe_width / 2;  // of 2x2 texels, whose mean a sampler gives at their common corner
+    vec4 sum = vec4(0.0);
+    for (int i = 0; i < blocks * blocks; ++i)
+        sum += 4.0 * textureLod(previous_probe_environment, (vec2(i % blocks, i / blocks) + 0.5) / float(blocks), 0.0);
+    return sum;
+}
+
+// Luminance over pi with which it would light a surface, unoccluded and up to its second moments (Ramamoorthi and
+// Hanrahan 2001, "An Efficient Representation for Irradiance Environment Maps").
+float unoccluded_light(vec4 moments, vec3 ws_normal) { return max(moments.w + 2.0 * dot(moments.xyz, ws_normal), 0.0); }
+
+void add_pixel(inout Samples samples, ivec2 pixel, vec4 moments) {
     samples.on_screen += 1.0;
     float device_depth = texelFetch(depth, pixel, 0).r;
     if (is_background(device_depth)) return;
@@ -22,20 +46,36 @@ void add_pixel(inout Samples samples, ivec2 pixel) {
     if (any(isnan(radiance)) || any(isinf(radiance))) return;
     const float largest_radiance = 65504.0;  // of halves; sums of it are finite
     samples.surfaces += vec4(clamp(radiance, 0.0, largest_radiance), 1.0);
+    vec3 ws_normal = texelFetch(normal, pixel, 0).xyz;
+    vec4 color_metalness = texelFetch(base_color, pixel, 0);
+    vec3 by_environment = (1.0 - color_metalness.w) * color_metalness.rgb * unoccluded_light(moments, ws_normal);
+    samples.lit += luminance_bt709(clamp(radiance, 0.0, largest_radiance)) * vec4(ws_normal, 1.0);
+    samples.unoccluded += luminance_bt709(clamp(by_environment, 0.0, largest_radiance)) * vec4(ws_normal, 1.0);
     const float least_distance = 1e-6;  // m
     samples.inverse_lengths += 1.0 / max(length(view_position_at(pixel, device_depth)), least_distance);
 }
 
+// Share of all directions that a square has of which there are so many in a row of the map.
+float solid_angle(vec3 direction, int squares) {
+    vec3 a = abs(direction);
+    float side = 2.0 / float(squares), stretch = a.x + a.y + a.z;
+    return side * side * stretch * stretch * stretch / (4.0 * pi);
+}
+
 Samples samples_of(ivec2 texel) {
     const int rows = 8;
-    Samples samples = Samples(0.0, vec4(0.0), 0.0);
+    Samples samples = Samples(0.0, vec4(0.0), 0.0, vec4(0.0), vec4(0.0), vec4(0.0));
+    vec4 moments = float(camera.frame.w) * environment_moments();
     for (int i = 0; i < rows * rows; ++i) {
         vec2 place = vec2(texel) + (vec2(i % rows, i / rows) + 0.5) / float(rows);
-        vec3 direction = mat3(camera.view_from_world) * direction_of_place(2.0 * place / float(probe_width) - 1.0);
+        vec3 ws_direction = direction_of_place(2.0 * place / float(probe_width) - 1.0);
+        float luminance = luminance_bt709(environment_along_ray(ivec2(0), ws_direction));
+        samples.environment += solid_angle(ws_direction, rows * probe_width) * luminance * vec4(ws_direction, 1.0);
+        vec3 direction = mat3(camera.view_from_world) * ws_direction;
         vec4 clip = camera.clip_from_view * vec4(direction, 0.0);
         if (clip.w <= 0.0) continue;
         ivec2 pixel = pixel_from_screen((clip.xy / clip.w * 0.5 + 0.5) * camera.extent.xy);
-        if (is_on_screen(pixel)) add_pixel(samples, pixel);
+        if (is_on_screen(pixel)) add_pixel(samples, pixel, moments);
     }
     samples.on_screen /= float(rows * rows);
     samples.surfaces /= float(rows * rows);
@@ -57,6 +97,9 @@ void main() {
         seen = kept * seen + samples.surfaces;
         facts = vec2(kept * facts.x + samples.inverse_lengths, known);
     }
+    imageStore(probe_environment, texel, samples.environment);
+    imageStore(probe_lit, texel, samples.lit);
+    imageStore(probe_unoccluded, texel, samples.unoccluded);
     imageStore(probe_seen, texel, seen);
     imageStore(probe_facts, texel, vec4(facts, 0.0, 0.0));
 }

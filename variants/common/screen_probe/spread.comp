@@ -2,7 +2,7 @@
 #include "common/screen_probe/octahedral_map.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-uniform sampler2D probe_seen, probe_facts;  // of gather.comp
+uniform sampler2D probe_seen, probe_facts, probe_lit, probe_unoccluded;  // of gather.comp
 uniform writeonly image2D screen_probe, screen_probe_nearness;
 
 // How much a direction says about another one: inverse distances (Shepard 1968), in which a turn about the vertical, y in
@@ -18,14 +18,26 @@ struct Guess {
     float nearness;
 };
 
+// Whether the environment lights the scene from a direction, as far as surfaces tell that face it: they are as bright as
+// it alone makes them. Darker ones are shaded from it; what is brighter is lit by lamps and says nothing.
+float lit_from(vec3 direction, vec4 lit, vec4 unoccluded) {
+    float expected = unoccluded.w + dot(unoccluded.xyz, direction), found = lit.w + dot(lit.xyz, direction);
+    if (expected <= 0.0) return 0.0;
+    float ratio = found / expected;
+    return smoothstep(0.5, 0.9, ratio) * (1.0 - smoothstep(1.3, 2.5, ratio));
+}
+
 Guess guess_at(vec3 direction) {
     const int blocks = probe_width / 2;  // of 2x2 texels, whose mean a sampler gives at their common corner
     const float doubt = 1e-3;      // weight of there being nothing
     vec4 surfaces = vec4(0.0);
+    vec4 lit = vec4(0.0), unoccluded = vec4(0.0);
     float nearness = 0.0, weights = doubt;
     for (int i = 0; i < blocks * blocks; ++i) {
         vec2 corner = (vec2(i % blocks, i / blocks) + 0.5) / float(blocks);
         vec2 facts = textureLod(probe_facts, corner, 0.0).xy;
+        lit += textureLod(probe_lit, corner, 0.0);
+        unoccluded += textureLod(probe_unoccluded, corner, 0.0);
         if (facts.y == 0.0) continue;
         float weight = likeness(direction_of_place(2.0 * corner - 1.0), direction);
         surfaces += weight * textureLod(probe_seen, corner, 0.0);
@@ -36,6 +48,7 @@ Guess guess_at(vec3 direction) {
     // Where the sky shows between things there is more of it beyond the screen; a window in a wall is no sky.
     const float open = 0.4, closed = 0.9;
     float share = smoothstep(open, closed, surfaces.a / weights);
+    share *= 1.0 - lit_from(direction, lit, unoccluded);
     return Guess(share / surfaces.a * surfaces, nearness / surfaces.a);
 }
 

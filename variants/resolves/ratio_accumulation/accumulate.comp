@@ -14,7 +14,7 @@ struct Sums {
     vec2 lengths;  // of weights of hits: length, 1
 };
 
-const float wide_roughness = 0.2;  // perceptual, from which on lobes count as wide
+const float broad_from = 0.2;  // perceptual, from which on lobes count as wide
 
 // Of three traced pixels; those that do not count have no density.
 const uint most_rays = 3u * 4u;
@@ -83,7 +83,7 @@ State blended(ivec2 pixel, Receiver receiver, State now, State before) {
     float share = now_weight / (now_weight + weight);
     vec4 shown = mix(before.shown, now.shown, share);
 
-    float frames = mix(1.0, change_frames, min(receiver.roughness / wide_roughness, 1.0));  // a mirror's rays have no noise
+    float frames = mix(1.0, change_frames, min(receiver.roughness / broad_from, 1.0));  // a mirror's rays have no noise
     float of_few = max(share, min(now_weight, 1.0) / frames), of_many = max(share, now_weight / max_history);
     vec3 means = mix(before.moments.yzw, now.moments.yzw, vec3(of_few, share, 0.0));
     float recent = means.x, lasting = means.y, difference = now.moments.y - before.moments.y, variance = before.moments.w;
