@@ -333,7 +333,7 @@ def composed():
         return Panel(title, [(label(p), marks(p)) for p in points], line)
 
     part = lambda point: point.split(" ")[-1].removeprefix("ratio_accumulation.")  # noqa: E731
-    panels = [panel("over no reflections", "techniques", str, 1.0), panel("composed_ssr with one part changed, over its defaults", "parts", part, 1.0)]
+    panels = [panel("over no reflections", "techniques", str, 1.0), panel("one part of composed_ssr changed", "parts", part, 1.0)]
     return Picture(panels, "error, mean over third-party scenes, 95 % intervals", columns=2)
 
 
