@@ -3,11 +3,11 @@
 
 namespace {
 
-/// From 1 to 4 after 100 frames, with a quarter of noise either way. Compressed that is from 0.5 to 0.8 with deviations of
-/// 0.036, so that the lasting mean is kept within 2 * 0.036 / sqrt(7) + 0.01 = 0.037 of the recent one, which closes a
-/// quarter of the gap in each of change_frames = 4. At 44 % of the way, 0.70, the lasting one is then in the sixth frame.
-/// The last 0.037 are a quarter of the light; they go as the frames of before, which count less for having been moved,
-/// are outnumbered. Of 100 that are not moved n new ones have n / (100 + n).
+/// From 1 to 4 after 100 frames, with a quarter of noise either way. Compressed that is from 0.5 to 0.8 with deviations
+/// of 0.036, so that the lasting mean is kept within 2 * 0.036 / sqrt(7) + 0.01 = 0.037 of the recent one, which closes
+/// a quarter of the gap in each of change_frames = 4. At 44 % of the way, 0.70, the lasting one is then in the sixth
+/// frame. The last 0.037 are a quarter of the light; they go as the frames of before, which count less for having been
+/// moved, are outnumbered. Of 100 that are not moved n new ones have n / (100 + n).
 TEST_F(RatioAccumulationTest, ChangesOfLightShortenHistory) {
     roughness = 0.5f;
     const auto frames_to_follow = [&](double deviations, double share, int most) {

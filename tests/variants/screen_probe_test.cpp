@@ -1,4 +1,5 @@
 // The screen probe against scenes whose surroundings are known in every direction.
+#include "core/gbuffer/environment_images.h"
 #include "tests/variants/probe_lookup.h"
 #include "tests/variants/synthetic_gbuffer.h"
 #include "tests/variants/variant_fixture.h"
@@ -7,6 +8,7 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
+#include <memory>
 #include <random>
 
 namespace {
@@ -33,7 +35,9 @@ SyntheticHit background(const CameraRay&) { return {}; }
 
 struct ScreenProbeTest : VariantTest {
     CameraPose pose{.vertical_fov = 1.2f, .near = 0.1f, .far = 100.0f};
-    HostImage emission;  ///< rgb; none: black
+    HostImage emission;       ///< rgb; none: black
+    Environment environment;  ///< black
+    float albedo = 0;
     PassGraph graph{device(), {64, 48}};
     ParameterSet none;
     ScreenProbe probe;
@@ -44,7 +48,12 @@ struct ScreenProbeTest : VariantTest {
     void show(const SyntheticScene& scene, bool has_previous = true) {
         const FrameView view{.extent = graph.extent(), .frame = frame_};
         const CameraData camera = camera_data(pose, has_previous && frame_ > 0 ? &before_ : nullptr, view);
-        const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, scene);
+        GBuffer gbuffer = upload_gbuffer(graph, pose, camera, scene);
+        environment_ = std::make_unique<EnvironmentImages>(graph, environment, false);
+        gbuffer.environment = environment_.get();
+        HostImage base_color(graph.extent(), 4);
+        for (size_t i = 0; i < base_color.pixel_count(); ++i) base_color.set_rgb(i, glm::vec3(albedo));
+        graph.upload(gbuffer.base_color, base_color);
         if (emission.pixel_count() > 0) graph.upload(gbuffer.emission, emission);
         graph.begin_frame(camera, none, gbuffer.images());
         probe = screen_probe(graph, gbuffer);
@@ -74,6 +83,7 @@ struct ScreenProbeTest : VariantTest {
     std::mt19937 random{1};
 
 private:
+    std::unique_ptr<EnvironmentImages> environment_;
     CameraPose before_;
     unsigned frame_ = 0;
 };
@@ -235,6 +245,41 @@ TEST_F(ScreenProbeTest, WallsStandAround) {
         EXPECT_GT(ceiling.b, 0.5);
         for (const glm::vec4& found : {wall, floor, ceiling}) EXPECT_GT(found.a, 0.99);
     }
+}
+
+/// A wall before the camera, with nothing known of the other side. An environment of 2 makes an albedo of a half as
+/// bright as 1: then nothing is behind the camera. Ten times darker walls are in its shadow, and ten times brighter
+/// ones lit by lamps: then the wall is continued. In the first frame nothing is known of the environment.
+TEST_F(ScreenProbeTest, IsOpenFromWhereTheEnvironmentLights) {
+    environment.color = glm::vec3(2);
+    albedo = 0.5f;
+    for (const float lit : {0.1f, 1.0f, 10.0f}) {
+        const auto wall = [=](const CameraRay& ray) {
+            return SyntheticHit{.distance = radius / -ray.direction.z, .normal = behind, .lit = glm::vec3(lit)};
+        };
+        show(wall, false);
+        EXPECT_NEAR(towards(behind).a, 1, 1e-3) << lit;
+        show(wall);
+        const bool is_open = lit == 1.0f;
+        EXPECT_NEAR(towards(behind).a, is_open ? 0 : 1, 1e-3) << lit;
+        EXPECT_NEAR(towards(behind).r, is_open ? 0 : lit, 1e-3 * lit) << lit;
+        EXPECT_NEAR(towards(ahead).a, 1, 1e-3) << "what is seen is there";
+    }
+}
+
+/// Of a gradient 2 + 1.5 cos about the axis that the wall faces a surface gets 2 + 2/3 * 1.5 over pi: half of that
+/// is 1.5. A wall of 1.8 is within what the environment makes of it; by the mean light of all directions, 1, it would
+/// not be.
+TEST_F(ScreenProbeTest, KnowsFromWhereTheEnvironmentLights) {
+    environment = {
+        .type = Environment::Type::gradient, .color = glm::vec3(2), .slope = glm::vec3(1.5f), .axis = {0, 0, 1}};
+    albedo = 0.5f;
+    const auto wall = [=](const CameraRay& ray) {
+        return SyntheticHit{.distance = radius / -ray.direction.z, .normal = behind, .lit = glm::vec3(1.8f)};
+    };
+    show(wall, false);
+    show(wall);
+    EXPECT_NEAR(towards(behind).a, 0, 1e-3);
 }
 
 }  // namespace
