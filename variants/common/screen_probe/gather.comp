@@ -69,7 +69,8 @@ Samples samples_of(ivec2 texel) {
     for (int i = 0; i < rows * rows; ++i) {
         vec2 place = vec2(texel) + (vec2(i % rows, i / rows) + 0.5) / float(rows);
         vec3 ws_direction = direction_of_place(2.0 * place / float(probe_width) - 1.0);
-        float luminance = luminance_bt709(environment_along_ray(ivec2(0), ws_direction));
+        // Captures know the environment in the directions of their pixels' lobes alone.
+        float luminance = is_environment(3u) ? 0.0 : luminance_bt709(environment_along_ray(ivec2(0), ws_direction));
         samples.environment += solid_angle(ws_direction, rows * probe_width) * luminance * vec4(ws_direction, 1.0);
         vec3 direction = mat3(camera.view_from_world) * ws_direction;
         vec4 clip = camera.clip_from_view * vec4(direction, 0.0);
