@@ -17,6 +17,8 @@ uniform writeonly image2D probe_lit, probe_unoccluded;
 uniform sampler2D previous_probe_environment;
 uniform writeonly image2D probe_environment;
 
+const float largest_radiance = 65504.0;  // of halves; sums of it are finite
+
 struct Samples {
     float on_screen;        // number
     vec4 surfaces;          // of those with a surface: sum of radiance, number
@@ -34,9 +36,20 @@ vec4 environment_moments() {
     return sum;
 }
 
-// Luminance over pi with which it would light a surface, unoccluded and up to its second moments (Ramamoorthi and
+// Luminance over pi with which it would light a surface, unoccluded and up to first moments (Ramamoorthi and
 // Hanrahan 2001, "An Efficient Representation for Irradiance Environment Maps").
 float unoccluded_light(vec4 moments, vec3 ws_normal) { return max(moments.w + 2.0 * dot(moments.xyz, ws_normal), 0.0); }
+
+void add_light(inout Samples samples, ivec2 pixel, vec3 radiance, vec4 moments) {
+    vec3 ws_normal = texelFetch(normal, pixel, 0).xyz;
+    vec4 color_metalness = texelFetch(base_color, pixel, 0);
+    vec3 by_environment = (1.0 - color_metalness.w) * color_metalness.rgb * unoccluded_light(moments, ws_normal);
+    float expected = luminance_bt709(by_environment), length_of_normal = length(ws_normal);
+    bool is_sound = expected >= 0.0 && expected <= largest_radiance && abs(length_of_normal - 1.0) < 0.1;
+    if (!is_sound) return;
+    samples.lit += luminance_bt709(radiance) * vec4(ws_normal, 1.0);
+    samples.unoccluded += expected * vec4(ws_normal, 1.0);
+}
 
 void add_pixel(inout Samples samples, ivec2 pixel, vec4 moments) {
     samples.on_screen += 1.0;
@@ -44,13 +57,8 @@ void add_pixel(inout Samples samples, ivec2 pixel, vec4 moments) {
     if (is_background(device_depth)) return;
     vec3 radiance = texelFetch(lit, pixel, 0).rgb - texelFetch(emission, pixel, 0).rgb;
     if (any(isnan(radiance)) || any(isinf(radiance))) return;
-    const float largest_radiance = 65504.0;  // of halves; sums of it are finite
     samples.surfaces += vec4(clamp(radiance, 0.0, largest_radiance), 1.0);
-    vec3 ws_normal = texelFetch(normal, pixel, 0).xyz;
-    vec4 color_metalness = texelFetch(base_color, pixel, 0);
-    vec3 by_environment = (1.0 - color_metalness.w) * color_metalness.rgb * unoccluded_light(moments, ws_normal);
-    samples.lit += luminance_bt709(clamp(radiance, 0.0, largest_radiance)) * vec4(ws_normal, 1.0);
-    samples.unoccluded += luminance_bt709(clamp(by_environment, 0.0, largest_radiance)) * vec4(ws_normal, 1.0);
+    add_light(samples, pixel, clamp(radiance, 0.0, largest_radiance), moments);
     const float least_distance = 1e-6;  // m
     samples.inverse_lengths += 1.0 / max(length(view_position_at(pixel, device_depth)), least_distance);
 }
