@@ -85,7 +85,7 @@ TEST_F(TracersTest, TraceForEveryTechniqueAndChangeNothingWhenRecorded) {
                     ASSERT_NEAR(glm::length(ray.direction), 1, 1e-4);
                 }
             }
-            EXPECT_GT(rays, 400u);
+            EXPECT_GT(rays, 250u);  // composed_ssr starts them in a quarter of the pixels
             EXPECT_GT(double(hits), 0.2 * double(rays));
         }
 }
