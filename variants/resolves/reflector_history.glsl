@@ -1,34 +1,13 @@
 // What was reflected at a place of the frame before.
 #ifndef RESOLVES_REFLECTOR_HISTORY_GLSL
 #define RESOLVES_REFLECTOR_HISTORY_GLSL
-#include "frostbite_sssr/previous_view.glsl"
 #include "resolves/place_before.glsl"
+#include "resolves/same_reflector.glsl"
 
 // Texels of previous_accumulated: colour times confidence, confidence; the latter negative where nothing reflected.
-uniform sampler2D previous_accumulated, previous_normal;
+uniform sampler2D previous_accumulated;
 
 const vec4 no_reflection = vec4(0.0, 0.0, 0.0, -1.0);
-
-// As the previous camera would see it: positions and the geometric normal in its view space, the shading normal in
-// world space.
-struct Reflector {
-    vec3 position, geometric_normal, ws_normal;
-    float roughness;
-};
-
-Reflector reflector_at(ivec2 pixel) {
-    vec4 normal_roughness = texelFetch(normal, pixel, 0);
-    return Reflector((camera.previous_view_from_world * world_position(pixel)).xyz, geometric_normal_before(pixel),
-                     normal_roughness.xyz, normal_roughness.w);
-}
-
-// Whether the texel showed the same plane as rough as now; one that moved has its mirror image elsewhere. The limits
-// are ours: 26 degrees, a tenth in perceptual roughness.
-bool is_same_reflector(Reflector now, ivec2 texel) {
-    vec4 before = texelFetch(previous_normal, texel, 0);
-    return showed_plane(texel, now.position, now.geometric_normal) && dot(before.xyz, now.ws_normal) >= 0.9 &&
-           abs(before.w - now.roughness) <= 0.1;
-}
 
 struct History {
     vec4 color;  // as texels of previous_accumulated

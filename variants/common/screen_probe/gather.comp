@@ -1,5 +1,6 @@
 // Asks the screen what lies in the directions of each texel, and remembers what has left it.
 #include "common/mirror_ray.glsl"
+#include "common/half.glsl"
 #include "common/luminance.glsl"
 #include "common/screen_probe/octahedral_map.glsl"
 #include "core/shaders/gbuffer/environment.glsl"
@@ -16,8 +17,6 @@ uniform writeonly image2D probe_lit, probe_unoccluded;
 // times the direction.
 uniform sampler2D previous_probe_environment;
 uniform writeonly image2D probe_environment;
-
-const float largest_radiance = 65504.0;  // of halves; sums of it are finite
 
 struct Samples {
     float on_screen;        // number
@@ -45,7 +44,7 @@ void add_light(inout Samples samples, ivec2 pixel, vec3 radiance, vec4 moments) 
     vec4 color_metalness = texelFetch(base_color, pixel, 0);
     vec3 by_environment = (1.0 - color_metalness.w) * color_metalness.rgb * unoccluded_light(moments, ws_normal);
     float expected = luminance_bt709(by_environment), length_of_normal = length(ws_normal);
-    bool is_sound = expected >= 0.0 && expected <= largest_radiance && abs(length_of_normal - 1.0) < 0.1;
+    bool is_sound = expected >= 0.0 && expected <= largest_half && abs(length_of_normal - 1.0) < 0.1;
     if (!is_sound) return;
     samples.lit += luminance_bt709(radiance) * vec4(ws_normal, 1.0);
     samples.unoccluded += expected * vec4(ws_normal, 1.0);
@@ -57,8 +56,8 @@ void add_pixel(inout Samples samples, ivec2 pixel, vec4 moments) {
     if (is_background(device_depth)) return;
     vec3 radiance = texelFetch(lit, pixel, 0).rgb - texelFetch(emission, pixel, 0).rgb;
     if (any(isnan(radiance)) || any(isinf(radiance))) return;
-    samples.surfaces += vec4(clamp(radiance, 0.0, largest_radiance), 1.0);
-    add_light(samples, pixel, clamp(radiance, 0.0, largest_radiance), moments);
+    samples.surfaces += vec4(clamp(radiance, 0.0, largest_half), 1.0);
+    add_light(samples, pixel, clamp(radiance, 0.0, largest_half), moments);
     const float least_distance = 1e-6;  // m
     samples.inverse_lengths += 1.0 / max(length(view_position_at(pixel, device_depth)), least_distance);
 }
@@ -76,7 +75,7 @@ Samples samples_of(ivec2 texel) {
     vec4 moments = float(camera.frame.w) * environment_moments();
     for (int i = 0; i < rows * rows; ++i) {
         vec2 place = vec2(texel) + (vec2(i % rows, i / rows) + 0.5) / float(rows);
-        vec3 ws_direction = direction_of_place(2.0 * place / float(probe_width) - 1.0);
+        vec3 ws_direction = octahedral_direction(2.0 * place / float(probe_width) - 1.0);
         // Captures know the environment in the directions of their pixels' lobes alone.
         float luminance = is_environment(3u) ? 0.0 : luminance_bt709(environment_along_ray(ivec2(0), ws_direction));
         samples.environment += solid_angle(ws_direction, rows * probe_width) * luminance * vec4(ws_direction, 1.0);

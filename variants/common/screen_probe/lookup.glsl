@@ -6,7 +6,7 @@
 uniform sampler2D screen_probe, screen_probe_nearness;
 
 // In texels, after the border.
-vec2 probe_texel(vec3 direction) { return (0.5 * place_of_direction(direction) + 0.5) * float(probe_width) + 1.0; }
+vec2 probe_texel(vec3 direction) { return (0.5 * octahedral_place(direction) + 0.5) * float(probe_width) + 1.0; }
 
 // Of a ray from a point, from the camera on (m), in a unit direction, all in world space: a share of it that meets a
 // surface, rgb that times the surface's radiance. It is looked for where the ray meets a sphere about the camera that is

@@ -23,15 +23,16 @@ struct Guess {
 float lit_from(vec3 direction, vec4 lit, vec4 unoccluded) {
     float expected = unoccluded.w + dot(unoccluded.xyz, direction), found = lit.w + dot(lit.xyz, direction);
     if (expected <= 0.0) return 0.0;
+    // Ours: below the first walls of furnished rooms that light each other would count as lit from outside.
+    const float shaded = 0.5, in_the_open = 0.9, beside_lamps = 1.3, by_lamps = 2.5;
     float ratio = found / expected;
-    return smoothstep(0.5, 0.9, ratio) * (1.0 - smoothstep(1.3, 2.5, ratio));
+    return smoothstep(shaded, in_the_open, ratio) * (1.0 - smoothstep(beside_lamps, by_lamps, ratio));
 }
 
 Guess guess_at(vec3 direction) {
     const int blocks = probe_width / 2;  // of 2x2 texels, whose mean a sampler gives at their common corner
-    const float doubt = 1e-3;      // weight of there being nothing
-    vec4 surfaces = vec4(0.0);
-    vec4 lit = vec4(0.0), unoccluded = vec4(0.0);
+    const float doubt = 1e-3;  // weight of there being nothing
+    vec4 surfaces = vec4(0.0), lit = vec4(0.0), unoccluded = vec4(0.0);
     float nearness = 0.0, weights = doubt;
     for (int i = 0; i < blocks * blocks; ++i) {
         vec2 corner = (vec2(i % blocks, i / blocks) + 0.5) / float(blocks);
@@ -39,7 +40,7 @@ Guess guess_at(vec3 direction) {
         lit += textureLod(probe_lit, corner, 0.0);
         unoccluded += textureLod(probe_unoccluded, corner, 0.0);
         if (facts.y == 0.0) continue;
-        float weight = likeness(direction_of_place(2.0 * corner - 1.0), direction);
+        float weight = likeness(octahedral_direction(2.0 * corner - 1.0), direction);
         surfaces += weight * textureLod(probe_seen, corner, 0.0);
         nearness += weight * facts.x;
         weights += weight * facts.y;
@@ -56,7 +57,7 @@ void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(texel, ivec2(probe_width + 2)))) return;
     vec2 place = place_within(2.0 * (vec2(texel) - 0.5) / float(probe_width) - 1.0);
-    Guess guess = guess_at(direction_of_place(place));
+    Guess guess = guess_at(octahedral_direction(place));
     ivec2 inside = ivec2((0.5 * place + 0.5) * float(probe_width));
     vec4 seen = texelFetch(probe_seen, inside, 0);
     vec2 facts = texelFetch(probe_facts, inside, 0).xy;

@@ -1,12 +1,12 @@
 // What a pixel reflected in the frames before, and how much of that still holds.
 #ifndef RATIO_ACCUMULATION_HISTORY_GLSL
 #define RATIO_ACCUMULATION_HISTORY_GLSL
-#include "frostbite_sssr/previous_view.glsl"
 #include "resolves/place_before.glsl"
 #include "resolves/ratio_accumulation/state.glsl"
+#include "resolves/same_reflector.glsl"
 
 // Of the images of state.glsl.
-uniform sampler2D previous_accumulated, previous_moments, previous_reflected_length, previous_normal;
+uniform sampler2D previous_accumulated, previous_moments, previous_reflected_length;
 
 // Where what a mirror shows at that length was; what is rough, and what no ray met, keeps to its surface.
 Place place_of(ivec2 pixel, Receiver receiver, float ray_length) {
@@ -21,13 +21,6 @@ bool stays(ivec2 pixel, Place place) {
     return max(away.x, away.y) < nothing;
 }
 
-// Whether the texel showed a surface that is turned alike and as rough as now; one that turned has its mirror image
-// elsewhere. The limits are ours: 26 degrees, a tenth in perceptual roughness.
-bool is_alike(Receiver receiver, ivec2 texel) {
-    vec4 before = texelFetch(previous_normal, texel, 0);
-    return dot(before.xyz, receiver.ws_normal) >= 0.9 && abs(before.w - receiver.roughness) <= 0.1;
-}
-
 State state_at(ivec2 texel) {
     return State(shown_color(texelFetch(previous_accumulated, texel, 0)), texelFetch(previous_moments, texel, 0),
                  texelFetch(previous_reflected_length, texel, 0).r);
@@ -38,8 +31,9 @@ State history_at(ivec2 pixel, Receiver receiver, Place place) {
     bool is_inside = all(greaterThanEqual(place.position, vec2(0.0))) &&
                      all(lessThan(place.position, camera.extent.xy));
     if (!place.is_known || !is_inside) return no_state;
-    vec3 position = (camera.previous_view_from_world * (camera.world_from_view * vec4(receiver.position, 1.0))).xyz;
-    vec3 plane_normal = geometric_normal_before(pixel);
+    vec4 ws_position = camera.world_from_view * vec4(receiver.position, 1.0);
+    Reflector now = Reflector((camera.previous_view_from_world * ws_position).xyz, geometric_normal_before(pixel),
+                              receiver.ws_normal, receiver.roughness);
     vec2 corner = floor(place.position - 0.5), share = place.position - 0.5 - corner;
     bool is_still = stays(pixel, place);  // then one texel holds it all
     if (is_still) {
@@ -51,7 +45,7 @@ State history_at(ivec2 pixel, Receiver receiver, Place place) {
     float weights = 0.0;
     for (int i = 0; i < count; ++i) {
         ivec2 side = ivec2(i & 1, i >> 1), texel = ivec2(corner) + side;
-        if (!is_on_screen(texel) || !showed_plane(texel, position, plane_normal) || !is_alike(receiver, texel)) continue;
+        if (!is_on_screen(texel) || !is_same_reflector(now, texel)) continue;
         State state = state_at(texel);
         if (state.moments.x == 0.0) continue;
         vec2 sides = mix(1.0 - share, share, vec2(side));

@@ -40,6 +40,7 @@ vec4 known_color(vec4 shown) {
     const float least_share = 1e-6;  // below which the quotient says nothing
     return shown.a > least_share ? vec4(shown.rgb / shown.a, min(shown.a, 1.0)) : vec4(0.0);
 }
+
 // In which one bright ray decides little.
 float compressed_luminance(vec4 shown) {
     float luminance = luminance_bt709(known_color(shown).rgb);
