@@ -12,9 +12,10 @@ struct RadianceObservation {
 };
 
 /// The radiance that a path is to expect where it goes on, by cells: with it Russian roulette ends paths that promise
-/// little to their pixel, and keeps dark ones on their way to bright places (Vorba and Krivanek 2016, "Adjoint-Driven
-/// Russian Roulette and Splitting in Light Transport Simulation"). It is learnt from paths that a render does not use,
-/// and decides with which probability a path goes on, which its weight makes up for: no mean depends on it.
+/// little to their pixel, keeps dark ones on their way to bright places, and splits those that promise much (Vorba and
+/// Krivanek 2016, "Adjoint-Driven Russian Roulette and Splitting in Light Transport Simulation"). It is learnt from
+/// paths that a render does not use, and decides with which probability a path goes on, or into how many parts, which
+/// its weight makes up for: no mean depends on it.
 class ExpectedRadiance {
 public:
     /// `low`, `high`: bounds of the scene (m). The same observations in the same order give the same bits.

@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cmath>
+#include <utility>
 
 namespace {
 
@@ -9,6 +10,15 @@ namespace {
 /// one that is expected to bring nothing still with least_survival, since what is expected can be wrong. Measured over
 /// windows of 1, 1.5, 3 and 10.
 constexpr float promise_window = 2.0f, least_survival = 0.1f;
+
+/// A path that is expected to bring more than twice promise_window of its pixel's light is split into parts that bring
+/// about promise_window each. Half of that gains a little more of the mean variance and costs rays that the median
+/// pixel does not need (groundtruth/README.md). The limit keeps a wrong estimate affordable.
+constexpr unsigned most_parts = 32;
+
+/// Pairs of the parts of a path begin here, each at a place of its own that is drawn by a hash: parts that meet there
+/// by chance would be correlated, but not biased.
+constexpr uint32_t branch_stream = 1u << 20;
 
 constexpr uint32_t all_lanes = (1ull << lane_count) - 1;
 
@@ -35,7 +45,7 @@ vec3 to_camera(const CameraView& camera, vec3 position, vec3 normal) {
 }  // namespace
 
 void PathLanes::start(const PathStart& path) {
-    while (busy_ == all_lanes) advance();
+    while (resume_branches(), busy_ == all_lanes) advance();
     const int lane = std::countr_one(busy_);
     busy_ |= 1u << lane;
     origin_.set(lane, path.origin);
@@ -54,13 +64,14 @@ void PathLanes::start(const PathStart& path) {
 }
 
 void PathLanes::finish() {
-    while (busy_ != 0) advance();
+    while (resume_branches(), busy_ != 0) advance();
 }
 
 void PathLanes::trace_rays() {
     RTCRayHit ray[lane_count];
     uint32_t hits = 0;
-    for_each_bit(busy_, [&](int lane) {
+    const uint32_t on_their_way = busy_ & ~resumed_;
+    for_each_bit(on_their_way, [&](int lane) {
         const vec3 origin = origin_.get(lane), direction = direction_.get(lane);
         ++estimate_.rays;
         if (!intersect(scene_.geometry.handle(), origin, direction, ray[lane])) return;
@@ -76,8 +87,9 @@ void PathLanes::trace_rays() {
         });
     }
     if (scene_.has_environment || goal_ == PathGoal::lit_color)
-        for_each_bit(busy_ & ~hits, [&](int lane) { leave(lane); });
+        for_each_bit(on_their_way & ~hits, [&](int lane) { leave(lane); });
     continues_ = {};
+    for_each_bit(resumed_, [&](int lane) { continues_[lane] = 1; });
     for_each_bit(hits, [&](int lane) { meet(lane, ray[lane]); });
 }
 
@@ -131,12 +143,74 @@ void PathLanes::sample_lights() {
 }
 
 void PathLanes::look_ahead() {
-    for (int lane = 0; lane < lane_count; ++lane)
-        if (continues_[lane])
-            promise_[lane] =
-                per_estimate_[lane] > 0
-                    ? per_estimate_[lane] * scene_.expected.at(position_.get(lane), geometric_normal_.get(lane))
-                    : 0.0f;
+    const bool splits = scene_.settings.splitting && goal_ == PathGoal::reflection;
+    for_each_bit(bits_of(continues_) & ~resumed_, [&](int lane) {
+        promise_[lane] = per_estimate_[lane] > 0 ? per_estimate_[lane] * scene_.expected.at(position_.get(lane),
+                                                                                            geometric_normal_.get(lane))
+                                                 : 0.0f;
+        part_[lane] = 1.0f;
+        if (!splits || depth_[lane] >= scene_.settings.max_depth) return;
+        // The direction is not known yet: about what the surface reflects stands for it.
+        const vec3 reflectance = base_color_.get(lane) + 0.04f;
+        const float parts =
+            luminance(weight_.get(lane) * throughput_.get(lane) * reflectance) * promise_[lane] / promise_window;
+        if (parts >= 2.0f) split(lane, unsigned(std::min(parts, float(most_parts))));
+    });
+}
+
+/// Of the directions from a vertex: the light sample there stays one, with the path that is in the lane.
+void PathLanes::split(int lane, unsigned parts) {
+    part_[lane] = 1.0f / float(parts);
+    for (unsigned part = 1; part < parts; ++part)
+        branches_.push_back({
+            .direction = direction_.get(lane),
+            .throughput = throughput_.get(lane),
+            .weight = weight_.get(lane),
+            .position = position_.get(lane),
+            .error = error_.get(lane),
+            .geometric_normal = geometric_normal_.get(lane),
+            .normal = normal_.get(lane),
+            .base_color = base_color_.get(lane),
+            .metalness = metalness_[lane],
+            .roughness = roughness_[lane],
+            .specular = specular_[lane],
+            .per_estimate = per_estimate_[lane],
+            .promise = promise_[lane],
+            .part = part_[lane],
+            .depth = depth_[lane],
+            .pair = branch_stream | hash_bits(pair_[lane] * most_parts + part),
+            .reversed_sample = reversed_sample_[lane],
+            .is_specular = is_specular_[lane],
+        });
+}
+
+/// Gives free lanes to branches.
+void PathLanes::resume_branches() {
+    for (; !branches_.empty() && busy_ != all_lanes; branches_.pop_back()) {
+        const Branch& branch = branches_.back();
+        const int lane = std::countr_one(busy_);
+        busy_ |= 1u << lane;
+        resumed_ |= 1u << lane;
+        direction_.set(lane, branch.direction);
+        throughput_.set(lane, branch.throughput);
+        radiance_.set(lane, vec3(0.0f));
+        weight_.set(lane, branch.weight);
+        position_.set(lane, branch.position);
+        error_.set(lane, branch.error);
+        geometric_normal_.set(lane, branch.geometric_normal);
+        normal_.set(lane, branch.normal);
+        base_color_.set(lane, branch.base_color);
+        metalness_[lane] = branch.metalness;
+        roughness_[lane] = branch.roughness;
+        specular_[lane] = branch.specular;
+        per_estimate_[lane] = branch.per_estimate;
+        promise_[lane] = branch.promise;
+        part_[lane] = branch.part;
+        depth_[lane] = branch.depth;
+        pair_[lane] = branch.pair;
+        reversed_sample_[lane] = branch.reversed_sample;
+        is_specular_[lane] = branch.is_specular;
+    }
 }
 
 template <bool has_lights, PathGoal goal>
@@ -183,7 +257,7 @@ void PathLanes::scatter() {
         const LobeValues f = evaluate(lobes, i);
         const float pdf = mix(f.diffuse_pdf, f.specular_pdf, q);
         const vec3 direction = world_from_local * i;
-        const vec3 next = throughput * (f.diffuse + f.specular * specular_share) * (1.0f / pdf);
+        const vec3 next = throughput * part_[lane] * (f.diffuse + f.specular * specular_share) * (1.0f / pdf);
 
         const float greatest = max(next.x, max(next.y, next.z));
         const bool by_promise = per_estimate_[lane] > 0.0f;
@@ -223,7 +297,7 @@ void PathLanes::advance() {
     trace_rays();
     const bool has_lights = !scene_.lights.empty();
     look_ahead();
-    const uint32_t reached = bits_of(continues_);
+    const uint32_t reached = bits_of(continues_) & ~std::exchange(resumed_, 0);  // branches took their light before
     if (has_lights) sample_lights();
     if (goal_ == PathGoal::lit_color)
         has_lights ? scatter<true, PathGoal::lit_color>() : scatter<false, PathGoal::lit_color>();

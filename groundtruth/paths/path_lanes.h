@@ -46,8 +46,17 @@ private:
     void scatter();
     void trace_shadow_rays(uint32_t reached);
     void look_ahead();
+    void split(int lane, unsigned parts);
+    void resume_branches();
     void record(uint32_t continuing);
     void end(int lane);
+
+    /// A part of a path that was split, at the vertex from which it is to go on.
+    struct Branch {
+        vec3 direction, throughput, weight, position, error, geometric_normal, normal, base_color;
+        float metalness, roughness, specular, per_estimate, promise, part;
+        uint32_t depth, pair, reversed_sample, is_specular;
+    };
 
     struct Visit {
         vec3 position, normal;
@@ -59,6 +68,8 @@ private:
     const PathGoal goal_;
     PixelEstimate& estimate_;
     uint32_t busy_ = 0;                       ///< bit per lane: it holds a path
+    uint32_t resumed_ = 0;                    ///< bit per lane: its path is a branch that stands at its vertex
+    std::vector<Branch> branches_;            ///< that wait for a lane
     std::vector<std::vector<Visit>> visits_;  ///< of each lane, while what paths find is taken down
 
     // Of each path:
@@ -75,6 +86,7 @@ private:
     LightLanes lights_;
     LanesVec3 direct_;  ///< what the light sample adds, if it is visible
     Lanes<float>
-        promise_;    ///< what a path of weight 1 is expected to bring beyond it, in parts of the pixel's; 0: unknown
-    LanesVec3 cut_;  ///< throughput with which the path would go on, were it not for max_depth
+        promise_;  ///< what a path of weight 1 is expected to bring beyond it, in parts of the pixel's; 0: unknown
+    Lanes<float> part_;  ///< of the path that goes on in this lane: less than 1 if it was split here
+    LanesVec3 cut_;      ///< throughput with which the path would go on, were it not for max_depth
 };

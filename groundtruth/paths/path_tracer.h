@@ -12,6 +12,7 @@ struct PathTracerSettings {
     unsigned max_depth = 64;  ///< reflections per path, at most; light that needs more is missing from the estimate
     LightStrategy strategy = LightStrategy::power;
     bool russian_roulette = true;
+    bool splitting = true;  ///< of paths that promise much, once the tracer knows what to expect, see expect()
     ReflectionModel model = ReflectionModel::gltf;
     bool diffuse = true, specular = true;  ///< which parts of a pixel are estimated; `specular` includes `incident`
     bool learns_lights =
@@ -95,8 +96,9 @@ public:
     PathTracer& operator=(const PathTracer&) = delete;
 
     /// From now on Russian roulette ends paths by what they are expected to bring to their pixel and not by their
-    /// throughput. `diffuse`, `specular`: about what each pixel holds (RGB), from other samples than those that will be
-    /// traced. The means stay the same. To be called before trace() is.
+    /// throughput, and paths that are expected to bring much are split. `diffuse`, `specular`: about what each pixel
+    /// holds (RGB), from other samples than those that will be traced. The means stay the same. To be called before
+    /// trace() is.
     void expect(const HostImage& diffuse, const HostImage& specular);
 
     /// The hit of the ray through the centre of pixel (x, y), y down.

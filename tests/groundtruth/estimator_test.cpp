@@ -318,6 +318,51 @@ TEST(estimator, roulette_by_what_is_expected_changes_no_mean) {
     EXPECT_LT(rays, 0.9 * double(usual_rays));  // it decides
 }
 
+TEST(estimator, splitting_changes_no_mean) {
+    const TestScene room = make_room();
+    Render renders[2] = {{std::vector<PixelMoments>(std::size(pixels))},
+                         {std::vector<PixelMoments>(std::size(pixels))}};
+    uint64_t rays[2] = {};
+    for (const bool splits : {false, true}) {
+        PathTracer tracer(room.scene, room.pose(), room_camera(), extent, {.splitting = splits});
+        // Pixels of this room hold 0.02 to 1: nearly all paths promise several times what their pixel is said to hold.
+        tracer.expect(HostImage(extent, 3, 0.01f), HostImage(extent, 3, 0.01f));
+        for (size_t i = 0; i < std::size(pixels); ++i) {
+            renders[splits].pixels[i] = render_pixel(tracer, pixels[i].x, pixels[i].y, 4096, splits);
+            rays[splits] += sums(tracer, pixels[i], 256).rays;
+        }
+    }
+    expect_same_means(renders[1], renders[0]);
+    EXPECT_GT(double(rays[1]), 1.3 * double(rays[0]));  // it decides
+}
+
+/// A mirror that shows a grey floor, from which paths find a bright or a dim half of the sky by chance: what varies is
+/// the direction from the floor, which splitting draws several times.
+TEST(estimator, splitting_takes_the_variance_of_what_a_mirror_shows) {
+    TestScene scene;
+    scene.quad({-100, 0, 100}, {100, 0, 100}, {100, 0, -100}, {-100, 0, -100}, scene.add(lambert_material(0.5f)));
+    scene.quad({-0.01f, 10, -0.01f}, {0.01f, 10, -0.01f}, {0.01f, 10, 0.01f}, {-0.01f, 10, 0.01f},
+               scene.add(metal_material(1, 0)));
+    scene.scene.environment = split_sky(30, 2);
+    double variance[2] = {}, mean[2] = {};
+    const unsigned seeds = 64;
+    for (const bool splits : {false, true}) {
+        PathTracer tracer(scene.scene, scene.pose(), looking_along({0.6f, 10 - 0.8f, 0}, {-0.6f, 0.8f, 0}), {1, 1},
+                          {.strategy = LightStrategy::bsdf_only, .splitting = splits});
+        // An eighth of what the mirror holds: each path is worth eight of its pixels, and is split into four.
+        tracer.expect(HostImage({1, 1}, 3, 1.0f), HostImage({1, 1}, 3, 1.0f));
+        for (unsigned seed = 0; seed < seeds; ++seed) {  // of one sample a batch, which nothing stratifies
+            const Moments incident = render_pixel(tracer, 0, 0, 1, seed).incident;
+            mean[splits] += incident.mean.x / seeds;
+            variance[splits] += std::pow(incident.standard_error.x / seeds, 2);
+        }
+        // Half of the mean of both halves of the sky. 6 standard errors of 960 degrees of freedom: p = 3e-9.
+        EXPECT_NEAR(mean[splits], 8, 6 * std::sqrt(variance[splits]));
+    }
+    // Each variance of 1024 paths, which find either of two values, is known to some 3 %.
+    EXPECT_NEAR(variance[1] / variance[0], 1.0 / 4, 0.05);
+}
+
 TEST(estimator, translation_changes_nothing) {
     const TestScene room = make_room();
     TestScene moved = room;

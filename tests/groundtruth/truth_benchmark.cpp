@@ -31,13 +31,11 @@ constexpr double floor_share = 0.1;
 
 struct Learnt {
     const char* name;
-    bool lights, roulette, has_few_guide_samples = false;
+    bool lights, roulette, splitting = false, has_few_guide_samples = false;
 };
-constexpr Learnt learnt[] = {{"neither", false, false},
-                             {"lights", true, false},
-                             {"roulette", false, true},
-                             {"both", true, true},
-                             {"both_few_guide_samples", true, true, true}};
+constexpr Learnt learnt[] = {{"neither", false, false}, {"lights", true, false},
+                             {"roulette", false, true}, {"both", true, true},
+                             {"all", true, true, true}, {"all_few_guide_samples", true, true, true, true}};
 
 struct Spent {
     double variance = 0, rays = 0, cpu_seconds = 0;  ///< the first: mean over pixels, relative to their radiance
@@ -68,7 +66,7 @@ public:
 
     /// By seeds, whose paths are others.
     std::vector<Spent> spent(const Learnt& what) const {
-        PathTracer tracer(scene_, pose_, camera_, extent, {.learns_lights = what.lights});
+        PathTracer tracer(scene_, pose_, camera_, extent, {.splitting = what.splitting, .learns_lights = what.lights});
         const Guide& guide = what.has_few_guide_samples ? few_samples_guide_ : guide_;
         if (what.roulette) tracer.expect(guide.diffuse, guide.specular);
         std::vector<Spent> of_seeds(seeds);
@@ -206,9 +204,9 @@ std::string text_of(const Ratio& ratio) {
 int print_table() {
     const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
     std::printf(
-        "| Scene | lights, rays | time | roulette, rays | time | both, rays | time | both, guide of 16 samples, rays | "
-        "time |\n"
-        "|---|---|---|---|---|---|---|---|---|\n");
+        "| Scene | lights, rays | time | roulette, rays | time | both, rays | time | and splitting, rays | time | "
+        "all, guide of 16 samples, rays | time |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (const char* name : scene_names) {
         const std::optional<View> view = view_of(name);
         if (!view) continue;
