@@ -32,6 +32,7 @@ ALLOWED = {
     ("experiments/config/extends.cpp", "from / path"): REQUEST,
     ("experiments/config/read_shots.cpp", 'folder / shot.get<std::string>("gbuffer")'): REQUEST,
     ("experiments/config/read_shots.cpp", 'folder / shot.get<std::string>("reference")'): REQUEST,
+    ("experiments/config/read_variants.cpp", 'folder / object.get<std::string>("external")'): REQUEST,
     ("experiments/measuring/times/clock_proofs.cpp", 'folder / ("clock-" + hash.hex() + ".json")'): PROGRAM,
     ("experiments/run/plan/estimate.cpp", 'folder_ / ("cache" + std::to_string(size))'): PROGRAM,
     ("experiments/run/plan/estimate.cpp", 'fs::temp_directory_path() / ("ssrlab-plan-" + std::to_string(getpid()))'): PROGRAM,

@@ -3,7 +3,7 @@
 #include "core/error.h"
 #include "core/json.h"
 #include "experiments/config/point_name.h"
-#include "variants/registry.h"
+#include "experiments/config/variant_of.h"
 
 #include <algorithm>
 #include <map>
@@ -15,7 +15,7 @@ namespace {
 nlohmann::json values_of(const VariantConfig& v, const nlohmann::json& changed = nlohmann::json::object()) {
     nlohmann::json parameters = v.parameters;
     parameters.update(changed);
-    return make_variant(v.variant, parameters, v.preset)->params.values();
+    return variant_of(v, parameters)->params.values();
 }
 
 }  // namespace

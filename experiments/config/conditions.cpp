@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/near_miss.h"
+#include "experiments/config/external_images.h"
 #include "experiments/config/read_shots.h"
 
 #include <algorithm>
@@ -139,6 +140,11 @@ bool is_wanted(std::vector<PointCondition>& conditions, const json& parameters) 
 }
 
 std::string why_skipped(const VariantConfig& variant, const Shot& shot) {
+    if (variant.external) {
+        if (const std::string why = why_not_external(shot); !why.empty()) return why;
+        if (!variant.external->has_view(shot))
+            return variant.external->folder.string() + " holds no " + ExternalImages::view_name(shot);
+    }
     if (variant.conditions.empty()) return "";
     const json values = values_of(shot);
     for (const PointCondition& condition : variant.conditions) {

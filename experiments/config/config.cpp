@@ -288,7 +288,7 @@ Config read_config(const std::filesystem::path& file) {
     study.has("$schema");
     config.title = study.has("title") ? study.get<std::string>("title") : file.stem().string();
     config.shots = read_shots(study, study, file.parent_path());
-    config.variants = read_variants(study);
+    config.variants = read_variants(study, file.parent_path());
     read_reference(study, config);
     if (study["composite"] == "additive_fresnel") config.composite = CompositeFormula::additive_fresnel;
     if (study.has("timing")) read_timing(study.object("timing"), config.timing);
@@ -317,6 +317,9 @@ Config read_config(const std::filesystem::path& file) {
     if (config.variants.empty())
         fail(file.string(), ": 'variants' is missing or empty: name at least one variant, e.g. \"none\"");
     find_against_points(config.variants, file.string());
+    if (!config.has_reference &&
+        std::ranges::any_of(config.variants, [](const VariantConfig& v) { return v.external != nullptr; }))
+        fail(study.at("reference"), ": \"reference\": \"none\" leaves nothing to judge external images by");
     return config;
 }
 
@@ -326,6 +329,7 @@ json config_schema(const std::string& variant) {
     if (variant.empty()) {
         json variants = json::array();
         for (const VariantEntry& entry : variant_table()) variants.push_back(variant_schema(entry));
+        variants.push_back(schema_of(external_keys()));
         schema = schema_of(study_keys({{"anyOf", variants}}));
         schema["anyOf"] = {{{"required", {"shots", "variants"}}}, {{"required", {"extends"}}}};
     } else {
@@ -342,6 +346,7 @@ std::string with_key_tables(const std::string& markdown) {
                                                                {"capture", capture_keys()},
                                                                {"shot", keys_of_all_shots()},
                                                                {"variant", variant_keys(*make_variant("none"))},
+                                                               {"external", external_keys()},
                                                                {"table", table_keys()},
                                                                {"frozen", frozen_keys()},
                                                                {"tune", tune_keys()}};

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -58,6 +59,8 @@ struct PointCondition {
     nlohmann::json tests;  ///< name to condition
 };
 
+struct ExternalImages;
+
 /// A variant and one point of its parameters.
 struct VariantConfig {
     std::string variant;
@@ -72,7 +75,8 @@ struct VariantConfig {
     nlohmann::json against;  ///< parameter values, or null: it is compared with the point that differs in these alone,
     std::string against_point;  ///< of the same variant; "" for that point itself
     bool is_timed = true;
-    std::vector<PointCondition> conditions;  ///< on shots
+    std::vector<PointCondition> conditions;          ///< on shots
+    std::shared_ptr<const ExternalImages> external;  ///< whose frames it is; nullptr: ssrlab renders it
 };
 
 struct TimingConfig {

@@ -63,7 +63,7 @@ std::vector<size_t> entries_for(const json& patch, const std::vector<JsonDocumen
     for (size_t i = 0; i < entries.size(); ++i) {
         const json& entry = entries[i].value;
         const auto same = [&](const char* key) { return entry.value(key, json("")) == patch.value(key, json("")); };
-        if (!entry.is_object() || !same("variant") || !same("preset")) continue;
+        if (!entry.is_object() || !same("variant") || !same("external") || !same("preset")) continue;
         all.push_back(i);
         if (same("label")) same_label.push_back(i);
         if (!entry.contains("label")) unlabelled.push_back(i);
@@ -107,16 +107,19 @@ JsonDocument merged_variants(const JsonDocument& base, const JsonDocument& patch
     return all;
 }
 
-/// Paths of captures are relative to the folder of the file that names them.
-void move_captures(json& config, const fs::path& from, const fs::path& to) {
-    const json shots = config.is_object() ? config.value("shots", json()) : json();
-    if (!shots.is_array()) return;
-    for (json& shot : config["shots"])
-        for (const char* key : {"gbuffer", "reference"})
-            if (shot.is_object() && shot.contains("gbuffer") && shot.contains(key) && shot[key].is_string()) {
-                const fs::path path = shot[key].get<std::string>();
-                if (path.is_relative()) shot[key] = fs::proximate(from / path, to.empty() ? "." : to).string();
+/// Paths of captures and of external images are relative to the folder of the file that names them.
+void move_paths(json& config, const fs::path& from, const fs::path& to) {
+    const auto move_in = [&](const char* list, const char* needed, const char* key) {
+        if (!config.is_object() || !config.value(list, json()).is_array()) return;
+        for (json& entry : config[list])
+            if (entry.is_object() && entry.contains(needed) && entry.contains(key) && entry[key].is_string()) {
+                const fs::path path = entry[key].get<std::string>();
+                if (path.is_relative()) entry[key] = fs::proximate(from / path, to.empty() ? "." : to).string();
             }
+    };
+    move_in("shots", "gbuffer", "gbuffer");
+    move_in("shots", "gbuffer", "reference");
+    move_in("variants", "external", "external");
 }
 
 /// `chain`: the files that lead here.
@@ -132,7 +135,7 @@ JsonDocument read_chain(const fs::path& file, std::vector<fs::path> chain) {
     if (std::ranges::find(chain, fs::weakly_canonical(base_file)) != chain.end())
         fail(object.at("extends"), ": 'extends' leads back to ", base_file.string(), ", which extends this file");
     JsonDocument base = read_chain(base_file, chain);
-    move_captures(base.value, base_file.parent_path(), file.parent_path());
+    move_paths(base.value, base_file.parent_path(), file.parent_path());
     remove(config, "extends");
     const bool has_variants = config.value.contains("variants") && config.value["variants"].is_array() &&
                               base.value.contains("variants") && base.value["variants"].is_array();

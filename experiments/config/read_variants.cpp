@@ -4,6 +4,7 @@
 #include "core/near_miss.h"
 #include "experiments/config/conditions.h"
 #include "experiments/config/design.h"
+#include "experiments/config/external_images.h"
 #include "experiments/config/point_name.h"
 #include "variants/registry.h"
 
@@ -168,6 +169,30 @@ void read_entry(JsonObject entry, const std::optional<std::vector<unsigned>>& st
     refuse_unread(std::span(variants).subspan(before), object.where());
 }
 
+/// `folder`: of the config.
+void read_external_entry(JsonObject entry, const std::filesystem::path& folder, std::vector<VariantConfig>& variants) {
+    ConfigObject object(std::move(entry), external_keys());
+    if (object.has("remove")) fail(object.at("remove"), ": 'remove' is for a config that 'extends' another");
+    const std::shared_ptr<const ExternalImages> images =
+        read_external_images(folder / object.get<std::string>("external"), object.at("external"));
+    VariantConfig point{.variant = images->name,
+                        .preset = "",
+                        .parameters = nlohmann::json::object(),
+                        .swept = nlohmann::json::object(),
+                        .point = images->point,
+                        .label = object.get<std::string>("label"),
+                        .group = object.get<std::string>("group"),
+                        .seeds = std::vector<unsigned>(images->seeds),
+                        .depends_on_seed = images->seeds > 1,
+                        .is_baseline = object.get<bool>("baseline"),
+                        .is_timed = false,
+                        .external = images};
+    if (object.has("point")) point.point = object.get<std::string>("point");
+    std::iota(point.seeds.begin(), point.seeds.end(), 0u);
+    object.finish();
+    variants.push_back(std::move(point));
+}
+
 /// The pairs (variant, point) name cells and rows, so they must differ, and one label for two would hide which is
 /// which.
 void refuse_repetition(const std::vector<VariantConfig>& variants, const std::string& where) {
@@ -207,6 +232,17 @@ Keys variant_keys(const Variant& variant) {
     return joined(joined(keys, design_keys(variant.params)), condition_keys());
 }
 
+Keys external_keys() {
+    return {{"external", any_text(), required,
+             "a folder of images that another program rendered, by its path from the config's: see \"Images of other "
+             "programs\""},
+            {"point", any_text(), otherwise("what external.json says"), "what results call these images"},
+            {"label", any_text(), Default("", "its name"), "how report, figures and tables show them"},
+            {"group", any_text(), Default("", "none"), "what several points belong to"},
+            {"baseline", flag(), false, "as of a technique"},
+            {"remove", flag(), otherwise("false"), "takes the entry away from what the config `extends`"}};
+}
+
 Values seeds() { return counts(100000); }
 
 std::optional<std::vector<unsigned>> read_seeds(ConfigObject& object) {
@@ -214,10 +250,14 @@ std::optional<std::vector<unsigned>> read_seeds(ConfigObject& object) {
     return numbers_of(object["seeds"], object.at("seeds") + ": 'seeds'");
 }
 
-std::vector<VariantConfig> read_variants(ConfigObject& study) {
+std::vector<VariantConfig> read_variants(ConfigObject& study, const std::filesystem::path& folder) {
     const std::optional<std::vector<unsigned>> seeds = read_seeds(study);
     std::vector<VariantConfig> variants;
-    for (JsonObject& entry : study.elements("variants")) read_entry(std::move(entry), seeds, variants);
+    for (JsonObject& entry : study.elements("variants"))
+        if (entry.has("external"))
+            read_external_entry(std::move(entry), folder, variants);
+        else
+            read_entry(std::move(entry), seeds, variants);
     refuse_repetition(variants, study.where());
     return variants;
 }

@@ -1,12 +1,12 @@
 #include "experiments/evaluation/results_schema.h"
 
 #include "core/files.h"
+#include "experiments/config/variant_of.h"
 #include "experiments/evaluation/effects.h"
 #include "experiments/evaluation/over_scenes.h"
 #include "experiments/evaluation/summary.h"
 #include "experiments/evaluation/time_effects.h"
 #include "experiments/measuring/cell.h"
-#include "variants/registry.h"
 
 #include <map>
 
@@ -209,7 +209,7 @@ struct ParameterColumn {
 std::map<std::string, ParameterColumn> parameter_columns(const std::vector<VariantConfig>& variants) {
     std::map<std::string, ParameterColumn> columns;
     for (const VariantConfig& v : variants)
-        for (const auto made = make_variant(v.variant); const Parameter& p : made->params) {
+        for (const auto made = plain_variant_of(v); const Parameter& p : made->params) {
             const std::string type = !p.choices.empty()       ? "string"
                                      : p.glsl_type == "bool"  ? "boolean"
                                      : p.glsl_type == "float" ? "number"
@@ -254,7 +254,7 @@ void write_parameters(const std::filesystem::path& folder, const std::vector<Var
     for (const auto& [name, column] : columns) text += csv_field(name) + ",";
     text.back() = '\n';
     for (const VariantConfig& v : variants) {
-        const json values = make_variant(v.variant, v.parameters, v.preset)->params.values();
+        const json values = variant_of(v)->params.values();
         for (const std::string& name : {v.variant, v.point, v.label, v.group, v.preset}) text += csv_field(name) + ",";
         for (const auto& [name, column] : columns) text += (values.contains(name) ? csv_value(values[name]) : "") + ",";
         text.back() = '\n';

@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/near_miss.h"
 #include "experiments/config/extends.h"
+#include "experiments/config/variant_of.h"
 #include "experiments/evaluation/effects.h"
 #include "experiments/evaluation/over_scenes.h"
 #include "experiments/evaluation/summary.h"
@@ -130,7 +131,7 @@ void check_table_columns(const Config& config) {
     std::set<std::string> variants;
     for (const VariantConfig& v : config.variants)
         if (variants.insert(v.variant).second)
-            for (const auto made = make_variant(v.variant); const Parameter& p : made->params) others.push_back(p.name);
+            for (const auto made = plain_variant_of(v); const Parameter& p : made->params) others.push_back(p.name);
     const JsonDocument document = read_extended(config.file);
     for (JsonObject& table : JsonObject(document, config.file.string()).objects("tables"))
         TableCheck(config, others, table).run();

@@ -88,7 +88,8 @@ void LitNoises::add_targets(const PoseTruth& truth, const CompositedImages& of_a
                             std::span<const Mask> masks, const std::string& frame) {
     const HostImage image_a = composited_image(truth, of_a), image_b = composited_image(truth, of_b);
     for (const auto& [target, reference] : truth.targets)
-        add(reference, target, tested_image(target, of_a, image_a), tested_image(target, of_b, image_b), masks, frame);
+        if (const HostImage& a = tested_image(target, of_a, image_a); !a.values.empty())
+            add(reference, target, a, tested_image(target, of_b, image_b), masks, frame);
 }
 
 void LitNoises::add_frame(const PoseTruth& truth, const CompositedImages& of_a, const CompositedImages& of_b,

@@ -171,6 +171,7 @@ FrameTruth frame_truth(std::shared_ptr<const PoseTruth> pose, const HostGBuffer&
     FrameTruth truth{.pose = std::move(pose),
                      .roughness = channels_of(gbuffer.normal, 3, 1),
                      .reflectance = specular_reflectance(gbuffer),
+                     .emission = channels_of(gbuffer.emission, 0, 3),
                      .masks = {}};
     const PreviousFrame previous{.camera = gbuffer.camera,
                                  .motion = gbuffer.motion,
@@ -187,13 +188,14 @@ FrameTruth frame_truth(std::shared_ptr<const PoseTruth> pose, const HostGBuffer&
 
 std::vector<Mask> masks_of(const FrameTruth& truth, const HostImage& confidence, const Config& config) {
     std::vector<Mask> masks = truth.masks;
+    if (confidence.values.empty()) std::erase_if(masks, [](const Mask& mask) { return depends_on_result(mask.name); });
     for (Mask& mask : masks)
         if (depends_on_result(mask.name)) mask = make_mask(mask.name, mask_inputs(truth, confidence, config, nullptr));
     return masks;
 }
 
 HostImage composited_image(const PoseTruth& truth, const CompositedImages& result) {
-    return sum(truth.direct, result.specular);
+    return result.image.values.empty() ? sum(truth.direct, result.specular) : result.image;
 }
 
 const HostImage& tested_image(const std::string& target, const CompositedImages& result, const HostImage& image) {
@@ -205,7 +207,8 @@ std::vector<ResultRow> measure_targets(const PoseTruth& truth, const CompositedI
     const HostImage image = composited_image(truth, result);
     std::vector<ResultRow> rows;
     for (const auto& [target, reference] : truth.targets) {
-        add_rows(rows, reference, target, tested_image(target, result, image), masks, row);
+        const HostImage& tested = tested_image(target, result, image);
+        if (!tested.values.empty()) add_rows(rows, reference, target, tested, masks, row);
     }
     return rows;
 }

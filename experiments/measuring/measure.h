@@ -10,12 +10,13 @@
 #include <memory>
 #include <optional>
 
-/// What a variant's output is compared as.
+/// What a variant's output is compared as. Of another program's frame only the first and the last are known.
 struct CompositedImages {
-    HostImage specular;    ///< by Config::composite
-    HostImage incident;    ///< mix(fallback, radiance, confidence)
-    HostImage confidence;  ///< one channel
-    HostImage radiance;    ///< as the technique gave it; nothing where its confidence is 0
+    HostImage specular;         ///< by Config::composite
+    HostImage incident = {};    ///< mix(fallback, radiance, confidence)
+    HostImage confidence = {};  ///< one channel
+    HostImage radiance = {};    ///< as the technique gave it; nothing where its confidence is 0
+    HostImage image = {};       ///< all light, of another program; of ours the truth's own light is added
 };
 
 /// A rung of the truth ladder as an output: what is composited where `incident` is known only so far. The variances are
@@ -43,6 +44,7 @@ struct PoseTruth {
 struct FrameTruth {
     std::shared_ptr<const PoseTruth> pose;
     HostImage roughness, reflectance;  ///< one channel; F0 A + F90 B per pixel
+    HostImage emission;                ///< RGB, of the surfaces
     std::vector<Mask> masks;           ///< Config::masks; those of a technique's confidence are made by masks_of()
 };
 
@@ -58,10 +60,11 @@ struct PoseUse {
 PoseTruth pose_truth(const Reference& reference, const Config& config, float exposure_ev, PoseUse use);
 FrameTruth frame_truth(std::shared_ptr<const PoseTruth> pose, const HostGBuffer& gbuffer, const Config& config);
 
-/// Config::masks of one result, in their order.
+/// Config::masks of one result, in their order; without `confidence` (empty) those that do not depend on it.
 std::vector<Mask> masks_of(const FrameTruth& truth, const HostImage& confidence, const Config& config);
 
-/// All targets x metrics x masks of one result. `row` holds what all rows share: shot, frame, variant, point, seed.
+/// All targets that the result shows x metrics x masks. `row` holds what all rows share: shot, frame, variant, point,
+/// seed.
 std::vector<ResultRow> measure_targets(const PoseTruth& truth, const CompositedImages& result,
                                        std::span<const Mask> masks, const ResultRow& row);
 
@@ -75,9 +78,9 @@ struct FrameRows {
 FrameRows measure_frame(const PoseTruth& truth, const HostImage& specular, std::span<const Mask> masks,
                         const ResultRow& row);
 
-/// direct + specular.
+/// direct + specular; of another program's frame its own image.
 HostImage composited_image(const PoseTruth& truth, const CompositedImages& result);
 
 /// What a target compares with the truth: for the rungs of the truth ladder the incident radiance. `image` is
-/// composited_image() of the same result.
+/// composited_image() of the same result. Empty where the result does not show it.
 const HostImage& tested_image(const std::string& target, const CompositedImages& result, const HostImage& image);

@@ -39,7 +39,7 @@ void rehearse(Device& device, const std::vector<VariantConfig>& variants) {
     };
     std::set<std::string> done;
     for (const VariantConfig& config : variants) {
-        if (!done.insert(config.variant + config.preset + config.parameters.dump()).second) continue;
+        if (config.external || !done.insert(config.variant + config.preset + config.parameters.dump()).second) continue;
         PassGraph graph(device, host.extent());
         const std::unique_ptr<Variant> variant = make_variant(config.variant, config.parameters, config.preset);
         variant->ray_probe = &probe;

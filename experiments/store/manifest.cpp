@@ -1,7 +1,9 @@
 #include "experiments/store/manifest.h"
 
 #include "experiments/config/comparisons.h"
+#include "experiments/config/external_images.h"
 #include "experiments/config/read_shots.h"
+#include "experiments/config/variant_of.h"
 #include "experiments/measuring/left_out_by.h"
 #include "experiments/store/shot_facts.h"
 #include "metrics/temporal.h"
@@ -12,18 +14,27 @@
 
 namespace {
 
+/// What another program says of its images.
+nlohmann::json external_entry(const ExternalImages& images) {
+    nlohmann::json entry = {{"engine", images.engine}, {"version", images.version}};
+    if (!images.driver.empty()) entry["driver"] = images.driver;
+    if (!images.licence.empty()) entry["licence"] = images.licence;
+    if (images.milliseconds) entry["stated_milliseconds"] = *images.milliseconds;
+    return entry;
+}
+
 nlohmann::json variant_entries(const Config& config) {
     nlohmann::json entries = nlohmann::json::array();
     const std::vector<SingleChange> changes = single_changes(config.variants);
     for (const VariantConfig& v : config.variants) {
-        const VariantEntry& entry = find_variant(v.variant);
-        const auto variant = make_variant(v.variant, v.parameters, v.preset);
+        const auto variant = variant_of(v);
         entries.push_back({{"variant", v.variant},
                            {"point", v.point},
-                           {"title", entry.title},
-                           {"source", entry.source},
-                           {"parameters", variant->params.values()},
+                           {"title", v.external ? v.external->engine : find_variant(v.variant).title},
+                           {"source", v.external ? "version " + v.external->version : find_variant(v.variant).source},
+                           {"parameters", v.external ? v.external->settings : variant->params.values()},
                            {"depends_on_seed", variant->depends_on_seed()}});
+        if (v.external) entries.back()["external"] = external_entry(*v.external);
         if (!v.label.empty()) entries.back()["label"] = v.label;
         if (!v.group.empty()) entries.back()["group"] = v.group;
         if (!v.swept.empty()) entries.back()["swept"] = v.swept;
@@ -62,7 +73,7 @@ std::string shown_path(const std::filesystem::path& file) {
 nlohmann::json parameter_docs(const Config& config) {
     nlohmann::json docs = nlohmann::json::object();
     for (const VariantConfig& v : config.variants)
-        for (const auto variant = make_variant(v.variant); const Parameter& p : variant->params)
+        for (const auto variant = plain_variant_of(v); const Parameter& p : variant->params)
             docs[v.variant][p.name] = p.doc;
     return docs;
 }

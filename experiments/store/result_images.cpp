@@ -209,11 +209,15 @@ std::vector<nlohmann::json> save_result_images(const std::filesystem::path& out,
     const HostImage image = composited_image(truth, images);
     keep("result", "image", image, exposure_ev);
     keep("result", "specular", images.specular, exposure_ev);
-    keep("result", "incident", images.incident, exposure_ev);
-    keep("raw", "radiance", images.radiance, exposure_ev);
-    keep("confidence", "confidence", repeated_channel(images.confidence), 0.0f);
+    if (!images.incident.values.empty()) {
+        keep("result", "incident", images.incident, exposure_ev);
+        keep("raw", "radiance", images.radiance, exposure_ev);
+        keep("confidence", "confidence", repeated_channel(images.confidence), 0.0f);
+    }
     for (const auto& [target, reference] : truth.targets) {
-        const HostImage error = relative_error(tested_image(target, images, image), reference.image);
+        const HostImage& tested = tested_image(target, images, image);
+        if (tested.values.empty()) continue;
+        const HostImage error = relative_error(tested, reference.image);
         KeptImage& of_error = keep("error", target, error, 0.0f);
         of_error.entry["epsilon"] = relative_error_epsilon(reference.image);
         of_error.type = PixelType::float32, of_error.picture = error_picture(error);

@@ -4,14 +4,14 @@
 #include "core/gbuffer/composite.h"
 #include "core/gbuffer/environment_images.h"
 #include "core/gbuffer/gbuffer_transfer.h"
-#include "variants/registry.h"
+#include "experiments/config/variant_of.h"
 
 #include <algorithm>
 
 namespace {
 
 bool needs_depth_layers(const VariantConfig& variant) {
-    return make_variant(variant.variant, variant.parameters, variant.preset)->needs_depth_layers();
+    return variant_of(variant)->needs_depth_layers();
 }
 
 class SceneSource final : public FrameSource {

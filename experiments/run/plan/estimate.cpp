@@ -30,8 +30,9 @@ constexpr unsigned few_samples = 32, many_samples = 128;
 /// rays of three rooms the latter has 0.46 to 0.54. Both trace the first hits.
 constexpr double lit_share = 0.6, specular_share = 0.5;
 constexpr double clock_proof_seconds = 5, compiling_seconds = 0.3, counting_factor = 5;
-constexpr double chip_seconds = 1;     // of one chip's compiler for the passes of a point
-constexpr double tracing_factor = 15;  // a traced frame, with the replay of its waves, takes so many others
+constexpr double chip_seconds = 1;               // of one chip's compiler for the passes of a point
+constexpr double external_pixel_seconds = 2e-6;  // of a frame of another program, read and measured
+constexpr double tracing_factor = 15;            // a traced frame, with the replay of its waves, takes so many others
 
 double seconds_of(const std::function<void()>& work) {
     const auto start = std::chrono::steady_clock::now();
@@ -83,6 +84,7 @@ public:
         : device_(device), settings_(settings), config_(config) {
         folder_ = fs::temp_directory_path() / ("ssrlab-plan-" + std::to_string(getpid()));
         for (const VariantConfig& variant : config.variants) {
+            if (variant.external) continue;
             auto [ends, is_new] = ends_of_kinds_.try_emplace(kind_of(variant), variant, variant);
             ends->second.second = variant;
         }
@@ -298,9 +300,10 @@ private:
 
     double of_renders(const VariantConfig& variant, const ShotConfig& shot) const {
         const double pixels = pixels_of(shot.extent), seeds = double(variant.seeds.size());
-        const PointRates& rates = rates_.points.at(kind_of(variant));
         const std::vector<FrameStep> steps = timeline(shot);
         const auto measured = double(std::ranges::count_if(steps, &FrameStep::is_measured));
+        if (variant.external) return external_pixel_seconds * pixels * measured * seeds;
+        const PointRates& rates = rates_.points.at(kind_of(variant));
         return rates.once.at(pixels) + rates.measure.at(pixels) * measured * seeds +
                rates.frame.at(pixels) * double(steps.size()) * (seeds + plays_of_lit_noise(config_, shot));
     }

@@ -3,7 +3,9 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "experiments/config/conditions.h"
+#include "experiments/config/external_images.h"
 #include "experiments/config/shot.h"
+#include "experiments/config/variant_of.h"
 #include "experiments/measuring/frames/capture.h"
 #include "experiments/measuring/shot_truth.h"
 #include "experiments/store/manifest.h"
@@ -27,7 +29,10 @@ struct PointIdentity {
 };
 
 PointIdentity identity_of(const VariantConfig& config) {
-    const std::unique_ptr<Variant> variant = make_variant(config.variant, config.parameters, config.preset);
+    if (config.external)
+        return {.parameters = config.external->settings.dump(),
+                .sources = {"experiments/run/shots/external_frames.cpp"}};
+    const std::unique_ptr<Variant> variant = variant_of(config);
     const nlohmann::json values = variant->params.values();
     PointIdentity identity{.parameters = values.dump(), .sources = {"variants/" + config.variant + "/"}};
     if (variant->uses_scene_data()) identity.sources.push_back("variants/tracers/exact_scene/");
@@ -53,7 +58,7 @@ public:
     std::string of_references(const std::string& request) {
         return name({"experiments/run/shots/open_shot.cpp"}, request, with_images({}));
     }
-    std::string of_renders(const std::string& request, size_t variant) {
+    std::string of_renders(const std::string& request, size_t variant, const Shot& shot) {
         const PointIdentity& point = points_[variant];
         std::vector<std::string> sources = point.sources;
         sources.push_back("experiments/run/shots/point_renders.cpp"),
@@ -62,6 +67,7 @@ public:
         std::vector<std::string> what = {v.variant, v.point, point.parameters};
         for (const unsigned seed : v.seeds) what.push_back(std::to_string(seed));
         if (!config_.measures_lit_noise) what.push_back("without lit noise");
+        if (v.external) what.push_back(v.external->content_hash(shot));
         return name(sources, request, with_images(what));
     }
     std::string of_costs(const std::string& request, size_t variant) {
@@ -162,6 +168,21 @@ std::string request_of(const Shot& shot, const Config& config, bool keep_all) {
     return hash.hex();
 }
 
+/// A technique may be left out of shots by its conditions; images that no shot uses are a mistake.
+void refuse_unused_images(const Config& config, const StudyPlan& plan) {
+    for (const VariantConfig& variant : config.variants) {
+        if (!variant.external) continue;
+        const auto is_used = [&](const PlannedShot& shot) {
+            return std::ranges::any_of(shot.cells, [&](const PlannedCell& cell) { return cell.variant == &variant; });
+        };
+        if (std::ranges::any_of(plan.shots, is_used)) continue;
+        for (const nlohmann::json& skipped : plan.skipped)
+            if (skipped["variant"] == variant.variant && skipped["point"] == variant.point)
+                fail(config.file.string(), ": no shot uses the images in ", variant.external->folder.string(), ": ",
+                     skipped["shot"].get<std::string>(), ": ", skipped["condition"].get<std::string>());
+    }
+}
+
 }  // namespace
 
 const std::vector<std::string>& cell_kind_names() {
@@ -216,13 +237,13 @@ StudyPlan plan_study(const Config& config, const DeviceInfo& device,
         for (size_t i = 0; i < config.variants.size(); ++i) {
             const VariantConfig& variant = config.variants[i];
             if (!runs[i]) continue;
-            add(CellKind::renders, names.of_renders(request, i), variant.variant + " " + variant.point,
+            add(CellKind::renders, names.of_renders(request, i, shot), variant.variant + " " + variant.point,
                 double(shot.steps.size() * variant.seeds.size()))
                 .variant = &variant;
         }
         for (size_t i = 0; i < config.variants.size() && config.has_cost_cells(); ++i) {
             const VariantConfig& variant = config.variants[i];
-            if (!runs[i]) continue;
+            if (!runs[i] || variant.external) continue;
             add(CellKind::costs, names.of_costs(request, i), "costs of " + variant.variant + " " + variant.point,
                 double(shot.steps.size()))
                 .variant = &variant;
@@ -231,5 +252,6 @@ StudyPlan plan_study(const Config& config, const DeviceInfo& device,
         if (config.timing.frames > 0 && std::ranges::any_of(on_shot.variants, &VariantConfig::is_timed))
             add(CellKind::times, names.of_times(request, runs), "times", 1);
     }
+    refuse_unused_images(config, plan);
     return plan;
 }

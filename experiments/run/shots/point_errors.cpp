@@ -27,6 +27,7 @@ void PointErrors::measure_last(const FrameTruth& truth, const CompositedImages& 
     const HostImage image = composited_image(*truth.pose, images);
     for (const auto& [target, reference] : truth.pose->targets) {
         const HostImage& tested = tested_image(target, images, image);
+        if (tested.values.empty()) continue;
         splits_.try_emplace(target, reference).first->second.add(row.seed, tested);
         noise_.add(row.frame, target, reference, tested, masks);
     }

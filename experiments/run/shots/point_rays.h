@@ -12,7 +12,8 @@ class PointRays {
 public:
     explicit PointRays(const PointInShot& point) : point_(point) {}
 
-    /// Answers requests for scene data in this step, in which `seed` is rendered from `gbuffer`; a capture has no scene.
+    /// Answers requests for scene data in this step, in which `seed` is rendered from `gbuffer`; a capture has no
+    /// scene.
     void plug_in_scene(RayProbe& probe, PassGraph& graph, const FrameStep& step, const CameraData& camera,
                        const GBuffer& gbuffer, unsigned seed);
     bool judges(unsigned seed, const FrameStep& step) const;

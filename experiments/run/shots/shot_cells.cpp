@@ -8,6 +8,7 @@
 #include "experiments/measuring/times/clock_proofs.h"
 #include "experiments/measuring/times/timing.h"
 #include "experiments/measuring/times/timing_lock.h"
+#include "experiments/run/shots/external_frames.h"
 #include "experiments/run/shots/open_shot.h"
 #include "experiments/run/shots/point_renders.h"
 #include "experiments/store/host_info.h"
@@ -183,12 +184,14 @@ Cell timing_cell(StudySession& study, OpenShot& open, double budget, const std::
 
 Cell renders_cell(StudySession& study, OpenShot& open, const PlannedCell& planned,
                   const std::function<void(double)>& report) {
-    return render_point(study.device, open.shot, open.truth, *open.store, study.config, *planned.variant,
-                        {.out = study.settings.out,
-                         .image_suffix = planned.name.substr(0, 8),
-                         .keep_all = study.settings.keep_all,
-                         .report = report,
-                         .spent = study.spent});
+    const PointSettings settings{.out = study.settings.out,
+                                 .image_suffix = planned.name.substr(0, 8),
+                                 .keep_all = study.settings.keep_all,
+                                 .report = report,
+                                 .spent = study.spent};
+    if (planned.variant->external)
+        return measure_external(open.shot, open.truth, study.config, *planned.variant, settings);
+    return render_point(study.device, open.shot, open.truth, *open.store, study.config, *planned.variant, settings);
 }
 
 Cell costs_cell(StudySession& study, OpenShot& open, const PlannedCell& planned,

@@ -39,6 +39,7 @@ STUDY = BASE | {
         {"variant": TECHNIQUE, "zip": {"dda.stride": [1, 2]}, "label": "zip {dda.stride}", "parameters": {"dda.refine": True}, "against": {"dda.refine": True}, "preset": "coarse"},
         {"variant": TECHNIQUE, "each": {"dda.stride": [4]}},
         *({"variant": TECHNIQUE, kind: SAMPLE | {"seed": seed}} for seed, kind in enumerate(("random", "latin_hypercube", "sobol"))),
+        {"external": "frames", "point": "p", "label": "another program", "group": "g", "baseline": False},
     ]
 }  # fmt: skip
 TUNE = BASE | {
@@ -51,7 +52,7 @@ TUNE = BASE | {
         "judge": {"shots": [SCENE | {"scene": "grazing"}], "seeds": 2}, "most_runs": 10, "most_minutes": 1, "batch": 2, "seed": 1,
     },
 }  # fmt: skip
-EXTENDING = {"extends": "study.json", "variants": [{"variant": TECHNIQUE, "preset": "best", "remove": False}]}
+EXTENDING = {"extends": "study.json", "variants": [{"variant": TECHNIQUE, "preset": "best", "remove": False}, {"external": "frames", "remove": False}]}
 OF_PARAMETERS = ("parameters", "against", "sweep", "zip", "each", "axes")  # objects that name them
 
 
@@ -97,6 +98,8 @@ class Keys(unittest.TestCase):
         self.folder = folder.name
         for frame in (0, 1):
             os.makedirs(os.path.join(self.folder, "capture", f"frame_{frame}"))
+        os.makedirs(os.path.join(self.folder, "frames"))
+        self.write("frames/external.json", {"name": "other", "engine": "another program", "version": "1"})
         self.write("study.json", STUDY)
 
     def write(self, name, config):
