@@ -237,6 +237,37 @@ int parse_and_run(int argc, char** argv) {
     add_reading(diff_command_);
     diff_command_.callback([&] { status = diff_command(diff); });
 
+    JudgeOptions judge;
+    CLI::App& judge_command_ = *app.add_subcommand(
+        "judge",
+        "Judge the frames of another renderer by the truth, and against those that it rendered before: better, worse, "
+        "not distinguishable or identical (at most 1 % false alarms)");
+    judge_command_
+        .add_option("frames", judge.frames,
+                    "Folder with external.json and SCENE.CAMERA.WIDTHxHEIGHT/fFRAME.sSEED.exr (experiments/README.md, "
+                    "\"Images of other programs\")")
+        ->required()
+        ->type_name("FRAMES");
+    judge_command_
+        .add_option("--scene", judge.scene,
+                    "The scene of the views, by name or path; default: found by the names of the views' folders")
+        ->type_name("SCENE");
+    judge_command_.add_option("--capture", judge.capture, "A captured G-buffer in place of a scene")->type_name("DIR");
+    judge_command_.add_option("--reference", judge.reference, "With --capture: the truth of its frame")
+        ->type_name("FILE.exr");
+    judge_command_
+        .add_option("--against", judge.against, "Such a folder of earlier frames of the same renderer and views")
+        ->type_name("FOLDER");
+    judge_command_.add_flag("--fail-if-worse", judge.fails_if_worse, "Exit code 1 if the verdict is \"worse\"");
+    judge_command_.add_option("--samples", judge.samples, "Of the truth, per pixel; default: 256")
+        ->type_name("N")
+        ->check(CLI::Range(32, 1 << 20));
+    judge_command_.add_option("--out", judge.out, "Results folder with the page; default: results/judge")
+        ->type_name("DIR");
+    add_scene_path(judge_command_, common), add_device(judge_command_, common), add_cache(judge_command_, common);
+    add_reading(judge_command_);
+    judge_command_.callback([&] { status = judge_command(judge, common); });
+
     hand_on(*app.add_subcommand("tables", "Make a study's tables (Markdown, LaTeX, CSV) from a results folder"),
             tables_command, status);
 

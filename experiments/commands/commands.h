@@ -62,6 +62,14 @@ struct DiffOptions {
 };
 int diff_command(const DiffOptions& options);  ///< the exit code: 0, or 1 if a number changed
 
+struct JudgeOptions {
+    std::filesystem::path frames, against, capture, reference, out = "results/judge";  ///< "": none
+    std::string scene;                                                                 ///< "": by the views' names
+    unsigned samples = 256;
+    bool fails_if_worse = false;
+};
+int judge_command(const JudgeOptions& options, const CommonOptions& common);  ///< the exit code: 0, or 1 if worse
+
 struct TradeoffOptions {
     std::filesystem::path results, out;
     std::string baseline, metric, mask, target, cost;                   ///< empty: the study's own, and time

@@ -1,6 +1,7 @@
 #include "experiments/config/config.h"
 
 #include "core/error.h"
+#include "core/near_miss.h"
 #include "experiments/config/comparisons.h"
 #include "experiments/config/config_parts.h"
 #include "experiments/config/config_schema.h"

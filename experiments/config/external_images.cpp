@@ -113,7 +113,6 @@ std::shared_ptr<const ExternalImages> read_external_images(const fs::path& folde
 }
 
 std::string why_not_external(const Shot& shot) {
-    if (!shot.config.gbuffer.empty()) return "a capture has a reference and no external images";
     if (shot.config.repeat > 1) return "it renders a pose several times, of which external images have one";
     if (shot.config.change) return "it measures what is left after a change, frame by frame";
     return "";

@@ -220,8 +220,38 @@ TEST_F(CommandLine, ComparesLayersOfReferences) {
                    "more.exr has no layer 'speculr'; did you mean 'specular'?");
 }
 
+/// Frames of a renderer that are the truth itself, and some that are dimmer.
+TEST_F(CommandLine, JudgesFrames) {
+    ASSERT_EQ(ssrlab("reference mirror_pillars --size 48 27 --samples 64 --out truth.exr").code, 0);
+    const HostImage image = read_exr_rgb(folder / "truth.exr", "image"),
+                    specular = read_exr_rgb(folder / "truth.exr", "specular");
+    for (const auto& [name, share] : {std::pair("now", 0.7f), std::pair("before", 0.8f)}) {
+        HostImage off = image, frame = image;
+        for (size_t i = 0; i < image.values.size(); ++i) {
+            off.values[i] -= specular.values[i];
+            frame.values[i] = off.values[i] + share * specular.values[i];
+        }
+        const fs::path view = folder / name / "mirror_pillars.main.48x27";
+        write_exr(view / "f0.s0.exr", frame), write_exr(view / "f0.off.exr", off);
+        write_text(folder / name / "external.json", R"({"name": "dim", "engine": "a renderer", "version": "1"})");
+    }
+    const Outcome worse = ssrlab("judge now --against before --samples 64 --fail-if-worse");
+    EXPECT_EQ(worse.code, 1);
+    EXPECT_NE(worse.text.find("\nworse against before\n"), std::string::npos) << worse.text;
+    EXPECT_TRUE(fs::exists(folder / "results/judge/report.html"));
+    EXPECT_EQ(ssrlab("judge now --against before --samples 64").code, 0);
+    const Outcome better = ssrlab("judge before --against now --samples 64 --fail-if-worse");
+    EXPECT_EQ(better.code, 0);
+    EXPECT_NE(better.text.find("\nbetter against now\n"), std::string::npos) << better.text;
+    expect_mistake("judge nowhere", "nowhere holds no external.json");
+    expect_mistake("judge now --fail-if-worse", "--fail-if-worse needs --against");
+    expect_mistake("judge now --capture before", "--capture needs --reference");
+    expect_mistake("judge now --scene fence", "now holds no images of 'fence'");
+}
+
 TEST_F(CommandLine, EveryCommandExplainsItself) {
-    for (const char* command : {"", "run", "figures", "compare", "reference", "gbuffer", "needs", "describe", "list"}) {
+    for (const char* command :
+         {"", "run", "figures", "compare", "judge", "reference", "gbuffer", "needs", "describe", "list"}) {
         const Outcome o = ssrlab(std::string(command) + " --help");
         EXPECT_EQ(o.code, 0);
         EXPECT_GT(o.text.size(), 100u) << command;

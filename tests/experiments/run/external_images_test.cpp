@@ -1,9 +1,7 @@
 // Images of another program as rows of a study: those that ssrlab itself rendered and wrote as such err as before, and
 // what cannot be compared is refused with the reason.
 #include "core/error.h"
-#include "core/exr.h"
-#include "core/json.h"
-#include "tests/experiments/run/study_fixture.h"
+#include "tests/experiments/run/external_fixture.h"
 
 #include <limits>
 #include <map>
@@ -26,23 +24,13 @@ struct ExternalImagesTest : StudyTest {
         write_text(folder / "study.json", text);
         return run(read_config(folder / "study.json"), out);
     }
-    void describe(const std::string& more = "") {
-        write_text(folder / "frames/external.json",
-                   R"({"name": "three_ssr", "engine": "three.js SSRPass", "version": "r187")" + more + "}");
-    }
+    void describe(const std::string& more = "") { describe_frames(folder / "frames", more); }
 
     /// What ssrlab rendered, as a program would write it; the result's rows by target, metric and mask.
     std::map<std::string, double> write_frames() {
         const fs::path out = run_text(study_of(R"({"variant": "none"}, {"variant": "mcguire_dda"})"), "own");
-        const nlohmann::json manifest = read_json(out / "manifest.json");
-        for (const nlohmann::json& entry : manifest["images"]) {
-            if (entry["variant"] != "mcguire_dda" || entry["kind"] != "result") continue;
-            if (entry["target"] == "image") image = read_exr_rgb(out / entry["exr"].get<std::string>());
-            if (entry["target"] == "specular") specular = read_exr_rgb(out / entry["exr"].get<std::string>());
-        }
-        HostImage off = image;
-        for (size_t i = 0; i < off.values.size(); ++i) off.values[i] -= specular.values[i];
-        write(image, "f0.s0"), write(off, "f0.off");
+        frame = rendered_frame(out, "mcguire_dda");
+        write(frame.image, "f0.s0"), write(frame.without_reflections(), "f0.off");
         describe();
         return errors_of(out, "mcguire_dda");
     }
@@ -65,7 +53,7 @@ struct ExternalImagesTest : StudyTest {
         return "";
     }
 
-    HostImage image, specular;
+    RenderedFrame frame;
 };
 
 }  // namespace
@@ -96,8 +84,8 @@ TEST_F(ExternalImagesTest, ErrAsTheSameImagesOfATechnique) {
     EXPECT_TRUE(says(manifest.dump(), "18 ms for a frame's reflections, which ssrlab did not measure"));
 
     // An image that changes is another result; one that does not is found again.
-    for (float& v : image.values) v *= 1.0001f;
-    write(image, "f0.s0");
+    for (float& v : frame.image.values) v *= 1.0001f;
+    write(frame.image, "f0.s0");
     EXPECT_NE(errors_of(run_text(study, "external"), "three_ssr").at("specular mse all"),
               external.at("specular mse all"));
 }
@@ -105,7 +93,7 @@ TEST_F(ExternalImagesTest, ErrAsTheSameImagesOfATechnique) {
 TEST_F(ExternalImagesTest, HaveSeedsAndABaselineOfTheirOwn) {
     write_frames();
     describe(R"(, "seeds": 3)");
-    for (const char* seed : {"1", "2"}) write(image, std::string("f0.s") + seed);
+    for (const char* seed : {"1", "2"}) write(frame.image, std::string("f0.s") + seed);
     fs::copy(folder / "frames", folder / "before", fs::copy_options::recursive);
     const fs::path out = run_text(
         study_of(R"({"external": "before", "point": "before", "baseline": true}, {"external": "frames"})"), "out");
@@ -123,8 +111,7 @@ TEST_F(ExternalImagesTest, HaveSeedsAndABaselineOfTheirOwn) {
 TEST_F(ExternalImagesTest, AreRefusedWhereTheyCannotBeCompared) {
     write_frames();
     EXPECT_EQ(refusal(), "");
-    HostImage off(image.extent, 3);
-    for (size_t i = 0; i < off.values.size(); ++i) off.values[i] = image.values[i] - specular.values[i];
+    const HostImage &image = frame.image, off = frame.without_reflections();
     const auto with = [&](const HostImage& changed, const std::string& name) {
         write(changed, name);
         const std::string why = refusal();

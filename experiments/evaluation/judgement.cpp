@@ -1,0 +1,72 @@
+#include "experiments/evaluation/judgement.h"
+
+#include "core/error.h"
+#include "experiments/measuring/cell.h"
+#include "metrics/quantiles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace {
+
+/// By shot: the effect over its frames if there is one.
+std::map<std::string, const EffectRow*> rows_of_shots(std::span<const EffectRow> effects,
+                                                      const PrimaryComparisons& primary, const std::string& point,
+                                                      const std::string& against_point) {
+    std::map<std::string, const EffectRow*> rows;
+    for (const EffectRow& r : effects) {
+        if (r.point != point || r.against_point != against_point || r.variant != r.against_variant ||
+            r.metric != primary.metric || r.mask != primary.mask || r.target != primary.target)
+            continue;
+        const EffectRow*& kept = rows[r.shot];
+        if (!kept || r.frame == over_frames) kept = &r;
+    }
+    return rows;
+}
+
+/// From the interval's width, which is Student's on the logarithm.
+double detectable_ratio(const EffectRow& row) {
+    const double degrees = double(std::max<size_t>(row.seeds, 2) - 1), power = 0.95;
+    const double deviation = std::log(*row.high / *row.low) / 2 / student_t_quantile(1 - significance / 2, degrees);
+    return std::exp(deviation *
+                    (student_t_quantile(1 - judge_significance / 2, degrees) + student_t_quantile(power, degrees)));
+}
+
+std::string verdict_at(double p_holm, double ratio) {
+    return !(p_holm < judge_significance) ? judgement::not_distinguishable
+           : ratio > 1                    ? judgement::worse
+                                          : judgement::better;
+}
+
+}  // namespace
+
+Judgement judge_effects(std::span<const EffectRow> effects, const PrimaryComparisons& primary, const std::string& point,
+                        const std::string& against_point) {
+    const auto rows = rows_of_shots(effects, primary, point, against_point);
+    if (rows.empty()) fail("no view has an error of both: ", primary.metric, " of ", primary.mask, " pixels");
+    std::vector<double> p;
+    for (const auto& [shot, row] : rows) {
+        if (!row->p || !row->ratio || !row->low || !row->high || row->verdict.empty())
+            fail(shot, ": whether ", primary.metric, " of ", primary.mask,
+                 " pixels changed cannot be decided: ", row->interval);
+        p.push_back(*row->p);
+    }
+    const std::vector<double> adjusted = holm_adjusted(p);
+    Judgement judged{.views = {}, .verdict = judgement::not_distinguishable};
+    size_t i = 0;
+    for (const auto& [shot, row] : rows) {
+        const double p_holm = adjusted[i++];
+        judged.views.push_back({.shot = shot,
+                                .ratio = *row->ratio,
+                                .low = *row->low,
+                                .high = *row->high,
+                                .p_holm = p_holm,
+                                .detectable = detectable_ratio(*row),
+                                .verdict = verdict_at(p_holm, *row->ratio)});
+        const std::string& verdict = judged.views.back().verdict;
+        if (verdict == judgement::worse || (verdict == judgement::better && judged.verdict != judgement::worse))
+            judged.verdict = verdict;
+    }
+    return judged;
+}
