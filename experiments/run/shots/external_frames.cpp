@@ -5,13 +5,14 @@
 #include "core/path_inside.h"
 #include "core/png.h"
 #include "experiments/config/external_images.h"
-#include "experiments/measuring/external_proof.h"
+#include "experiments/measuring/frames/external_proof.h"
 #include "experiments/run/shots/point_errors.h"
 #include "experiments/store/image_queue.h"
 #include "experiments/store/result_images.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace {
 
@@ -119,18 +120,20 @@ private:
         fail(file.string(), ": ", why, " (", picture.string(), " shows where, in red)");
     }
 
+    /// Takes down what each image of the frame must show.
     void prove(const FrameStep& step) {
         const Proofs of_step = proofs(step);
         const std::filesystem::path file = images_.proof(point_.shot, step.frame);
         const HostImage off = read(file);
         check(off, of_step.off, file, step);
         compared_ += of_step.off.count(), differing_ += differences(off, of_step.off).count;
+        with_reflections_[step.frame] = of_step.on;
     }
 
     void add_frame(PointErrors& errors, SeedErrors& seed, const FrameStep& step) {
         const std::filesystem::path file = images_.image(point_.shot, step.frame, seed.seed);
         const HostImage image = read(file);
-        if (seed.seed == point_.variant.seeds.front()) check(image, proofs(step).on, file, step);
+        check(image, with_reflections_.at(step.frame), file, step);
         const CompositedImages result{.specular = difference(image, truth(step).pose->direct), .image = image};
         errors.add(seed, step, result);
         if (seed.seed != point_.variant.seeds.front() ||
@@ -181,6 +184,7 @@ private:
     const PointSettings& settings_;
     const ExternalImages& images_;
     ImageQueue queue_;
+    std::map<unsigned, ProofPixels> with_reflections_;  ///< by frame
     size_t compared_ = 0, differing_ = 0;
 };
 

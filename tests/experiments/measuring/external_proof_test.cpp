@@ -1,6 +1,6 @@
 // Whether images of another program are recognised as showing the scene, and what is said of those that do not: a scene
 // of lamps before a sky, which is a function of the plane, sampled as cameras would that are right or wrong.
-#include "experiments/measuring/external_proof.h"
+#include "experiments/measuring/frames/external_proof.h"
 
 #include <gtest/gtest.h>
 #include <cmath>

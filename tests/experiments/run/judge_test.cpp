@@ -125,7 +125,7 @@ TEST_F(JudgeTest, NeverPassesWhatItCouldNotCompare) {
     write_noisy("frames", 0), write_noisy("before", 100);
     HostImage brighter = frame.image;
     for (float& v : brighter.values) v *= 1.5f;
-    write_exr(folder / "before" / view / "f0.s0.exr", brighter);
+    write_exr(folder / "before" / view / "f0.s5.exr", brighter);  // each image is looked at
     EXPECT_TRUE(says(refusal("frames", "before"), "1.5 times as bright"));
     fs::remove_all(folder / "before" / view);
     EXPECT_TRUE(says(refusal("frames", "before"), "no shot uses the images"));

@@ -1,4 +1,4 @@
-#include "experiments/measuring/external_proof.h"
+#include "experiments/measuring/frames/external_proof.h"
 
 #include "metrics/tone_map.h"
 
