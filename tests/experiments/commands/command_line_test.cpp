@@ -243,6 +243,12 @@ TEST_F(CommandLine, JudgesFrames) {
     const Outcome better = ssrlab("judge before --against now --samples 64 --fail-if-worse");
     EXPECT_EQ(better.code, 0);
     EXPECT_NE(better.text.find("\nbetter against now\n"), std::string::npos) << better.text;
+    // A captured G-buffer with its truth in place of the scene.
+    ASSERT_EQ(ssrlab("gbuffer mirror_pillars --size 48 27 --out cap").code, 0);
+    fs::rename(folder / "now/mirror_pillars.main.48x27", folder / "now/cap.gbuffer.48x27");
+    const Outcome captured = ssrlab("judge now --capture cap --reference truth.exr");
+    EXPECT_EQ(captured.code, 0) << captured.text;
+    EXPECT_NE(captured.text.find("\ncap.gbuffer.48x27: mse "), std::string::npos) << captured.text;
     expect_mistake("judge nowhere", "nowhere holds no external.json");
     expect_mistake("judge now --fail-if-worse", "--fail-if-worse needs --against");
     expect_mistake("judge now --capture before", "--capture needs --reference");
