@@ -76,6 +76,8 @@ class Markdown(unittest.TestCase):
             "figures/readme/error_time.png": "summaries/quickstart.csv",
             "figures/readme/comparison.png": "configs/readme.json",
             "findings/flight_helmet.png": "findings/figures.json",
+            "findings/room_10103.png": "findings/composed.json",
+            "findings/room_10105.png": "findings/composed.json",
         }
         for name, source in made_from.items():
             picture = (ROOT / "experiments" / name).read_bytes()

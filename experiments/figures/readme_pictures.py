@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """The pictures of the repository's README, in experiments/figures/readme, and of experiments/findings.
 
-usage: experiments/figures/readme_pictures.py [RESULTS] [--report QUICKSTART] [--findings COMPARISON]
+usage: experiments/figures/readme_pictures.py [RESULTS] [--report QUICKSTART] [--findings COMPARISON] [--composed COMPOSED_MOTION]
 
 error_time.png is drawn from experiments/summaries/quickstart.csv. With RESULTS, a folder that `ssrlab run
 experiments/configs/readme.json` filled, comparison.png too; with QUICKSTART, that of the quickstart, the first screen of
-its report (report.png), for which it needs chromium; with COMPARISON, that of configs/comparison.json, the crops that
-findings/figures.json names. Needs Debian's python3-matplotlib, -numpy and -pil.
+its report (report.png), for which it needs chromium; with COMPARISON and COMPOSED_MOTION, those of the configs of these
+names, the crops that findings/figures.json and findings/composed.json name. Needs Debian's python3-matplotlib, -numpy and -pil.
 """
 
 import argparse
@@ -148,13 +148,13 @@ def draw_report(folder):
         keep(Image.open(shot), OUT / "report.png", digest(FOLDER.parent / "configs/quickstart.json"))
 
 
-def draw_findings(folder):
-    """A picture per shot of findings/figures.json, named after its scene."""
-    results, chosen = Results(folder), FINDINGS / "figures.json"
+def draw_findings(folder, name):
+    """A picture per shot of that file of the findings, named after its scene."""
+    results, chosen = Results(folder), FINDINGS / name
     collected = read_crops(str(chosen), read_choice(str(chosen)), results)
     options = Request("crops", "crops", "specular", "mse", "reflective", crops=collected)
     for shot in collected:
-        save(crops.draw(results, shot, options), FINDINGS / f"{shot.split('.')[0]}.png", digest(chosen), is_reduced=False)
+        save(crops.draw(results, shot, options), FINDINGS / f"{shot.split('.')[0]}.png", digest(chosen), is_reduced=name != "figures.json")
 
 
 def main():
@@ -162,6 +162,7 @@ def main():
     parser.add_argument("results", nargs="?", help="a folder that `ssrlab run experiments/configs/readme.json` filled")
     parser.add_argument("--report", metavar="QUICKSTART", help="the results folder of the quickstart, for a picture of its report")
     parser.add_argument("--findings", metavar="COMPARISON", help="the results folder of the comparison, for the findings' pictures")
+    parser.add_argument("--composed", metavar="COMPOSED_MOTION", help="that of composed_ssr in motion, for more of them")
     arguments = parser.parse_args()
     style.apply()
     draw_error_time()
@@ -170,7 +171,9 @@ def main():
     if arguments.report:
         draw_report(arguments.report)
     if arguments.findings:
-        draw_findings(arguments.findings)
+        draw_findings(arguments.findings, "figures.json")
+    if arguments.composed:
+        draw_findings(arguments.composed, "composed.json")
 
 
 if __name__ == "__main__":
