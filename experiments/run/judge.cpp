@@ -120,6 +120,15 @@ std::map<fs::path, std::string> images_in(const fs::path& folder) {
     return images;
 }
 
+/// Fails if `other` lacks a frame that `folder` has: a verdict would leave it out.
+void refuse_missing_frames(const fs::path& folder, const fs::path& other) {
+    const auto there = images_in(other);
+    for (const auto& [image, hash] : images_in(folder))
+        if (image.string().ends_with(".s0.exr") && !there.contains(image))
+            fail(other.string(), " lacks ", image.string(), ", which ", folder.string(),
+                 " has: frames are judged against those of the same views");
+}
+
 /// Of each shot the error over its frames, or of its only one.
 std::vector<ViewError> errors_of(const fs::path& out, const PrimaryComparisons& primary) {
     std::map<std::string, std::pair<MetricSummary, MetricSummary>> rows;  // of the frames, and of no reflections
@@ -148,6 +157,8 @@ JudgedFrames judge_frames(const JudgeSettings& settings) {
         if (before->name != images->name)
             fail(settings.against.string(), " holds images of '", before->name, "', ", settings.frames.string(),
                  " of '", images->name, "': frames are judged against those of the same renderer");
+        refuse_missing_frames(settings.frames, settings.against);
+        refuse_missing_frames(settings.against, settings.frames);
     }
     const Config study = study_of(settings, images->engine + " " + images->version);
     RunSettings run = settings.run;
