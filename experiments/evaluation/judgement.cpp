@@ -2,9 +2,9 @@
 
 #include "core/error.h"
 #include "experiments/measuring/cell.h"
+#include "experiments/measuring/reference_noise.h"
 #include "metrics/quantiles.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -25,9 +25,10 @@ std::map<std::string, const EffectRow*> rows_of_shots(std::span<const EffectRow>
     return rows;
 }
 
-/// From the interval's width, which is Student's on the logarithm.
+/// From the interval's width, which is Student's on the logarithm; with one image a side it is the reference's noise
+/// alone.
 double detectable_ratio(const EffectRow& row) {
-    const double degrees = double(std::max<size_t>(row.seeds, 2) - 1), power = 0.95;
+    const double degrees = double((row.seeds > 1 ? row.seeds : noise_groups) - 1), power = 0.95;
     const double deviation = std::log(*row.high / *row.low) / 2 / student_t_quantile(1 - significance / 2, degrees);
     return std::exp(deviation *
                     (student_t_quantile(1 - judge_significance / 2, degrees) + student_t_quantile(power, degrees)));

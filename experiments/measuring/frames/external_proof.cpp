@@ -1,5 +1,6 @@
 #include "experiments/measuring/frames/external_proof.h"
 
+#include "core/png.h"
 #include "metrics/tone_map.h"
 
 #include <algorithm>
@@ -13,6 +14,8 @@ namespace {
 /// Emission and background are stored, not computed: engines differ in them by rounding to half floats and by what a
 /// texture's filter does. The second is of the image's brightest proof pixel: below that nothing can be told.
 constexpr float relative_tolerance = 0.02f, absolute_share = 1e-4f;
+/// Standard errors of the truth's own light on surfaces that emit and are lit: one pixel in 16,000 lies beyond.
+constexpr float noise_deviations = 4;
 
 bool differs_at(const HostImage& image, const ProofPixels& proof, size_t pixel, size_t shown) {
     const float tolerance = proof.tolerance.values[pixel];
@@ -43,8 +46,6 @@ HostImage turned(const HostImage& image, bool columns, bool rows) {
         }
     return changed;
 }
-
-float linear_of_srgb(float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); }
 
 /// The factor by which most proof pixels are brighter than they should be.
 std::optional<float> common_factor(const HostImage& image, const ProofPixels& proof) {
@@ -139,7 +140,7 @@ ProofPixels proof_pixels(const HostImage& direct, const HostImage& direct_noise,
         const glm::vec3 added = is_surface && !reflection.values.empty() ? reflection.rgb(i) : glm::vec3(0.0f);
         // Surfaces that emit and reflect: what is added may be missing, or be there twice.
         const float allowed = relative_tolerance * largest(direct.rgb(i)) + absolute_share * brightest +
-                              (is_surface ? 4 * direct_noise.values[i] : 0.0f) + largest(added);
+                              (is_surface ? noise_deviations * direct_noise.values[i] : 0.0f) + largest(added);
         proof.radiance.set_rgb(i, direct.rgb(i) + added);
         proof.tolerance.values[i] = allowed;
     }
@@ -169,7 +170,7 @@ std::string why_refused(const HostImage& image, const ProofPixels& proof) {
     if (agrees(turned(image, true, true)))
         return seen + "the image is turned by half a turn; its first row must be the top";
     if (agrees(mapped(image, [](glm::vec3 c) {
-            return glm::vec3(linear_of_srgb(c.x), linear_of_srgb(c.y), linear_of_srgb(c.z));
+            return glm::vec3(linear_from_srgb(c.x), linear_from_srgb(c.y), linear_from_srgb(c.z));
         })))
         return seen + "it holds sRGB values; write linear ones";
     if (const std::optional<float> factor = common_factor(image, proof);

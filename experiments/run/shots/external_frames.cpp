@@ -97,11 +97,13 @@ private:
         for (size_t i = 0; i < is_background.pixel_count(); ++i)
             is_background.values[i] = pose.material_id.values[i] == 0 ? 1.0f : 0.0f;
         const HostImage noise = pose.lit_halves ? noise_of(*pose.lit_halves) : HostImage(pose.direct.extent, 1);
-        const auto specular = pose.targets.find("specular");
-        const HostImage none;
+        const auto target = pose.targets.find("specular");
+        const HostImage none,
+            &specular = target != pose.targets.end() ? target->second.image
+                        : pose.frame_reference       ? pose.frame_reference->image  // of a frame before the last
+                                                     : none;
         return {.off = proof_pixels(pose.direct, noise, none, of_step.emission, is_background),
-                .on = proof_pixels(pose.direct, noise, specular == pose.targets.end() ? none : specular->second.image,
-                                   of_step.emission, is_background)};
+                .on = proof_pixels(pose.direct, noise, specular, of_step.emission, is_background)};
     }
 
     /// Fails unless the image shows the scene.

@@ -90,6 +90,9 @@ TEST(Judgement, SaysWhichChangeItWouldSee) {
     EffectRow row = effect("a", 1, 0.5);
     row.seeds = 8, row.low = std::exp(-2.3646 * 0.02), row.high = std::exp(2.3646 * 0.02);
     EXPECT_NEAR(judged({row}).views.at(0).detectable, std::exp((3.4995 + 1.8946) * 0.02), 1e-4);
+    // One image a side: the truth's noise, nearly normal: 1.9693, 2.5954 and 1.6509 of 255 degrees.
+    row.seeds = 1, row.low = std::exp(-1.9693 * 0.02), row.high = std::exp(1.9693 * 0.02);
+    EXPECT_NEAR(judged({row}).views.at(0).detectable, std::exp((2.5954 + 1.6509) * 0.02), 1e-4);
 }
 
 TEST(Judgement, SaysNothingOfWhatCannotBeDecided) {

@@ -56,6 +56,16 @@ public:
         return judge_effects(effects, {}, "frames", "before").verdict;
     }
 
+    /// Standard deviation of one frame's error over the mean of all.
+    double deviation() const {
+        double sum = 0, squares = 0;
+        for (const ResultRow& row : rows_.results)
+            if (row.point == "as_is" && row.metric == "mse" && row.mask == "reflective" && row.target == "specular")
+                sum += *row.value, squares += *row.value * *row.value;
+        const double mean = sum / pool_size;
+        return std::sqrt((squares - sum * mean) / (pool_size - 1)) / mean;
+    }
+
 private:
     static VariantConfig side(const std::string& point, bool is_baseline) {
         VariantConfig v{.variant = "three_ssr", .preset = "", .parameters = {}, .swept = {}, .point = point};
@@ -143,8 +153,8 @@ void judge_case(const Case& c, unsigned runs, glm::uvec2 extent) {
         worse += verdict == judgement::worse, better += verdict == judgement::better;
         seen += pool.judge("larger", frames, before) == judgement::worse;
     }
-    std::printf("| `%s` | `%s` | %ux%u | %u, %u of %u | %u of %u |\n", c.scene, c.technique, extent.x, extent.y, worse,
-                better, runs, seen, runs);
+    std::printf("| `%s` | `%s` | %ux%u | %.1f %% | %u, %u of %u | %u of %u |\n", c.scene, c.technique, extent.x,
+                extent.y, 100 * pool.deviation(), worse, better, runs, seen, runs);
     std::fflush(stdout);
 }
 
@@ -155,8 +165,9 @@ int main(int argc, char** argv) try {
     const glm::uvec2 extent =
         argc > 3 ? glm::uvec2(unsigned(std::atoi(argv[2])), unsigned(std::atoi(argv[3]))) : glm::uvec2(480, 270);
     std::printf(
-        "| Scene | Frames of | Size | false \"worse\", \"better\" | 1.05 times the error seen "
-        "|\n|---|---|---|---|---|\n");
+        "| Scene | Frames of | Size | deviation of an image's error | false \"worse\", \"better\" | 1.05 times the "
+        "error seen "
+        "|\n|---|---|---|---|---|---|\n");
     for (const Case& c : cases) judge_case(c, runs, extent);
 } catch (const Error& e) {
     std::fprintf(stderr, "error: %s\n", e.what());
