@@ -108,6 +108,25 @@ TEST_F(ExternalImagesTest, HaveSeedsAndABaselineOfTheirOwn) {
     EXPECT_EQ(rows, 1u);
 }
 
+/// Of a still scene, so that each frame errs as the only one did.
+TEST_F(ExternalImagesTest, AreMeasuredFrameByFrame) {
+    const std::map<std::string, double> own = write_frames();
+    for (const char* name : {"s0", "off"})
+        fs::copy_file(folder / "frames" / view / (std::string("f0.") + name + ".exr"),
+                      folder / "frames" / view / (std::string("f1.") + name + ".exr"));
+    std::string study = study_of(R"({"variant": "none"}, {"external": "frames"})", R"(, "frame_metrics": "mse")");
+    study.replace(study.find(R"("resolution")"), 0, R"("frames": [0, 1], )");
+    std::map<std::string, double> by_frame;
+    for (const ResultRow& r : read_rows<ResultRow>(run_text(study, "sequence") / "results.csv"))
+        if (r.variant == "three_ssr" && r.target == "specular" && r.metric == "mse" && r.mask == "reflective")
+            by_frame[r.frame] = r.value.value();
+    const double error = own.at("specular mse reflective");
+    ASSERT_EQ(by_frame.size(), 3u) << "both frames and their mean";
+    for (const auto& [frame, value] : by_frame) EXPECT_NEAR(value, error, 0.005 * error) << frame;  // half floats
+    fs::remove(folder / "frames" / view / "f1.s0.exr");
+    EXPECT_THROW(run_text(study, "sequence"), Error);
+}
+
 TEST_F(ExternalImagesTest, AreRefusedWhereTheyCannotBeCompared) {
     write_frames();
     EXPECT_EQ(refusal(), "");
