@@ -262,7 +262,8 @@ void PathLanes::scatter() {
         const float greatest = max(next.x, max(next.y, next.z));
         const bool by_promise = per_estimate_[lane] > 0.0f;
         const float promised = promise_window * luminance(weight_.get(lane) * next) * promise_[lane];
-        const float chance = by_promise ? (promised > least_survival ? promised : least_survival) : greatest;
+        const float bounded = max(promised, least_survival);  // apart: inside the choice it is a branch to the compiler
+        const float chance = by_promise ? bounded : greatest;
         const bool plays = has_roulette & (by_promise | (depth_[lane] >= 2)) & (chance < 1.0f);
         const float survival = plays ? chance : 1.0f;
         const bool survives = sequence_.random(reversed_sample_[lane], pair_[lane]) < survival;
