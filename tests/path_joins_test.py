@@ -49,6 +49,7 @@ ALLOWED = {
     ("experiments/figures/paper_tables/documents.py", "os.path.join(folder, name)"): LISTED,
     ("experiments/figures/paper_tables/documents.py", "os.path.join(summaries, name)"): LISTED,
     ("experiments/python/ssrlab/text_files.py", "os.path.join(path, part)"): "the one way",
+    ("experiments/tune/program.py", "os.path.join(folder, words[0])"): REQUEST,
     ("experiments/tune/studies.py", "os.path.join(folder, shot[k])"): REQUEST,
     ("experiments/tune/tune.py", "os.path.join(HERE, os.pardir, room)"): PROGRAM,
     ("scenes/generate.py", "arguments.out / name"): REQUEST,

@@ -113,11 +113,13 @@ int tune_command(const TuneOptions& options, const std::vector<std::string>& run
                           {"point", v.point},
                           {"label", v.label},
                           {"baseline", v.is_baseline}});
-    const json asked = {{"study", config.source},
-                        {"tune", rules},
-                        {"points", points},
-                        {"parameters", config_schema(config.variants.front().variant)["properties"]},
-                        {"folder", std::filesystem::absolute(options.config).parent_path().string()}};
+    const json asked = {
+        {"study", config.source},
+        {"tune", rules},
+        {"points", points},
+        {"parameters",
+         rules.contains("program") ? json::object() : config_schema(config.variants.front().variant)["properties"]},
+        {"folder", std::filesystem::absolute(options.config).parent_path().string()}};
     create_folder(out);
     write_text(out / "tune.json", asked.dump(1) + "\n");  // without comments, which Python does not read
     std::vector<std::string> arguments = {"--out=" + out.string(), (out / "tune.json").string(), "--",

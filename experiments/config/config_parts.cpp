@@ -19,6 +19,13 @@ using nlohmann::json;
 
 const std::string milliseconds = "milliseconds";
 
+/// The one point that all others are compared with.
+void check_baseline(ConfigObject& study, std::vector<VariantConfig>& points) {
+    const auto baselines = std::ranges::count_if(points, &VariantConfig::is_baseline);
+    if (baselines > 1) fail(study.at("variants"), ": ", baselines, " points are baselines; 'tune' needs one");
+    if (baselines == 0) points.front().is_baseline = true;
+}
+
 /// One variant, points that run everywhere with the study's seeds, one of them the baseline.
 void check_tuned_points(ConfigObject& study, ConfigObject& tune, Config& config) {
     std::vector<VariantConfig>& points = config.variants;
@@ -35,9 +42,7 @@ void check_tuned_points(ConfigObject& study, ConfigObject& tune, Config& config)
             fail(study.at(study.has("seeds") ? "seeds" : "variants"), ": '", point.point,
                  "' draws random numbers: a single seed gives no interval; name two seeds or more");
     }
-    const auto baselines = std::ranges::count_if(points, &VariantConfig::is_baseline);
-    if (baselines > 1) fail(study.at("variants"), ": ", baselines, " points are baselines; 'tune' needs one");
-    if (baselines == 0) points.front().is_baseline = true;
+    check_baseline(study, points);
     if (tune.has("start")) tune.known_texts("start", names);
 }
 
@@ -71,6 +76,38 @@ void check_axes(ConfigObject& tune, const ParameterSet& declared) {
         }
         check_sample_axis(plain, declared, name, axes.at(name));
     }
+}
+
+/// A search over the settings of somebody's program, which is compared with points of any techniques.
+void check_program(ConfigObject& study, ConfigObject& tune, Config& config) {
+    if (tune.texts("program").empty()) fail(tune.at("program"), ": is empty; name a program");
+    for (const char* key : {"start", "time", "budgets"})
+        if (tune.has(key))
+            fail(tune.at(key), ": '", key,
+                 "' is not for a search over a 'program', which begins at its defaults and whose time is not measured");
+    check_baseline(study, config.variants);
+    if (!tune.has("axes")) return;
+    JsonObject axes = tune.plain("axes");
+    for (const auto& [name, axis] : tune["axes"].items()) {
+        if (axis.is_array()) continue;
+        ConfigObject object(axes.object(name), axis_keys());
+        unsigned kinds = 0;
+        for (const char* kind : {"values", "lin", "log"})
+            if (object.has(kind)) static_cast<void>(object[kind]), ++kinds;
+        if (kinds != 1 || axis.size() != 1)
+            fail(object.where(), ": a setting of a program has one of 'values', 'lin' and 'log', and no conditions");
+        object.finish();
+    }
+}
+
+void check_technique(ConfigObject& study, ConfigObject& tune, Config& config) {
+    check_tuned_points(study, tune, config);
+    if (tune.has("axes"))  // which one that others extend may leave to them
+        check_axes(tune, make_variant(config.variants.front().variant)->params);
+    if (tune["time"] == milliseconds && config.timing.frames == 0)
+        fail(tune.where(),
+             ": needs 'timing' of 15 frames or more, a counted 'time', such as \"operations\", or an "
+             "estimated one, such as \"navi21\"");
 }
 
 }  // namespace
@@ -169,6 +206,9 @@ Keys tune_keys() {
          "parameter to what is tried: an array of values, `{\"lin\": [from, to]}` or `{\"log\": [from, to]}`, or an "
          "object of `values`, `lin` or `log` with `only_if` and `skip_if`, conditions on parameters: where they leave "
          "an axis out, the parameter keeps the value that it has at the start"},
+        {"program", some_of(any_text()), none,
+         "a program that renders in place of a technique, and its first arguments: axes are then settings of it, "
+         "below"},
         {"start", any_text(), otherwise("the baseline"), "the point that the axes change, by its name"},
         {"time", one_of(times), milliseconds,
          "what a point takes: the clock's, a quantity of `costs.csv`, which is exact and needs no quiet machine, or a "
@@ -193,13 +233,10 @@ void check_tune(ConfigObject& study, Config& config) {
     ConfigObject tune(study.plain("tune"), tune_keys());
     config.is_tuned = true;
     if (config.variants.empty()) return;  // of which read_config() complains
-    check_tuned_points(study, tune, config);
-    if (tune.has("axes"))  // which one that others extend may leave to them
-        check_axes(tune, make_variant(config.variants.front().variant)->params);
-    if (tune["time"] == milliseconds && config.timing.frames == 0)
-        fail(tune.where(),
-             ": needs 'timing' of 15 frames or more, a counted 'time', such as \"operations\", or an "
-             "estimated one, such as \"navi21\"");
+    if (tune.has("program"))
+        check_program(study, tune, config);
+    else
+        check_technique(study, tune, config);
     if (tune.has("metrics")) tune.known_texts("metrics", config.metrics);
     if (tune.has("target")) tune.known_texts("target", config.targets);
     if (tune.has("mask")) tune.known_texts("mask", config.masks);
@@ -221,6 +258,10 @@ json tuning_of(const Config& config) {
     rules.update(ConfigObject(JsonObject(config.source.at("tune"), where), tune_keys()).values());
     if (rules["metrics"].is_string()) rules["metrics"] = json::array({rules["metrics"]});
     const json seeds = config.source.value("seeds", json(default_seeds));
+    if (rules.contains("program")) {
+        if (rules["program"].is_string()) rules["program"] = json::array({rules["program"]});
+        rules["budgets"] = json::array({1});
+    }
     rules["is_estimated"] = chip_rates(rules["time"]).has_value();
     rules["seeds"] = numbers_of(seeds, where);
     rules["judge"]["seeds"] = numbers_of(rules["judge"].value("seeds", seeds), where);

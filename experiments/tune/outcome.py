@@ -32,13 +32,14 @@ class Outcome:
         self.tuning, self.race, self.studies = tuning, tuning.race, tuning.studies
         self.results, self.found = judged
         self.points = {**tuning.points, **{p.name: p for p in tuning.tried}}
-        self.unit = "ms" if self.studies.has_clock else f"us on {self.studies.cost}, estimated" if self.studies.is_estimated else self.studies.cost
+        self.unit = "" if not self.studies.has_time else "ms" if self.studies.has_clock else f"us on {self.studies.cost}, estimated" if self.studies.is_estimated else self.studies.cost
 
     def write(self):
         self.write_csv()
         self.write_presets()
         self.write_page()
-        self.draw()
+        if self.studies.has_time:
+            self.draw()
         complete = sum(not p.stopped for p in self.tuning.tried)
         say(
             f"{len(self.tuning.tried)} points tried, {complete} of them in full: {self.tuning.runs()} runs in place of "
@@ -56,7 +57,7 @@ class Outcome:
                 error = ratio_of(self.race.error(point))
                 row = [point.name, point.batch, point.stopped, len(point.shots()), point.runs(), error.value, error.low, error.high]
                 values = [point.values.get(name, "") if point.values else point.parameters[name] for name in axes]
-                lines.append(row + ["" if point.refusal else math.exp(self.log_time(point))] + [json.dumps(v) if isinstance(v, bool) else v for v in values])
+                lines.append(row + ["" if point.refusal or not self.studies.has_time else math.exp(self.log_time(point))] + [json.dumps(v) if isinstance(v, bool) else v for v in values])
             write_lines(stream, lines)
 
     def file(self, name):
@@ -75,7 +76,7 @@ class Outcome:
             return None
         value, low, high, count = statistics.geometric_mean_over_scenes(logs)
         scene_of = {shot["shot"]: shot.get("asset") or shot["scene"] for shot in self.results.manifest["shots"]}
-        taken = self.studies.times_of(self.results, self.point_of(name)).items()
+        taken = self.studies.times_of(self.results, self.point_of(name)).items() if self.studies.has_time else []
         time = statistics.geometric_mean_over_scenes([(scene_of[shot], math.log(ratio)) for shot, (ratio, _) in taken])[:3] if taken else None
         return Measured(value, low, high), count, Measured(*time) if time else None
 
@@ -106,13 +107,25 @@ class Outcome:
             if name in self.tuning.points or not (is_faster or is_better):
                 continue
             word, scenes_of_search = self.time_word(), len(self.studies.shots)
-            text = f"the least error that `ssrlab tune` found within {times(budgets)} the {word} of `{self.tuning.baseline}`: {with_interval(searched)} of its error"
-            text += f" in {math.exp(self.race.log_time(point)):.2f} of its {word} on the {scenes_of_search} scenes of the search"
+            within = f" within {times(budgets)} the {word} of `{self.tuning.baseline}`" if self.studies.has_time else ""
+            text = f"the least error that `ssrlab tune` found{within}: {with_interval(searched)} of " + ("its error" if within else f"that of `{self.tuning.baseline}`")
+            text += f" in {math.exp(self.race.log_time(point)):.2f} of its {word}" if within else ""
+            text += f" on the {scenes_of_search} scenes of the search"
             if judged:
                 text += f"; {with_interval(judged[0])}" + (f" in {with_interval(judged[2])}" if judged[2] else "") + f" on {judged[1]} others"
-            preset = {"variant": self.tuning.start_entry["variant"], "name": f"best_{min(budgets):g}x", "description": text}
+            name = f"best_{min(budgets):g}x" if self.studies.has_time else "best"
+            preset = {"variant": self.tuning.searched, "name": name, "description": text}
             presets.append(preset | {"parameters": self.changes(point)})
         write_text(self.file("presets.json"), json.dumps({"presets": presets}, indent=2) + "\n")
+
+    def about_time(self):
+        if not self.studies.has_time:
+            return "time: not measured, the program's own"
+        baseline = markdown_code(self.tuning.baseline)
+        return f"{self.time_word()}: likewise (that of {baseline}: {self.tuning.baseline_cost:.4g} {self.unit}; on the scenes of the search without an interval)"
+
+    def time_cell(self, ratio):
+        return f"{ratio:.3f}" if self.studies.has_time else "not measured"
 
     def time_word(self):
         return "time" if self.studies.has_clock else f"estimated time on {self.studies.cost}" if self.studies.is_estimated else self.studies.cost
@@ -121,10 +134,9 @@ class Outcome:
         tuning = self.tuning
         error = f"{' and '.join(self.studies.metrics)} ({self.studies.target}, {self.studies.mask})"
         lines = [
-            f"# Tuned: {tuning.start_entry['variant']}",
+            f"# Tuned: {tuning.searched}",
             "",
-            f"Error: {error}, as a multiple of that of {markdown_code(tuning.baseline)}, geometric mean over scenes; {self.time_word()}: likewise "
-            f"(that of {markdown_code(tuning.baseline)}: {tuning.baseline_cost:.4g} {self.unit}; on the scenes of the search without an interval). In brackets 95 % intervals: of the scenes of the search by "
+            f"Error: {error}, as a multiple of that of {markdown_code(tuning.baseline)}, geometric mean over scenes; {self.about_time()}. In brackets 95 % intervals: of the scenes of the search by "
             "the seeds and the reference's noise, for these scenes as they are; of unseen ones by how they differ among each other, none below "
             "4 scenes.",
             "",
@@ -145,15 +157,16 @@ class Outcome:
         lines += ["", "## The front", "", f"| {self.time_word()} | error | point | differs from {markdown_text(tuning.start)} in |", "|---|---|---|---|"]
         for point in self.race.front():
             differs = ", ".join(f"{k} = {json.dumps(v)}" for k, v in point.values.items() if tuning.space.start[k] != v)
-            lines.append(f"| {math.exp(self.race.log_time(point)):.3f} | {with_interval(ratio_of(self.race.error(point)))} | {markdown_text(point.name)} | {markdown_text(differs)} |")
+            lines.append(f"| {self.time_cell(math.exp(self.race.log_time(point)))} | {with_interval(ratio_of(self.race.error(point)))} | {markdown_text(point.name)} | {markdown_text(differs)} |")
         lines += self.unseen_lines()
         write_text(self.file("tuned.md"), "\n".join(lines) + "\n")
 
     def cells(self, name):
         point, judged = self.points[name], self.unseen(name)
-        cells = [name, with_interval(ratio_of(self.race.error(point))), f"{math.exp(self.race.log_time(point)):.3f}"]
+        cells = [name, with_interval(ratio_of(self.race.error(point))), self.time_cell(math.exp(self.race.log_time(point)))]
         if name == self.tuning.baseline:
-            return [name, "1", "1"] + (["1", "1"] if self.results else ["", ""])
+            time = "1" if self.studies.has_time else self.time_cell(1)
+            return [name, "1", time] + (["1", time] if self.results else ["", ""])
         return cells + ([with_interval(judged[0]), with_interval(judged[2]) if judged[2] else ""] if judged else ["", ""])
 
     def unseen_lines(self):

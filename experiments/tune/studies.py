@@ -34,6 +34,16 @@ def _positive(row, column):
     return value
 
 
+def in_a_row(shot):
+    """A shot of `room:*` is one of each of `count` scenes from number `first` on."""
+    numbers = {k: v for k, v in shot.items() if k in ("first", "count")}
+    shot = {k: v for k, v in shot.items() if k not in numbers}
+    if not shot.get("scene", "").endswith(":*"):
+        return [shot]
+    first = numbers.get("first", 0)
+    return [shot | {"scene": f"{shot['scene'][:-1]}{i}"} for i in range(first, first + numbers["count"])]
+
+
 def single_shots(entries):
     """Entries of `shots`, those that list scenes, cameras, settings, sizes or frames taken apart."""
     found = []
@@ -44,7 +54,8 @@ def single_shots(entries):
             lists["resolution"] = entry["resolution"]
         if isinstance(entry.get("frames"), list) and not isinstance(entry["frames"][0], int):
             lists["frames"] = entry["frames"]
-        found += [entry | dict(zip(lists, values)) for values in itertools.product(*lists.values())]
+        for values in itertools.product(*lists.values()):
+            found += in_a_row(entry | dict(zip(lists, values)))
     return found
 
 
@@ -63,7 +74,8 @@ class Studies:
         self.judged_shots = self._placed(single_shots(judge["shots"]), asked["folder"])
         self.judge_seeds = judge["seeds"]
         self.metrics, self.target, self.mask, self.cost = (self.rules[key] for key in ("metrics", "target", "mask", "time"))
-        self.has_clock, self.is_estimated = self.cost == "milliseconds", self.rules["is_estimated"]
+        self.has_time = not self.rules.get("program")  # what a program takes is its own clock's
+        self.has_clock, self.is_estimated = self.has_time and self.cost == "milliseconds", self.rules["is_estimated"]
         self.out, self.command, self.baseline = out, command, baseline
         self.references = {}  # shot to the hashes of its references: errors are paired against the same pixels alone
         self.minutes_file = path_inside(out, "minutes.json")
@@ -84,7 +96,7 @@ class Studies:
         study = self.common | {"variants": variants, "shots": shots, "seeds": seeds}
         timing = self.timing if name == "judged" else self.search_timing
         study["timing"] = timing if is_timed and self.has_clock else {"frames": 0}
-        study["costs"] = is_timed and not self.has_clock
+        study["costs"] = is_timed and self.has_time and not self.has_clock
         if self.is_estimated:
             study["gpu_compilers"] = [self.cost] if is_timed else []
         write_text(config, json.dumps(study, indent=1))  # beside the folder: study.json in it is ssrlab's own
@@ -146,7 +158,9 @@ class Studies:
 
     def times_of(self, results, point):
         """Shot to (time over the baseline's, the baseline's) of what a study timed, counted or estimated; a shot in which an estimate was
-        refused is missing."""
+        refused is missing. Without times all points count as equally fast."""
+        if not self.has_time:
+            return {shot["shot"]: (1.0, 1.0) for shot in results.manifest["shots"]}
         base = next((v["point"] for v in results.manifest["variants"] if v.get("label") == self.baseline), None)
         return self._clock_ratios(results, point, base) if self.has_clock else self._other_ratios(results, point, base)
 

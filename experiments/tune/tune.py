@@ -24,12 +24,14 @@ try:
 except ImportError as missing:
     stop(f"{missing}: install python3-optuna")
 from outcome import Outcome  # noqa: E402  (found by the path above)
+from program import Program, ProgramFailed, declared_by  # noqa: E402
 from race import Point, Race  # noqa: E402
 from space import Proposals, Space  # noqa: E402
 from studies import Studies, StudyFailed  # noqa: E402
 
 SAME_TIME = {True: 1.05, False: 1.0}  # with a clock, whose noise it is about; with counts, which are exact
 BEYOND = 1.25  # a point that takes so much longer than the largest budget in the first shot is not run in others; what has no time counts as such
+AT_DEFAULTS = "defaults"  # the name of a program's point without settings
 FUTILE = 5  # batches without a point that was not tried before, after which the space counts as searched
 
 
@@ -46,9 +48,15 @@ class Tuning:
         self.rules, self.given = asked["tune"], asked["points"]
         self.names = [p["label"] or p["point"] for p in self.given]
         self.baseline = self.names[next(i for i, p in enumerate(self.given) if p["baseline"])]
-        start = next(i for i, p in enumerate(self.given) if p["point"] == self.rules["start"])
-        self.start_entry, self.start = self.given[start], self.names[start]
-        self.declared = asked["parameters"]
+        self.program = None
+        if self.rules.get("program"):
+            self.program, self.start = Program(self.rules["program"], asked["folder"], out, command, asked["study"]), AT_DEFAULTS
+            if AT_DEFAULTS in self.names:
+                raise ResultsError(f"variants: the label '{AT_DEFAULTS}' is that of the program without settings; call yours otherwise")
+        else:
+            start = next(i for i, p in enumerate(self.given) if p["point"] == self.rules["start"])
+            self.start_entry, self.start = self.given[start], self.names[start]
+            self.searched, self.declared = self.start_entry["variant"], asked["parameters"]
         self.studies = Studies(asked, out, command, self.baseline)
         self.out = out
         self.most_runs, self.most_minutes, self.budgets = (self.rules[key] for key in ("most_runs", "most_minutes", "budgets"))
@@ -68,11 +76,16 @@ class Tuning:
         seeds = self.studies.seeds
         self.few, self.rest = seeds[: max(2, len(seeds) // 2)], seeds[max(2, len(seeds) // 2) :]
         entries = [self.given_entry(i) for i in range(len(self.given))]
+        self.names += [AT_DEFAULTS] if self.program else []
         say(f"start: {', '.join(self.names)} in {len(self.studies.shots)} shots, which need references")
+        if self.program:
+            entries.append(self.trial_entry(AT_DEFAULTS, {}, self.studies.shots))
         results = self.studies.run("search/start", entries, self.studies.shots, seeds)
         self.points = {name: Point(name, {}) for name in self.names}
         for name in [self.baseline, *self.names]:
             self.studies.read_into(self.points[name], results)
+            if name == AT_DEFAULTS and self.program:
+                self.learn_settings(results)
             if self.points[name].refusal:
                 raise ResultsError(f"{results.folder}: the time of '{name}' on {self.studies.cost} cannot be estimated: {self.points[name].refusal}")
         self.steps = doubling(len(self.studies.shots))
@@ -83,8 +96,18 @@ class Tuning:
                 self.race.add(self.points[name])
         self.space = Space(self.rules["axes"], self.declared, self.points[self.start].parameters)
         self.proposals = Proposals(self.space, self.rules["seed"])
-        for name in dict.fromkeys([self.start, *self.names]):
+        for name in [AT_DEFAULTS] if self.program else dict.fromkeys([self.start, *self.names]):
             self.proposals.begin_with(self.points[name].parameters)
+
+    def learn_settings(self, results):
+        """What the program's settings are called, and their defaults, of which the axes are some."""
+        settings = self.points[AT_DEFAULTS].parameters
+        unknown = [name for name in self.rules["axes"] if name not in settings]
+        if unknown:
+            states = f"those are {', '.join(sorted(settings))}" if settings else "it states none"
+            raise ResultsError(f"tune: 'axes': '{unknown[0]}' is no setting of which external.json of the program states the value; {states}")
+        self.declared = declared_by(settings)
+        self.searched = next(v["variant"] for v in results.manifest["variants"] if v.get("label") == AT_DEFAULTS)
 
     def cost_of_baseline(self, results):
         """Geometric mean over shots."""
@@ -100,7 +123,11 @@ class Tuning:
         entry = {"variant": point["variant"], "label": self.names[index], "baseline": point["baseline"]}
         return entry | self.made_of(point, point["swept"])
 
-    def trial_entry(self, name, values):
+    def trial_entry(self, name, values, shots):
+        """Of a point that is tried in some shots, as an entry of `variants`."""
+        if self.program:
+            self.program.render(name, values, shots)
+            return {"external": self.program.images(name), "label": name}
         return {"variant": self.start_entry["variant"], "label": name} | self.made_of(self.start_entry, values)
 
     @staticmethod
@@ -154,8 +181,8 @@ class Tuning:
     def measure(self, name, points, shots, seeds, is_timed=True):
         if not points:
             return
-        entries = [self.trial_entry(p.name, p.values) for p in points]
-        if is_timed and self.studies.has_clock:  # which is compared within the same frames
+        entries = [self.trial_entry(p.name, p.values, shots) for p in points]
+        if self.program or is_timed and self.studies.has_clock:  # which is compared within the same frames
             entries.insert(0, self.given_entry(self.names.index(self.baseline)))
         results = self.studies.run(name, entries, shots, seeds, is_timed)
         for point in points:
@@ -201,7 +228,10 @@ class Tuning:
             return None, found
         by_name = {p.name: p for p in self.tried}
         entries = [self.given_entry(i) for i in range(len(self.given))]
-        entries += [self.trial_entry(name, by_name[name].values) for name in found if name in by_name]
+        tried = {name: by_name[name].values for name in found if name in by_name}
+        if self.program:
+            tried[AT_DEFAULTS] = {}
+        entries += [self.trial_entry(name, values, self.studies.judged_shots) for name, values in tried.items()]
         return self.studies.run("judged", entries, self.studies.judged_shots, self.studies.judge_seeds), found
 
     def say(self, number, fresh):
@@ -227,7 +257,7 @@ def main():
     arguments = parser.parse_args()
     try:
         Tuning(read_json(arguments.asked), arguments.out, arguments.command).run()
-    except StudyFailed as failed:
+    except (StudyFailed, ProgramFailed) as failed:
         for line in [f"error: {failed}", *failed.said]:
             print(shown(line), file=sys.stderr)
         return failed.code if failed.code in (2, 3) else 3

@@ -52,6 +52,7 @@ TUNE = BASE | {
         "judge": {"shots": [SCENE | {"scene": "grazing"}], "seeds": 2}, "most_runs": 10, "most_minutes": 1, "batch": 2, "seed": 1,
     },
 }  # fmt: skip
+OVER_PROGRAM = BASE | {"variants": [{"variant": "none"}], "tune": {"program": ["./render", "quickly"], "axes": {"steps": [1, 2]}}}
 EXTENDING = {"extends": "study.json", "variants": [{"variant": TECHNIQUE, "preset": "best", "remove": False}, {"external": "frames", "remove": False}]}
 OF_PARAMETERS = ("parameters", "against", "sweep", "zip", "each", "axes")  # objects that name them
 
@@ -121,9 +122,9 @@ class Keys(unittest.TestCase):
             self.assertRegex(said, rf"config\d+\.json:\d+:\d+: .*{says}", what)
 
     def test_all_that_are_declared_are_read(self):
-        self.assertEqual(self.refusals([STUDY, TUNE, EXTENDING]), ["", "", ""])
+        self.assertEqual(self.refusals([STUDY, TUNE, OVER_PROGRAM, EXTENDING]), [""] * 4)
         unused = {}  # schema of an object to the keys that no config here has
-        for config in (STUDY, TUNE, EXTENDING):
+        for config in (STUDY, TUNE, OVER_PROGRAM, EXTENDING):
             VALIDATOR.validate(config)
             for path, value, schema in objects(config, SCHEMA):
                 if not path or path[-1] not in OF_PARAMETERS:

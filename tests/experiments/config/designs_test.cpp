@@ -403,6 +403,21 @@ TEST_F(Designs, SearchesAreCheckedBeforeTheyRun) {
     refuses(study(axes, R"({"variant": "mcguire_dda", "timing": false})"), "'timing' is not for points");
     refuses(study(R"("axes": {"misses": ["weight"]})", R"({"variant": "amd_sssr"})", R"("seeds": 1,)"),
             "a single seed gives no interval");
+
+    // A program's settings are its own, so that only what they look like can be checked.
+    const std::string program = R"("program": ["./render.sh", "mine"], )";
+    const Config over_program = read(
+        study(program + R"("axes": {"steps": {"log": [8, 64]}, "blur": [true, false], "size": {"values": [1, 2]}})",
+              R"({"variant": "none"}, {"variant": "mcguire_dda"})", R"("timing": {"frames": 0},)"));
+    EXPECT_TRUE(over_program.variants.front().is_baseline);
+    EXPECT_EQ(tuning_of(over_program)["budgets"], json::array({1}));
+    EXPECT_EQ(tuning_of(read(study(R"("program": "render", "axes": {"steps": [1]})")))["program"],
+              json::array({"render"}));
+    refuses(study(R"("program": [], "axes": {"steps": [1]})"), "'program'");
+    refuses(study(program + R"("axes": {"steps": [1]}, "budgets": [1])"), "whose time is not measured");
+    refuses(study(program + R"("axes": {"steps": {"values": [1], "only_if": {"blur": true}}})"), "no conditions");
+    refuses(study(program + R"("axes": {"steps": {"logs": [1, 2]}})"), "unknown key 'logs'");
+    refuses(study(program + R"("axes": {"steps": {}})"), "one of 'values', 'lin' and 'log'");
 }
 
 TEST(PointNames, StayShort) {

@@ -19,7 +19,8 @@ SCRIPT = sys.argv[1]
 spec = importlib.util.spec_from_file_location("tune", SCRIPT)
 tune = importlib.util.module_from_spec(spec)
 spec.loader.exec_module(tune)
-import race  # noqa: E402  (beside tune.py)
+import program  # noqa: E402  (beside tune.py)
+import race  # noqa: E402
 import studies  # noqa: E402
 
 RAYS = {"default": 1, "type": "integer"}
@@ -67,6 +68,11 @@ class FakeSsrlab:
         points, results, costs, estimates, effects, times, time_effects, seen = [], [], [], [], [], [], [], set()
         assert study.get("gpu_compilers", []) == (["navi21"] if study["costs"] and self.is_estimated else [])
         for entry in study["variants"]:
+            if "external" in entry:
+                with open(os.path.join(entry["external"], "external.json"), encoding="utf-8") as stream:
+                    stated = json.load(stream)
+                points.append({"variant": stated["name"], "point": stated["point"], "label": entry["label"], "parameters": stated["settings"]})
+                continue
             swept = {k: v[0] for k, v in entry["sweep"].items()}
             name = " ".join(f"{k}={v}" for k, v in sorted(swept.items())) or "default"
             assert name not in seen, f"{name} comes twice"
@@ -107,15 +113,46 @@ class FakeSsrlab:
                 writer.writerows(rows)
 
 
+class FakeProgram:
+    """In place of `ssrlab scene-for` and of a program that renders: writes what it was asked for."""
+
+    def __init__(self, fails_at=None):
+        self.rendered, self.scenes, self.fails_at = [], [], fails_at
+
+    def __call__(self, words, **_):
+        if words[1] == "scene-for":
+            self.scenes.append(words[2:4])
+            folder = words[words.index("--out") + 1]
+            os.makedirs(folder)
+            with open(os.path.join(folder, "scene.json"), "w", encoding="utf-8") as stream:
+                json.dump({"scene": words[3]}, stream)
+            return types.SimpleNamespace(returncode=0)
+        own, first, scene, out, *rest = words
+        assert first == "first" and os.path.isabs(own) and own.endswith("/render"), words
+        if len(self.rendered) == self.fails_at:
+            return types.SimpleNamespace(returncode=1)
+        pairs = list(zip(rest[::2], rest[1::2]))
+        settings = dict(value.split("=") for key, value in pairs if key == "--set")
+        assert set(settings) <= set(DEFAULTS), settings
+        stated = DEFAULTS | {k: v if isinstance(DEFAULTS[k], str) else json.loads(v) for k, v in settings.items()}
+        with open(os.path.join(scene, "scene.json"), encoding="utf-8") as stream:
+            self.rendered.append((dict(pairs)["--point"], json.load(stream)["scene"]))
+        os.makedirs(out, exist_ok=True)
+        with open(os.path.join(out, "external.json"), "w", encoding="utf-8") as stream:
+            json.dump({"name": "engine", "point": dict(pairs)["--point"], "settings": stated}, stream)
+        return types.SimpleNamespace(returncode=0)
+
+
 def check(is_true, what):
     if not is_true:
         sys.exit(f"tune_test: {what}")
 
 
-def search(folder, fake, rules=None):
-    """Exit code, what was said."""
+def search(folder, fake, rules=None, renders=None):
+    """Exit code, what was said. `renders`: the program, where the search is over one."""
     given = [("default", {}, True), ("rays=2", {"rays": 2}, False)]
-    points = [{"variant": "sssr", "preset": "", "parameters": s, "swept": s, "point": n, "label": "", "baseline": b} for n, s, b in given]
+    given = given[1:] if renders else given  # what the program is compared with
+    points = [{"variant": "sssr", "preset": "", "parameters": s, "swept": s, "point": n, "label": "", "baseline": b or bool(renders)} for n, s, b in given]
     rules = {"axes": AXES, "start": "default", "time": "operations", "is_estimated": False, "metrics": ["mse"], "target": "specular", "mask": "all", "seeds": [0, 1, 2, 3],
              "budgets": [1, 2], "most_runs": 1000, "most_minutes": 1e7, "batch": 8, "seed": 0,
              "judge": {"shots": [{"scene": [f"unseen {i}" for i in range(4)]}], "seeds": [0, 1]}} | (rules or {})  # fmt: skip
@@ -126,6 +163,7 @@ def search(folder, fake, rules=None):
         json.dump(asked, stream)
     said = io.StringIO()
     studies.subprocess = types.SimpleNamespace(run=fake)
+    program.subprocess = types.SimpleNamespace(run=renders)
     sys.argv = ["tune.py", file, "--out", os.path.join(folder, "out"), "ssrlab"]
     with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
         code = tune.exit_code(tune.main, "the search")
@@ -233,6 +271,34 @@ def test_small_space(folder):
     check(code == 0 and sorted(tried) == ["2", "4"], f"{tried} were tried beside the start, {said}")
 
 
+def test_program(folder):
+    """A search over the settings of a program: each point is rendered once in each shot that it comes to, also when the search was stopped;
+    the least error is found, and nothing is said of times."""
+    axes = {"rays": [1, 2, 4], "blur": {"log": [0.25, 4.0]}, "march": ["linear", "tree"], "clamp": [True, False]}
+    rules = {"axes": axes, "program": ["./render", "first"], "budgets": [1], "time": "milliseconds", "most_runs": 800}
+    renders, stopped = FakeProgram(), FakeProgram(fails_at=3)
+    code, said = search(folder, FakeSsrlab(), rules, stopped)
+    check(code == 3 and "ended with exit code 1" in said, f"{code} {said}")
+    code, said = search(folder, FakeSsrlab(), rules, renders)
+    check(code == 0, said)
+    every = stopped.rendered + renders.rendered
+    check(len(set(every)) == len(every) > 20, "a point was rendered twice")
+    scenes = stopped.scenes + renders.scenes
+    check(len({s for _, s in scenes}) == len(scenes) == 8 and all(e == "any" for e, _ in scenes), f"{scenes}")
+    presets = json.loads(read(folder, "presets.json"))["presets"]
+    check([(p["variant"], p["name"]) for p in presets] == [("engine", "best")], f"{presets}")
+    found = DEFAULTS | presets[0]["parameters"]
+    ratio = [sum(truth(p, s)[0] for s in SHOTS) for p in (found, {"rays": 4, "blur": 2.0, "march": "tree", "clamp": False})]
+    check(ratio[0] < 1.1 * ratio[1], f"{found} has {ratio}")
+    check(all(r["time"] == "" for r in read(folder, "tune.csv")), "times that nobody measured")
+    page = read(folder, "tuned.md")
+    check("# Tuned: engine" in page and "not measured" in page and "| defaults |" in page, page)
+    unknown = os.path.join(folder, "unknown")
+    os.makedirs(unknown)
+    code, said = search(unknown, FakeSsrlab(), rules | {"axes": {"reys": [1]}}, FakeProgram())
+    check(code == 2 and "'reys' is no setting" in said, f"{code} {said}")
+
+
 def simulated(rng, name, log_error, time, scatter):
     """A point whose scenes scatter about the mean of exp(log_error)."""
     shots = [rng.gauss(0, scatter) for _ in range(4)]
@@ -296,6 +362,8 @@ def main():
         test_search(folder)
     with tempfile.TemporaryDirectory() as folder:
         test_interruption(folder)
+    with tempfile.TemporaryDirectory() as folder:
+        test_program(folder)
     with tempfile.TemporaryDirectory() as folder:
         test_clock(folder)
     with tempfile.TemporaryDirectory() as folder:

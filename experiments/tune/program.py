@@ -1,0 +1,101 @@
+"""Points that somebody else's program renders, in place of one of ssrlab's techniques.
+
+A point's images lie in a folder of their own, which a study names as `external`. The program is called once for each point and shot as
+
+    PROGRAM SCENE_FOLDER OUT --point NAME [--set KEY=VALUE ...]
+
+SCENE_FOLDER is what `ssrlab scene-for any` wrote of the shot; OUT collects the images of all shots (experiments/README.md, "Images of other
+programs"), and its external.json states the `settings` with all their values. Without --set the program renders at its defaults."""
+
+import json
+import os
+import subprocess
+
+from ssrlab.json_files import read_json
+from ssrlab.mistakes import ResultsError
+from ssrlab.text_files import path_inside, write_text
+
+OF_SCENES = ("--scene-path", "--cache", "--max-memory", "--allow-outside")  # options of `ssrlab run` that `scene-for` has, too
+
+
+class ProgramFailed(Exception):
+    """It, or `ssrlab scene-for`, ended with an exit code other than 0."""
+
+    def __init__(self, command, code, log):
+        with open(log, encoding="utf-8", errors="surrogateescape") as stream:
+            self.said = stream.read().splitlines()[-3:]
+        super().__init__(f"{' '.join(command[:2])} ended with exit code {code}; {log} ends with")
+        self.code = code
+
+
+def setting(value):
+    """As the command line has it: texts as they are, else JSON."""
+    return value if isinstance(value, str) else json.dumps(value)
+
+
+def declared_by(settings):
+    """JSON schemas of an external.json's settings, whose values are their defaults."""
+    types = {bool: "boolean", int: "integer", float: "number", str: "string"}
+    return {name: {"type": types[type(value)], "default": value} for name, value in settings.items()}
+
+
+class Program:
+    def __init__(self, words, folder, out, command, study):
+        """`words`: the program and its first arguments; a path is relative to `folder`, which holds the config. `command`: ssrlab and the
+        options of `ssrlab run`. `study`: the config."""
+        self.words = [os.path.normpath(os.path.join(folder, words[0])) if "/" in words[0] else words[0], *words[1:]]
+        self.out = os.path.abspath(out)
+        self.ssrlab, self.options = command[0], [word for word in command[1:] if word.split("=")[0] in OF_SCENES]
+        reference = study.get("reference", {})
+        self.samples = [f"--{name.replace('_', '-')}={reference[name]}" for name in ("samples", "lit_samples") if name in reference]
+        self.resolution = study.get("resolution", [480, 270])
+
+    def images(self, name):
+        """The folder of a point's images."""
+        return path_inside(self.out, f"images/{self.point(name)}")
+
+    @staticmethod
+    def point(name):
+        """What the program, and with it external.json, calls a point."""
+        return name.replace(" ", "_")
+
+    def render(self, name, values, shots):
+        """A point's images of some shots, unless an earlier search rendered them. `values`: the settings that are not at their defaults."""
+        file = path_inside(self.out, f"images/{self.point(name)}.json")
+        done = read_json(file, {"rendered": [str]})["rendered"] if os.path.exists(file) else []
+        for shot in shots:
+            scene = self._scene(shot)
+            if scene in done:
+                continue
+            words = [*self.words, path_inside(self.out, scene), self.images(name), "--point", self.point(name)]
+            for key, value in values.items():
+                words += ["--set", f"{key}={setting(value)}"]
+            self._call(words, f"images/{self.point(name)}.log")
+            done.append(scene)
+            write_text(file, json.dumps({"rendered": done}))
+
+    def _scene(self, shot):
+        """The folder of a shot's scene, within that of the search; written where it is not there."""
+        size = shot.get("resolution", self.resolution)
+        frames = shot.get("frames", [0])
+        if isinstance(frames, dict):
+            frames = range(frames["from"], frames["to"] + 1)
+        name = "_".join([shot["scene"], shot.get("camera", ""), "x".join(map(str, size)), *map(str, frames)])
+        folder = "scenes/" + "".join(c if c.isalnum() or c in "_-" else "_" for c in name)
+        written = path_inside(self.out, folder)
+        if not os.path.exists(path_inside(written, "scene.json")):
+            camera = [f"--camera={shot['camera']}"] if "camera" in shot else []
+            words = [self.ssrlab, "scene-for", "any", shot["scene"], *camera, "--size", *map(str, size), "--frames", *map(str, frames)]
+            self._call([*words, *self.samples, "--out", written, *self.options], f"{folder}.log")
+        return folder
+
+    def _call(self, words, log):
+        log = path_inside(self.out, log)
+        os.makedirs(os.path.dirname(log), exist_ok=True)
+        with open(log, "a", encoding="utf-8") as stream:
+            try:
+                code = subprocess.run(words, stdout=stream, stderr=stream).returncode
+            except OSError as error:
+                raise ResultsError(f"tune: 'program': {words[0]} cannot be run: {error.strerror}") from error
+        if code != 0:
+            raise ProgramFailed(words, code, log)
