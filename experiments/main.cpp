@@ -268,6 +268,45 @@ int parse_and_run(int argc, char** argv) {
     add_reading(judge_command_);
     judge_command_.callback([&] { status = judge_command(judge, common); });
 
+    SceneForOptions scene_for;
+    CLI::App& scene_for_command_ = *app.add_subcommand(
+        "scene-for",
+        "Write a scene's views for another program: glTF, poses, and the light that its reflections are to be computed "
+        "from");
+    scene_for_command_
+        .add_option("engine", scene_for.engine, "any, three, babylon, eevee or godot: decides the files' formats")
+        ->required()
+        ->type_name("ENGINE");
+    scene_for_command_
+        .add_option("scene", scene_for.scene,
+                    "A scene's name (see: ssrlab list scenes), or a path to a .json, .gltf or .glb")
+        ->required()
+        ->type_name("SCENE");
+    scene_for_command_.add_option("--camera", scene_for.cameras, "One or more; default: the scene's first")
+        ->type_name("NAME");
+    scene_for_command_.add_option("--size", scene_for.size, "Width and height in pixels; default: 480 270")
+        ->expected(2)
+        ->type_name("W H")
+        ->check(CLI::Range(1, 16384));
+    scene_for_command_
+        .add_option("--frames", scene_for.frames,
+                    "Frames of the cameras' paths and of the animation, as 0-63 or 0 8 16")
+        ->capture_default_str()
+        ->type_name("N");
+    scene_for_command_
+        .add_option(
+            "--samples", scene_for.samples,
+            "Of the truth, per pixel: those of the study that will compare the images, which then finds it cached")
+        ->check(CLI::Range(16, 1 << 24))
+        ->capture_default_str();
+    scene_for_command_.add_option("--lit-samples", scene_for.lit_samples, "As the study's; default: all")
+        ->check(CLI::Range(16, 1 << 24));
+    scene_for_command_.add_flag("--ladder", scene_for.has_ladder, "The study has targets of the truth ladder");
+    scene_for_command_.add_option("--out", scene_for.out, "Folder")->required()->type_name("DIR");
+    add_scene_path(scene_for_command_, common), add_cache(scene_for_command_, common);
+    add_reading(scene_for_command_);
+    scene_for_command_.callback([&] { scene_for_command(scene_for, common); });
+
     hand_on(*app.add_subcommand("tables", "Make a study's tables (Markdown, LaTeX, CSV) from a results folder"),
             tables_command, status);
 

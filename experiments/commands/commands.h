@@ -70,6 +70,17 @@ struct JudgeOptions {
 };
 int judge_command(const JudgeOptions& options, const CommonOptions& common);  ///< the exit code: 0, or 1 if worse
 
+struct SceneForOptions {
+    std::string engine, scene;
+    std::vector<std::string> cameras;  ///< empty: the scene's first
+    std::vector<unsigned> size{480, 270};
+    std::vector<std::string> frames{"0"};                                    ///< each one's number, or "0-63"
+    unsigned samples = ReferenceSettings::default_samples, lit_samples = 0;  ///< of the light, as a study has them
+    bool has_ladder = false;
+    std::filesystem::path out;
+};
+void scene_for_command(const SceneForOptions& options, const CommonOptions& common);
+
 struct TradeoffOptions {
     std::filesystem::path results, out;
     std::string baseline, metric, mask, target, cost;                   ///< empty: the study's own, and time

@@ -1,0 +1,84 @@
+// The images of one point of an engine, as {"external": FOLDER} reads them, and what is checked before they are written.
+import { mkdirSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { readExr, writeExr } from "./exr.js";
+
+/** A pixel's view distance may differ by this share of itself, and by so many pixels: rasterisers disagree at edges. */
+const DEPTH_TOLERANCE = 0.01, most_differing = (pixels) => 8 + pixels / 500;
+/** Where engines add nothing their half floats differ by 2^-11 of a value. */
+const LIGHT_TOLERANCE = 0.002;
+
+/** Rows from the top, three channels apart, of a page's values. `rows`: "top" or "bottom", which comes first. */
+export function channelsOf(values, width, height, components, rows) {
+    const channels = [0, 1, 2].slice(0, components).map(() => new Float32Array(width * height));
+    for (let y = 0; y < height; ++y) {
+        const from = rows === "bottom" ? height - 1 - y : y;
+        for (let x = 0; x < width; ++x)
+            channels.forEach((channel, c) => (channel[y * width + x] = values[(from * width + x) * components + c]));
+    }
+    return channels;
+}
+
+export class FrameWriter {
+    /** `scene`: scene.json; `folder`: where it lies; `engine`: the adapter's engine.json. */
+    constructor({ scene, folder, out, engine, point, settings, seeds }) {
+        Object.assign(this, { scene, folder, out, engine, point, settings, seeds, milliseconds: [] });
+    }
+
+    frame(view, number) {
+        return this.scene.views.find((v) => v.view === view).frames.find((f) => f.frame === number);
+    }
+
+    /** `kind`: "off", "s0", ..., or "depth", which is only compared. Returns a sentence on what was found, or "". */
+    add({ view, frame, kind, values, components, rows, milliseconds }) {
+        const { width, height } = this.scene.views.find((v) => v.view === view);
+        if (values.length !== width * height * components)
+            throw new Error(`${view}: the page sent ${values.length} values; ${width} x ${height} pixels of ${components} are needed`);
+        const channels = channelsOf(values, width, height, components, rows);
+        if (kind === "depth") return this.compareDepth(view, frame, channels[0]);
+        const broken = channels.reduce((sum, channel) => sum + channel.filter((v) => !Number.isFinite(v)).length, 0);
+        if (broken) throw new Error(`${view}, frame ${frame}, ${kind}: ${broken} values are NaN or infinite`);
+        const [R, G, B] = channels;
+        writeExr(join(this.out, view, `f${frame}.${kind}.exr`), width, height, { R, G, B });
+        if (milliseconds !== undefined) this.milliseconds.push(milliseconds);
+        return kind === "off" ? this.compareLight(view, frame, channels) : "";
+    }
+
+    /** With reflections off every pixel holds the light that it was given: else something else shines or filters. */
+    compareLight(view, frame, channels) {
+        const light = readExr(join(this.folder, this.frame(view, frame).light)).channels, pixels = channels[0].length;
+        let differing = 0;
+        for (let i = 0; i < pixels; ++i)
+            differing += [light.R, light.G, light.B].some((of, c) => Math.abs(channels[c][i] - of[i]) > LIGHT_TOLERANCE * of[i] + 1e-5);
+        if (differing > most_differing(pixels))
+            throw new Error(`${view}, frame ${frame}: with reflections off ${differing} of ${pixels} pixels are not the light of scene.json`);
+        return `${differing} of ${pixels} pixels differ from the light`;
+    }
+
+    /** Since each pixel emits its own light, only depth shows whether camera and geometry are the scene's. */
+    compareDepth(view, frame, depth) {
+        const truth = readExr(join(this.folder, this.frame(view, frame).depth)).channels.Y, pixels = depth.length;
+        let differing = 0;
+        for (let i = 0; i < pixels; ++i) differing += Math.abs(depth[i] - truth[i]) > DEPTH_TOLERANCE * truth[i] ? 1 : 0;
+        if (differing > most_differing(pixels))
+            throw new Error(`${view}, frame ${frame}: depth differs from the scene's in ${differing} of ${pixels} pixels: another camera or geometry`);
+        return `${differing} of ${pixels} pixels have another depth`;
+    }
+
+    /** Writes external.json. */
+    finish({ driver, settings }) {
+        const external = {
+            name: this.engine.name,
+            point: this.point,
+            engine: this.engine.engine,
+            version: this.engine.version,
+            driver,
+            licence: this.engine.licence,
+            settings: settings ?? this.settings,
+            seeds: this.seeds,
+        };
+        if (this.milliseconds.length) external.milliseconds = [...this.milliseconds].sort((a, b) => a - b)[this.milliseconds.length >> 1];
+        mkdirSync(this.out, { recursive: true });
+        writeFileSync(join(this.out, "external.json"), JSON.stringify(external, null, 1) + "\n");
+    }
+}

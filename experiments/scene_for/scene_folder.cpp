@@ -1,0 +1,170 @@
+#include "experiments/scene_for/scene_folder.h"
+
+#include "core/error.h"
+#include "core/exr.h"
+#include "core/files.h"
+#include "core/path_inside.h"
+#include "core/shared/environment.h"
+#include "experiments/config/external_images.h"
+#include "experiments/config/shot.h"
+#include "experiments/measuring/measure.h"
+#include "experiments/scene_for/raw_files.h"
+#include "experiments/scene_for/scene_glb.h"
+#include "experiments/scene_for/scene_numbers.h"
+#include "groundtruth/reference/reference_cache.h"
+
+#include <cstdio>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using nlohmann::json;
+
+class FolderWriter {
+public:
+    explicit FolderWriter(const SceneFolderSettings& settings) : settings_(settings) {}
+
+    SceneFolder write() {
+        std::vector<Shot> shots;
+        const std::vector<std::string> first = {""};
+        for (const std::string& camera : settings_.cameras.empty() ? first : settings_.cameras)
+            shots.push_back(load_shot(
+                {.scene = settings_.scene, .camera = camera, .extent = settings_.extent, .frames = settings_.frames},
+                settings_.search_path));
+        const Scene& scene = shots.front().scene;
+        done_.warnings = scene.warnings;
+        json description = {{"scene", scene.name},
+                            {"engine", settings_.engine.name},
+                            {"samples", settings_.reference.max_samples},
+                            {"background", background(scene.environment)}};
+        std::vector<GlbCamera> cameras;
+        for (const Shot& shot : shots) {
+            cameras.push_back({.lens = shot.camera,
+                               .world_from_camera = shot_frame(shot, settings_.frames.front()).camera.world_from_view,
+                               .aspect = float(settings_.extent.x) / float(settings_.extent.y)});
+            description["views"].push_back(view(shot));
+        }
+        write_scene_glb(settings_.out / "scene.glb", scene, shot_frame(shots.front(), settings_.frames.front()).scene,
+                        cameras);
+        if (is_raw()) {
+            write_raw_meshes(settings_.out, scene, instance_names(scene));
+            description["meshes"] = "scene.meshes.json";
+        }
+        write_text(settings_.out / "scene.json", description.dump() + "\n");
+        return std::move(done_);
+    }
+
+private:
+    bool is_raw() const { return settings_.engine.format == SceneFormat::raw; }
+
+    json background(const Environment& environment) {
+        if (environment.type == Environment::Type::constant) return {{"color", numbers_of(environment.color)}};
+        const bool is_image = environment.type == Environment::Type::image;
+        const HostImage image = is_image ? environment.latlong : drawn(environment);
+        write_exr(settings_.out / "environment.exr", image);
+        write_hdr(settings_.out / "environment.hdr", image);
+        json entry = {{"image", "environment.exr"},
+                      {"hdr", "environment.hdr"},
+                      {"rotation", number_of(is_image ? environment.rotation : 0.0f)},
+                      {"orientation", "u = 0.5 + (atan2(z, x) + rotation) / (2 pi), v = acos(y) / pi; first row: +y"}};
+        if (is_raw()) {
+            write_raw_floats(settings_.out / "environment.f32", image);
+            entry["raw"] = "environment.f32", entry["width"] = image.extent.x, entry["height"] = image.extent.y;
+        }
+        return entry;
+    }
+
+    /// A gradient as an image.
+    static HostImage drawn(const Environment& environment) {
+        constexpr glm::uvec2 extent{512, 256};
+        HostImage image(extent, 3);
+        for (unsigned y = 0; y < extent.y; ++y)
+            for (unsigned x = 0; x < extent.x; ++x) {
+                const glm::vec2 uv = (glm::vec2(x, y) + 0.5f) / glm::vec2(extent);
+                image.set_rgb(size_t(y) * extent.x + x, environment.radiance(environment_direction(uv, 0.0f)));
+            }
+        return image;
+    }
+
+    json view(const Shot& shot) {
+        const std::string name = ExternalImages::view_name(shot);
+        const SceneCamera& lens = shot.camera;
+        json view = {{"view", name},
+                     {"camera", lens.name},
+                     {"width", settings_.extent.x},
+                     {"height", settings_.extent.y},
+                     {"near", number_of(lens.near)},
+                     {"far", number_of(lens.far)}};
+        if (lens.is_orthographic)
+            view["orthographic_height"] = number_of(lens.orthographic_height);
+        else
+            view["vertical_fov"] = number_of(lens.vertical_fov);
+        const std::vector<std::string> names = instance_names(shot.scene);
+        for (const unsigned frame : settings_.frames) {
+            const ShotFrame now = shot_frame(shot, frame);
+            json nodes = json::object();
+            for (size_t i = 0; i < names.size(); ++i)
+                nodes[names[i]] = matrix_numbers(now.scene.world_from_instance[i]);
+            view["frames"].push_back(frame_of(name, shot, now));
+            view["frames"].back()["nodes"] = std::move(nodes);
+        }
+        done_.views.push_back(name);
+        return view;
+    }
+
+    /// Light is what external images are compared with where nothing reflects, PoseTruth::direct. Depth shows an
+    /// adapter whether its camera and geometry are the scene's.
+    json frame_of(const std::string& view, const Shot& shot, const ShotFrame& now) {
+        const std::string stem = view + "/f" + std::to_string(now.frame);
+        const Reference reference = reference_of(shot, now);
+        const HostImage light = sum(reference.diffuse.mean, reference.highlights);
+        write_exr(path_inside(settings_.out, stem + ".light.exr"), light);
+        write_exr(
+            path_inside(settings_.out, stem + ".depth.exr"),
+            LayeredImage{.layers = {{.name = "", .channel_names = "Y", .image = reference.depth}}, .attributes = {}});
+        json entry = {{"frame", now.frame},
+                      {"world_from_camera", matrix_numbers(now.camera.world_from_view)},
+                      {"light", stem + ".light.exr"},
+                      {"depth", stem + ".depth.exr"}};
+        if (!is_raw()) return entry;
+        write_raw_floats(path_inside(settings_.out, stem + ".light.f32"), light);
+        write_raw_floats(path_inside(settings_.out, stem + ".depth.f32"), reference.depth);
+        entry["light_raw"] = stem + ".light.f32", entry["depth_raw"] = stem + ".depth.f32";
+        return entry;
+    }
+
+    Reference reference_of(const Shot& shot, const ShotFrame& now) {
+        ReferenceRun run;
+        const std::string what = shot.name() + ": light of frame " + std::to_string(now.frame);
+        run.progress = [&](double fraction, double rays_per_second, double) {
+            char rate[32];
+            std::snprintf(rate, sizeof rate, ", %.1f Mray/s", rays_per_second * 1e-6);
+            const double frames = double(done_.rendered + done_.cached);
+            const double all = double(settings_.frames.size() * std::max(settings_.cameras.size(), size_t(1)));
+            settings_.report((frames + fraction) / all, what + rate);
+        };
+        run.notice = [&](const std::string& text) { settings_.say("note: " + text); };
+        Reference reference = cached_reference(shot.scene, now.scene, now.camera, settings_.extent, settings_.reference,
+                                               settings_.cache, run);
+        ++(reference.from_cache ? done_.cached : done_.rendered);
+        return reference;
+    }
+
+    const SceneFolderSettings& settings_;
+    SceneFolder done_;
+};
+
+}  // namespace
+
+const std::vector<SceneEngine>& scene_engines() {
+    static const std::vector<SceneEngine> engines = {
+        {"any", "all formats, for an adapter of your own", SceneFormat::raw},
+        {"three", "three.js and what builds on it", SceneFormat::gltf},
+        {"babylon", "Babylon.js", SceneFormat::gltf},
+        {"eevee", "Blender", SceneFormat::gltf},
+        {"godot", "Godot 3, which reads neither glTF nor EXR at run time", SceneFormat::raw}};
+    return engines;
+}
+
+SceneFolder write_scene_folder(const SceneFolderSettings& settings) { return FolderWriter(settings).write(); }
