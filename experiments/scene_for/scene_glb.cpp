@@ -77,8 +77,8 @@ private:
 
     json material_of(const Material& material) {
         json pbr = {{"baseColorFactor", numbers_of(glm::vec4(material.base_color, material.alpha))},
-                    {"metallicFactor", material.metalness},
-                    {"roughnessFactor", material.roughness}};
+                    {"metallicFactor", number_of(material.metalness)},
+                    {"roughnessFactor", number_of(material.roughness)}};
         const auto add_slot = [&](json& to, const char* key, const TextureSlot& slot) {
             if (slot.texture >= 0) to[key] = slot_of(slot);
         };
@@ -86,18 +86,19 @@ private:
         add_slot(pbr, "metallicRoughnessTexture", material.metalness_roughness_texture);
         json all = {{"name", material.name}, {"pbrMetallicRoughness", std::move(pbr)}};
         add_slot(all, "normalTexture", material.normal_texture);
-        if (all.contains("normalTexture")) all["normalTexture"]["scale"] = material.normal_scale;
+        if (all.contains("normalTexture")) all["normalTexture"]["scale"] = number_of(material.normal_scale);
         add_slot(all, "occlusionTexture", material.occlusion_texture);
         add_slot(all, "emissiveTexture", material.emission_texture);
         // The factor itself is at most 1; what is brighter stands in the extension.
         const float strength = std::max({material.emission.x, material.emission.y, material.emission.z, 1.0f});
         all["emissiveFactor"] = numbers_of(glm::min(material.emission / strength, 1.0f));
-        if (strength > 1.0f) add_extension(all, "KHR_materials_emissive_strength", {{"emissiveStrength", strength}});
+        if (strength > 1.0f)
+            add_extension(all, "KHR_materials_emissive_strength", {{"emissiveStrength", number_of(strength)}});
         if (material.specular != 1.0f)
-            add_extension(all, "KHR_materials_specular", {{"specularFactor", material.specular}});
+            add_extension(all, "KHR_materials_specular", {{"specularFactor", number_of(material.specular)}});
         if (material.is_unlit) add_extension(all, "KHR_materials_unlit", json::object());
         if (material.alpha_mode == AlphaMode::mask)
-            all["alphaMode"] = "MASK", all["alphaCutoff"] = material.alpha_cutoff;
+            all["alphaMode"] = "MASK", all["alphaCutoff"] = number_of(material.alpha_cutoff);
         // ssrlab draws both sides of everything: an engine that leaves out backs would show another scene.
         all["doubleSided"] = true;
         return all;
@@ -153,8 +154,8 @@ private:
         json entry = {{"type", types[size_t(light.type)]},
                       {"name", light.name},
                       {"color", numbers_of(strength > 0 ? light.intensity / strength : glm::vec3(1.0f))},
-                      {"intensity", strength}};
-        if (light.range > 0) entry["range"] = light.range;
+                      {"intensity", number_of(strength)}};
+        if (light.range > 0) entry["range"] = number_of(light.range);
         if (light.type == LightType::spot)
             entry["spot"] = {{"innerConeAngle", std::acos(std::clamp(light.inner_cone_cos, -1.0f, 1.0f))},
                              {"outerConeAngle", std::acos(std::clamp(light.outer_cone_cos, -1.0f, 1.0f))}};
@@ -177,12 +178,16 @@ private:
         if (lens.is_orthographic) {
             const float half = 0.5f * lens.orthographic_height;
             entry["type"] = "orthographic";
-            entry["orthographic"] = {
-                {"xmag", half * camera.aspect}, {"ymag", half}, {"znear", lens.near}, {"zfar", lens.far}};
+            entry["orthographic"] = {{"xmag", half * camera.aspect},
+                                     {"ymag", half},
+                                     {"znear", number_of(lens.near)},
+                                     {"zfar", number_of(lens.far)}};
         } else {
             entry["type"] = "perspective";
-            entry["perspective"] = {
-                {"yfov", lens.vertical_fov}, {"aspectRatio", camera.aspect}, {"znear", lens.near}, {"zfar", lens.far}};
+            entry["perspective"] = {{"yfov", number_of(lens.vertical_fov)},
+                                    {"aspectRatio", camera.aspect},
+                                    {"znear", number_of(lens.near)},
+                                    {"zfar", number_of(lens.far)}};
         }
         const size_t index = glb_.add("cameras", std::move(entry));
         add_node({{"name", "camera_" + std::to_string(index)},

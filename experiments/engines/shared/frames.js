@@ -1,5 +1,5 @@
 // The images of one point of an engine, as {"external": FOLDER} reads them, and what is checked before they are written.
-import { mkdirSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { readExr, writeExr } from "./exr.js";
 
@@ -65,19 +65,23 @@ export class FrameWriter {
         return `${differing} of ${pixels} pixels have another depth`;
     }
 
-    /** Writes external.json. */
-    finish({ driver, settings }) {
-        const external = {
-            name: this.engine.name,
-            point: this.point,
-            engine: this.engine.engine,
-            version: this.engine.version,
-            driver,
-            licence: this.engine.licence,
-            settings: settings ?? this.settings,
-            seeds: this.seeds,
-        };
-        if (this.milliseconds.length) external.milliseconds = [...this.milliseconds].sort((a, b) => a - b)[this.milliseconds.length >> 1];
+    /** What external.json says; `driver` and times are known when all is rendered. */
+    description(driver = "") {
+        const { name, engine, version, licence } = this.engine;
+        return { name, point: this.point, engine, version, driver, licence, settings: this.settings, seeds: this.seeds };
+    }
+
+    /** Several scenes share a folder, if all is rendered alike. Returns what differs from what is there; "": nothing. */
+    otherThanThere() {
+        const file = join(this.out, "external.json");
+        if (!existsSync(file)) return "";
+        const there = JSON.parse(readFileSync(file, "utf8"));
+        return Object.entries(this.description()).find(([key, value]) => key !== "driver" && JSON.stringify(there[key]) !== JSON.stringify(value))?.[0] ?? "";
+    }
+
+    finish({ driver }) {
+        const external = this.description(driver), times = this.milliseconds.sort((a, b) => a - b);
+        if (times.length) external.milliseconds = times[times.length >> 1];
         mkdirSync(this.out, { recursive: true });
         writeFileSync(join(this.out, "external.json"), JSON.stringify(external, null, 1) + "\n");
     }

@@ -19,16 +19,28 @@ async function lightOf(view, frame) {
     return { width: view.width, height: view.height, rgba };
 }
 
-/** {color: [r, g, b]} or {width, height, rgba, rotation}; scene.json says how it lies. */
-async function backgroundOf(scene) {
-    if (scene.background.color) return scene.background;
-    const answer = await fetch("/environment");
-    return {
-        width: Number(answer.headers.get("x-width")),
-        height: Number(answer.headers.get("x-height")),
-        rotation: scene.background.rotation,
-        rgba: new Float32Array(await answer.arrayBuffer()),
-    };
+/** Radiance from infinity, {width, height, rgba: Float32Array}: u = 0.5 + atan2(z, x) / 2 pi, v = acos(y) / pi, first row +y. */
+async function backgroundOf({ background }) {
+    if (background.color) {
+        const width = 64, height = 32, rgba = new Float32Array(width * height * 4);
+        for (let i = 0; i < width * height; ++i) rgba.set([...background.color, 1], 4 * i);
+        return { width, height, rgba };
+    }
+    const answer = await fetch("/environment"), rgba = new Float32Array(await answer.arrayBuffer());
+    const width = Number(answer.headers.get("x-width")), height = Number(answer.headers.get("x-height"));
+    return rotated({ width, height, rgba }, background.rotation);
+}
+
+/** The image without its rotation about +y, so that no adapter has to know in which sense its engine counts. */
+function rotated({ width, height, rgba }, rotation) {
+    const turned = new Float32Array(rgba.length), shift = (rotation / (2 * Math.PI)) * width, whole = Math.floor(shift), part = shift - whole;
+    for (let x = 0; x < width; ++x) {
+        const left = (((x + whole) % width) + width) % width, right = (left + 1) % width;
+        for (let y = 0; y < height; ++y)
+            for (let c = 0; c < 4; ++c)
+                turned[4 * (y * width + x) + c] = (1 - part) * rgba[4 * (y * width + left) + c] + part * rgba[4 * (y * width + right) + c];
+    }
+    return { width, height, rgba: turned };
 }
 
 /** The same rows in the other order, as OpenGL counts them. */

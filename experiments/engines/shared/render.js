@@ -156,7 +156,8 @@ function serve(job, scene, writer) {
 
 export async function render(job) {
     const scene = json_of(join(job.folder, "scene.json"));
-    const writer = new FrameWriter({ scene, ...job });
+    const writer = new FrameWriter({ scene, ...job }), other = writer.otherThanThere();
+    if (other) throw new Mistake(`${job.out} holds images whose ${other} is another: name another folder`);
     const { server, done, end } = serve(job, scene, writer);
     await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
     const profile = mkdtempSync(join(tmpdir(), "ssrlab-engine-"));

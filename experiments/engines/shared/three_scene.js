@@ -50,18 +50,36 @@ function lightTexture({ width, height }) {
     return texture;
 }
 
-/** What the engine shades stays only where `add` is GLSL of it: "vec3(0)" for the light alone, say, or "indirectSpecular". */
-export function emitLight(material, light, add = "vec3(0.0)") {
+/**
+ * The material emits `light` by its pixel, and, where `on.value` is 1, `add`, GLSL of what the engine shades: its specular
+ * light of the environment, say, of which nothing is diffuse.
+ */
+export function emitLight(material, light, on = { value: 0 }, add = "vec3(0.0)") {
     material.onBeforeCompile = (shader) => {
-        shader.uniforms.ssrlabLight = { value: light };
-        shader.fragmentShader = `uniform highp sampler2D ssrlabLight;\n` + shader.fragmentShader
+        Object.assign(shader.uniforms, { ssrlabLight: { value: light }, ssrlabOn: on });
+        shader.fragmentShader = `uniform highp sampler2D ssrlabLight;\nuniform float ssrlabOn;\n` + shader.fragmentShader
             .replace(/#include <(opaque|output)_fragment>/,
-                `gl_FragColor = vec4(texelFetch(ssrlabLight, ivec2(gl_FragCoord.xy), 0).rgb + ${add}, 1.0);`)
+                `gl_FragColor = vec4(texelFetch(ssrlabLight, ivec2(gl_FragCoord.xy), 0).rgb, 1.0);
+                if (ssrlabOn > 0.0) gl_FragColor.rgb += ${add};`)
             .replace("#include <tonemapping_fragment>", "");
     };
     material.toneMapped = false;
     material.needsUpdate = true;
     return material;
+}
+
+/** GLSL of the specular light that reaches a standard material from scene.environment. */
+export const SPECULAR_OF_ENVIRONMENT = "reflectedLight.indirectSpecular";
+
+/** As scene.environment takes it; `background`: as page.js gives it. */
+export function environmentTexture(background) {
+    const { width, height, rgba } = turned(background);
+    const texture = new THREE.DataTexture(rgba, width, height, THREE.RGBAFormat, THREE.FloatType);
+    texture.mapping = THREE.EquirectangularReflectionMapping;
+    texture.minFilter = texture.magFilter = THREE.LinearFilter;
+    texture.wrapS = THREE.RepeatWrapping;
+    texture.needsUpdate = true;
+    return texture;
 }
 
 /** Replaces the materials of all meshes by `make(material)`, each once. */

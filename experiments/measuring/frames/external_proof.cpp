@@ -14,6 +14,8 @@ namespace {
 /// Emission and background are stored, not computed: engines differ in them by rounding to half floats and by what a
 /// texture's filter does. The second is of the image's brightest proof pixel: below that nothing can be told.
 constexpr float relative_tolerance = 0.02f, absolute_share = 1e-4f;
+/// Of proof pixels that reflections may change where they must not. More than that is no leak at edges.
+constexpr double largest_leak = 0.5;
 /// Standard errors of the truth's own light on surfaces that emit and are lit: one pixel in 16,000 lies beyond.
 constexpr float noise_deviations = 4;
 
@@ -120,6 +122,36 @@ std::string shift_of(const HostImage& image, const ProofPixels& proof, const Dif
            ": rays and samples must go through the centres of pixels, and the projection must have no jitter";
 }
 
+std::string seen(const Differences& found, const ProofPixels& proof) {
+    return std::to_string(found.count) + " of " + std::to_string(proof.count()) +
+           " pixels that show the background or surfaces that emit differ from the truth: ";
+}
+
+/// "" if nothing that was tried does.
+std::string what_undoes(const HostImage& image, const ProofPixels& proof, const Differences& found) {
+    const auto agrees = [&](const HostImage& other) {
+        return count_differing(other, proof) <= most_differing(proof.count());
+    };
+    if (agrees(turned(image, false, true))) return "the image is upside down; its first row must be the top";
+    if (agrees(turned(image, true, false))) return "left and right are exchanged";
+    if (agrees(turned(image, true, true))) return "the image is turned by half a turn; its first row must be the top";
+    if (agrees(mapped(image, [](glm::vec3 c) {
+            return glm::vec3(linear_from_srgb(c.x), linear_from_srgb(c.y), linear_from_srgb(c.z));
+        })))
+        return "it holds sRGB values; write linear ones";
+    if (const std::optional<float> factor = common_factor(image, proof);
+        factor && agrees(mapped(image, [&](glm::vec3 c) { return c / *factor; }))) {
+        char text[64];
+        std::snprintf(text, sizeof text, "%.4g", double(*factor));
+        return std::string("all are ") + text +
+               " times as bright as they should be; exposure must be 1, and units those of the scene";
+    }
+    if (is_cut_at_one(image, proof))
+        return "nothing is brighter than 1, where the scene is; switch tone mapping off, and write floats";
+    if (const std::string shift = shift_of(image, proof, found); !shift.empty()) return shift;
+    return "";
+}
+
 }  // namespace
 
 size_t ProofPixels::count() const {
@@ -159,31 +191,21 @@ Differences differences(const HostImage& image, const ProofPixels& proof) {
 }
 
 std::string why_refused(const HostImage& image, const ProofPixels& proof) {
-    const size_t count = proof.count(), allowed = most_differing(count);
     const Differences found = differences(image, proof);
-    if (found.count <= allowed) return "";
-    const std::string seen = std::to_string(found.count) + " of " + std::to_string(count) +
-                             " pixels that show the background or surfaces that emit differ from the truth: ";
-    const auto agrees = [&](const HostImage& other) { return count_differing(other, proof) <= allowed; };
-    if (agrees(turned(image, false, true))) return seen + "the image is upside down; its first row must be the top";
-    if (agrees(turned(image, true, false))) return seen + "left and right are exchanged";
-    if (agrees(turned(image, true, true)))
-        return seen + "the image is turned by half a turn; its first row must be the top";
-    if (agrees(mapped(image, [](glm::vec3 c) {
-            return glm::vec3(linear_from_srgb(c.x), linear_from_srgb(c.y), linear_from_srgb(c.z));
-        })))
-        return seen + "it holds sRGB values; write linear ones";
-    if (const std::optional<float> factor = common_factor(image, proof);
-        factor && agrees(mapped(image, [&](glm::vec3 c) { return c / *factor; }))) {
-        char text[64];
-        std::snprintf(text, sizeof text, "%.4g", double(*factor));
-        return seen + "all are " + text +
-               " times as bright as they should be; exposure must be 1, and units those of the scene";
-    }
-    if (is_cut_at_one(image, proof))
-        return seen + "nothing is brighter than 1, where the scene is; switch tone mapping off, and write floats";
-    if (const std::string shift = shift_of(image, proof, found); !shift.empty()) return seen + shift;
-    return seen + "camera, materials or units are others; compare the picture of where with the scene";
+    if (found.count <= most_differing(proof.count())) return "";
+    const std::string why = what_undoes(image, proof, found);
+    return seen(found, proof) +
+           (why.empty() ? "camera, materials or units are others; compare the picture of where with the scene" : why);
+}
+
+std::string why_refused_with_reflections(const HostImage& image, const ProofPixels& proof) {
+    const Differences found = differences(image, proof);
+    if (found.count <= most_differing(proof.count())) return "";
+    if (const std::string why = what_undoes(image, proof, found); !why.empty()) return seen(found, proof) + why;
+    if (double(found.count) <= largest_leak * double(proof.count())) return "";
+    return seen(found, proof) +
+           "reflections change most of what they must not change, or the image is of another view "
+           "than the one without them";
 }
 
 HostImage difference_picture(const HostImage& image, const ProofPixels& proof) {

@@ -108,12 +108,13 @@ private:
 
     /// Fails unless the image shows the scene.
     void check(const HostImage& image, const ProofPixels& proof, const std::filesystem::path& file,
-               const FrameStep& step) const {
+               const FrameStep& step, bool has_reflections) const {
         if (proof.count() < least_proof_pixels)
             fail(point_.shot.name(), ": ", proof.count(),
                  " pixels show the background or surfaces that emit, of which ", least_proof_pixels,
                  " are needed to see whether images of another program have the same camera; choose another view");
-        const std::string why = why_refused(image, proof);
+        const std::string why =
+            has_reflections ? why_refused_with_reflections(image, proof) : why_refused(image, proof);
         if (why.empty()) return;
         const std::string name = "images/refused." + point_.variant.variant + "." + point_.shot.name() + ".f" +
                                  std::to_string(step.frame) + ".png";
@@ -127,7 +128,7 @@ private:
         const Proofs of_step = proofs(step);
         const std::filesystem::path file = images_.proof(point_.shot, step.frame);
         const HostImage off = read(file);
-        check(off, of_step.off, file, step);
+        check(off, of_step.off, file, step, false);
         compared_ += of_step.off.count(), differing_ += differences(off, of_step.off).count;
         with_reflections_[step.frame] = of_step.on;
     }
@@ -135,7 +136,10 @@ private:
     void add_frame(PointErrors& errors, SeedErrors& seed, const FrameStep& step) {
         const std::filesystem::path file = images_.image(point_.shot, step.frame, seed.seed);
         const HostImage image = read(file);
-        check(image, with_reflections_.at(step.frame), file, step);
+        const ProofPixels& proof = with_reflections_.at(step.frame);
+        check(image, proof, file, step, true);
+        const size_t leaks = differences(image, proof).count;
+        if (leaks > most_differing(proof.count())) most_leaks_ = std::max(most_leaks_, leaks);
         const CompositedImages result{.specular = difference(image, truth(step).pose->direct), .image = image};
         errors.add(seed, step, result);
         if (seed.seed != point_.variant.seeds.front() ||
@@ -174,6 +178,9 @@ private:
                            (images_.driver.empty() ? "" : " on " + images_.driver) + "; of " +
                            std::to_string(compared_) + " pixels of background and emission " +
                            std::to_string(differing_) + " differ from the truth";
+        if (most_leaks_ > 0)
+            text += ", with reflections up to " + std::to_string(most_leaks_) +
+                    ": the technique adds light where nothing reflects, which counts as its error";
         if (images_.milliseconds) {
             char time[64];
             std::snprintf(time, sizeof time, "%.3g ms", *images_.milliseconds);
@@ -187,7 +194,8 @@ private:
     const ExternalImages& images_;
     ImageQueue queue_;
     std::map<unsigned, ProofPixels> with_reflections_;  ///< by frame
-    size_t compared_ = 0, differing_ = 0;
+    size_t compared_ = 0, differing_ = 0;               ///< without reflections
+    size_t most_leaks_ = 0;                             ///< of an image with them; 0: none to speak of
 };
 
 }  // namespace
