@@ -14,13 +14,15 @@ build_packages=(
     python3-optuna  # the optimiser of `ssrlab tune`: several objectives, mixed and conditional parameters
 )
 # What only the tests need: the validation layer, a browser for the report, Snakemake for studies in parallel, pandas for the example that
-# reads results, and readers of Markdown and LaTeX (40 MB to fetch), which say what names in tables do there.
-test_packages=(vulkan-validationlayers chromium chromium-driver python3-selenium snakemake python3-pandas python3-jsonschema
+# reads results, Node.js for the adapters of engines, and readers of Markdown and LaTeX (40 MB to fetch), which say what names in tables do there.
+test_packages=(vulkan-validationlayers chromium chromium-driver nodejs python3-selenium snakemake python3-pandas python3-jsonschema
                python3-markdown-it texlive-latex-base)
 # What only tests/exporters.sh needs: Blender; RenderDoc, its Python module, and the header of its in-application API.
 exporter_packages=(blender librenderdoc librenderdoc-dev python3-renderdoc)
 # What only tests/experiments/cluster/slurm_test.sh needs: Slurm's daemons and commands, and what they know each other by.
 cluster_packages=(snakemake slurmctld slurmd slurm-client munge)
+# What only experiments/engines needs: Node.js serves pages with engines from its registry, and a browser runs them.
+engine_packages=(nodejs chromium)
 # What only the website of the documents needs.
 docs_packages=(python3-sphinx python3-myst-parser furo)
 

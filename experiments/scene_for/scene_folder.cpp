@@ -32,7 +32,7 @@ public:
             shots.push_back(load_shot(
                 {.scene = settings_.scene, .camera = camera, .extent = settings_.extent, .frames = settings_.frames},
                 settings_.search_path));
-        const Scene& scene = shots.front().scene;
+        const Scene& scene = shots.front().scene;  // that of all
         done_.warnings = scene.warnings;
         json description = {{"scene", scene.name},
                             {"engine", settings_.engine.name},

@@ -2,6 +2,7 @@
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { readExr, writeExr } from "./exr.js";
+import { Mistake } from "./mistake.js";
 
 /** A pixel's view distance may differ by this share of itself, and by so many pixels: rasterisers disagree at edges. */
 const DEPTH_TOLERANCE = 0.01, most_differing = (pixels) => 8 + pixels / 500;
@@ -33,11 +34,11 @@ export class FrameWriter {
     add({ view, frame, kind, values, components, rows, milliseconds }) {
         const { width, height } = this.scene.views.find((v) => v.view === view);
         if (values.length !== width * height * components)
-            throw new Error(`${view}: the page sent ${values.length} values; ${width} x ${height} pixels of ${components} are needed`);
+            throw new Mistake(`${view}: the page sent ${values.length} values; ${width} x ${height} pixels of ${components} are needed`);
         const channels = channelsOf(values, width, height, components, rows);
         if (kind === "depth") return this.compareDepth(view, frame, channels[0]);
         const broken = channels.reduce((sum, channel) => sum + channel.filter((v) => !Number.isFinite(v)).length, 0);
-        if (broken) throw new Error(`${view}, frame ${frame}, ${kind}: ${broken} values are NaN or infinite`);
+        if (broken) throw new Mistake(`${view}, frame ${frame}, ${kind}: ${broken} values are NaN or infinite`);
         const [R, G, B] = channels;
         writeExr(join(this.out, view, `f${frame}.${kind}.exr`), width, height, { R, G, B });
         if (milliseconds !== undefined) this.milliseconds.push(milliseconds);
@@ -51,7 +52,7 @@ export class FrameWriter {
         for (let i = 0; i < pixels; ++i)
             differing += [light.R, light.G, light.B].some((of, c) => Math.abs(channels[c][i] - of[i]) > LIGHT_TOLERANCE * of[i] + 1e-5);
         if (differing > most_differing(pixels))
-            throw new Error(`${view}, frame ${frame}: with reflections off ${differing} of ${pixels} pixels are not the light of scene.json`);
+            throw new Mistake(`${view}, frame ${frame}: with reflections off ${differing} of ${pixels} pixels are not the light of scene.json`);
         return `${differing} of ${pixels} pixels differ from the light`;
     }
 
@@ -61,7 +62,7 @@ export class FrameWriter {
         let differing = 0;
         for (let i = 0; i < pixels; ++i) differing += Math.abs(depth[i] - truth[i]) > DEPTH_TOLERANCE * truth[i] ? 1 : 0;
         if (differing > most_differing(pixels))
-            throw new Error(`${view}, frame ${frame}: depth differs from the scene's in ${differing} of ${pixels} pixels: another camera or geometry`);
+            throw new Mistake(`${view}, frame ${frame}: depth differs from the scene's in ${differing} of ${pixels} pixels: another camera or geometry`);
         return `${differing} of ${pixels} pixels have another depth`;
     }
 

@@ -3,16 +3,16 @@ import { spawn } from "node:child_process";
 import { createServer } from "node:http";
 import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { dirname, extname, join, normalize } from "node:path";
+import { basename, dirname, extname, join, normalize, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { readExr } from "./exr.js";
 import { FrameWriter } from "./frames.js";
+import { Mistake } from "./mistake.js";
 
 const ENGINES = dirname(dirname(fileURLToPath(import.meta.url)));
+const PACKAGES = join(dirname(dirname(ENGINES)), "build/engines");  // where run.sh installs them
 const TYPES = { ".js": "text/javascript", ".mjs": "text/javascript", ".json": "application/json", ".wasm": "application/wasm", ".html": "text/html" };
 const MINUTES = 20;  // for all frames, on a processor
-
-class Mistake extends Error {}
 
 const json_of = (file) => {
     try {
@@ -53,9 +53,11 @@ export function parse(words) {
     }
     if (job.positional.length !== 3) throw new Mistake("three words are needed: ENGINE SCENE_FOLDER OUT");
     const [name, folder, out] = job.positional;
-    if (!adapters().includes(name)) throw new Mistake(`no engine '${name}'; there are ${adapters().join(", ")}`);
+    const adapter = name.includes("/") ? resolve(name) : join(ENGINES, name);
+    if (!existsSync(join(adapter, "engine.json")))
+        throw new Mistake(`no engine '${name}'; there are ${adapters().join(", ")}, and paths of folders with engine.json and adapter.js`);
     if (!(Number.isInteger(job.seeds) && job.seeds >= 1 && job.seeds <= 1000)) throw new Mistake(`--seeds must be from 1 to 1000`);
-    const engine = json_of(join(ENGINES, name, "engine.json"));
+    const engine = json_of(join(adapter, "engine.json"));
     const preset = job.point ?? "default";
     const is_known = preset in engine.points;
     if (!is_known && job.set.length === 0)
@@ -65,7 +67,7 @@ export function parse(words) {
     for (const key of Object.keys(settings))
         if (!(key in own)) throw new Mistake(`${name} has no setting '${key}'; there are ${Object.keys(own).join(", ")}`);
     const point = job.point ?? (job.set.length ? job.set.map(([key, value]) => `${key}_${value}`).join("-").replace(/[^A-Za-z0-9_.-]/g, "_") : "default");
-    return { name, folder, out, engine, point, settings: { ...own, ...settings }, seeds: job.seeds, chromium: job.chromium };
+    return { name: basename(adapter), adapter, folder, out, engine, point, settings: { ...own, ...settings }, seeds: job.seeds, chromium: job.chromium };
 }
 
 function page(job) {
@@ -73,7 +75,7 @@ function page(job) {
     return `<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><script type="importmap">${map}</script><body>
 <script>addEventListener("error", (e) => fetch("/fail", {method: "POST", body: e.message || "a script cannot be loaded"}), true)</script>
 <script type="module">
-import("ssrlab/page.js").then(async (page) => page.run(await import("/engines/${job.name}/adapter.js")))
+import("ssrlab/page.js").then(async (page) => page.run(await import("/adapter/adapter.js")))
     .catch((e) => fetch("/fail", {method: "POST", body: e.stack || String(e)}));
 </script>`;
 }
@@ -113,7 +115,7 @@ function serve(job, scene, writer) {
             answer.end();
         },
         "/fail": async (request, answer) => {
-            end.reject(new Error((await body_of(request)).toString()));
+            end.reject(new Error(`in the page: ${(await body_of(request)).toString()}`));
             answer.end();
         },
         "/done": async (request, answer) => {
@@ -139,7 +141,8 @@ function serve(job, scene, writer) {
         try {
             if (answers[path]) return await answers[path](request, answer, url);
             if (path.startsWith("/engines/")) return send_file(answer, ENGINES, path.slice("/engines/".length));
-            if (path.startsWith("/node_modules/")) return send_file(answer, ENGINES, path);
+            if (path.startsWith("/adapter/")) return send_file(answer, job.adapter, path.slice("/adapter/".length));
+            if (path.startsWith("/node_modules/")) return send_file(answer, PACKAGES, path);
             if (path.startsWith("/scene/")) return send_file(answer, job.folder, path.slice("/scene/".length));
             if (path.startsWith("/light/")) {
                 const [, , view, frame] = path.split("/");
@@ -163,7 +166,7 @@ export async function render(job) {
     const profile = mkdtempSync(join(tmpdir(), "ssrlab-engine-"));
     // A software rasteriser, so that images are the same on every machine; --no-sandbox: containers run as root.
     const browser = spawn(job.chromium, ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--no-first-run", "--mute-audio",
-        "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist",
+        "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist", ...(job.engine.chromium ?? []),
         `--user-data-dir=${profile}`, `http://127.0.0.1:${server.address().port}/`], { stdio: "ignore", detached: true });
     browser.on("error", (error) => end.reject(new Error(`${job.chromium} cannot be started: ${error.message}; install Debian's chromium, or name one by CHROMIUM`)));
     browser.on("exit", () => end.reject(new Error(`${job.chromium} ended before the images were there`)));

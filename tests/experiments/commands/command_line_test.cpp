@@ -255,9 +255,26 @@ TEST_F(CommandLine, JudgesFrames) {
     expect_mistake("judge now --scene fence", "now holds no images of 'fence'");
 }
 
+TEST_F(CommandLine, WritesScenesForEngines) {
+    const Outcome o =
+        ssrlab("scene-for three mirror_pillars --size 32 18 --samples 16 --camera main dolly --frames 0-1 5 --out s");
+    EXPECT_EQ(o.code, 0) << o.text;
+    EXPECT_NE(o.text.find("s/scene.json: 2 views, 6 light images (3 from the cache)"), std::string::npos)
+        << "main stands still, and dolly starts there\n"
+        << o.text;
+    for (const char* file : {"scene.glb", "scene.json", "mirror_pillars.main.32x18/f1.light.exr",
+                             "mirror_pillars.dolly.32x18/f5.depth.exr"})
+        EXPECT_TRUE(fs::exists(folder / "s" / file)) << file;
+    expect_mistake("scene-for thre mirror_pillars --out s", "unknown engine 'thre'; did you mean 'three'?");
+    expect_mistake("scene-for any mirror_pillars --frames 5-1 --out s", "--frames: '5-1' runs backwards");
+    expect_mistake("scene-for any mirror_pillars --frames 1e3 --out s", "--frames: '1e3' must be a frame");
+    expect_mistake("scene-for any mirror_pillars --camera bak --out s", "'bak'");
+    EXPECT_EQ(ssrlab("scene-for any mirror_pillars").code, 2) << "without --out";
+}
+
 TEST_F(CommandLine, EveryCommandExplainsItself) {
     for (const char* command :
-         {"", "run", "figures", "compare", "judge", "reference", "gbuffer", "needs", "describe", "list"}) {
+         {"", "run", "figures", "compare", "judge", "scene-for", "reference", "gbuffer", "needs", "describe", "list"}) {
         const Outcome o = ssrlab(std::string(command) + " --help");
         EXPECT_EQ(o.code, 0);
         EXPECT_GT(o.text.size(), 100u) << command;

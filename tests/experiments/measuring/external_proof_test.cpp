@@ -95,6 +95,17 @@ TEST(ExternalProof, SaysWhatUndoesTheDifference) {
     EXPECT_TRUE(says(why_refused(HostImage(extent, 3, std::numeric_limits<float>::quiet_NaN()), all), "differ"));
 }
 
+/// As a blur that reaches over the edges of what reflects: an error of the technique's, not of its camera.
+TEST(ExternalProof, LeavesWhatReflectionsLeakToTheirError) {
+    HostImage leaking = photo(middle);
+    for (unsigned x = 0; x < extent.x; ++x)
+        for (unsigned y = 50; y < 70; ++y) leaking.set_rgb(size_t(y) * extent.x + x, glm::vec3(0.1f * float(x % 7)));
+    EXPECT_NE(why_refused(leaking, proof()), "");
+    EXPECT_EQ(why_refused_with_reflections(leaking, proof()), "");
+    EXPECT_TRUE(says(why_refused_with_reflections(turned(photo(middle), false, true), proof()), "upside down"));
+    EXPECT_TRUE(says(why_refused_with_reflections(HostImage(extent, 3, 0.1f), proof()), "change most of what"));
+}
+
 TEST(ExternalProof, SaysWhereToAnImageIsShifted) {
     const struct {
         glm::vec2 offset;  // a sample right of its pixel's centre sees what lies right of it: edges move left

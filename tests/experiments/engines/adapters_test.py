@@ -1,0 +1,104 @@
+#!/usr/bin/env python3
+"""Adapters of engines: what each says of itself, and that images on their way through page, server and EXR files are read by
+ssrlab as they were drawn. Downloads nothing: the engine is an echo.
+
+usage: adapters_test.py SSRLAB
+"""
+import json
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ENGINES = Path(__file__).resolve().parents[3] / "experiments/engines"
+ECHO = Path(__file__).resolve().parent / "echo"
+SKIPPED = 77  # as CMakeLists.txt tells ctest
+
+
+def check(holds, what):
+    if not holds:
+        sys.exit(f"failed: {what}")
+
+
+def check_descriptions():
+    package = json.loads((ENGINES / "package.json").read_text())
+    pinned = {f"{name}@{version}" for name, version in package["dependencies"].items()}
+    readme = (ENGINES / "README.md").read_text()
+    adapters = sorted(file.parent for file in ENGINES.glob("*/engine.json"))
+    check(adapters, "there are adapters")
+    names = set()
+    for folder in adapters:
+        engine = json.loads((folder / "engine.json").read_text())
+        for key in ("name", "engine", "version", "licence"):
+            check(isinstance(engine[key], str) and engine[key], f"{folder.name}: {key}")
+        check(re.fullmatch(r"[A-Za-z0-9_.-]+", engine["name"]), f"{folder.name}: ssrlab takes its name")
+        names.add(engine["name"])
+        check("default" in engine["points"], f"{folder.name} has a point 'default'")
+        for point, settings in engine["points"].items():
+            check(set(settings) <= set(engine["defaults"]), f"{folder.name}, {point}: all of its settings have a default")
+        for key, value in engine["defaults"].items():
+            check(isinstance(value, (str, int, float, bool)), f"{folder.name}: ssrlab takes the setting {key}")
+        if "package" in engine:
+            check(engine["package"] in pinned, f"{folder.name}: {engine['package']} is pinned in package.json")
+            check(not any(sign in engine["package"].partition(":")[2] for sign in "^~*"), f"{folder.name}: one version")
+        check(f"`{folder.name}`" in readme, f"{folder.name} is in README.md")
+    check(len(names) == len(adapters), "names are unique")
+
+
+def run(*command, folder):
+    done = subprocess.run([str(word) for word in command], cwd=folder, capture_output=True, text=True, check=False)
+    return done.returncode, done.stdout + done.stderr
+
+
+def check_echo(ssrlab, folder):
+    cache = ("--cache", folder / "cache")
+    code, said = run(ssrlab, "scene-for", "any", "mirror_pillars", "--size", 96, 54, "--samples", 32, "--out", "scene", *cache,
+                     folder=folder)
+    check(code == 0, said)
+
+    def render(out, *options):
+        return run("node", ENGINES / "shared/render.js", ECHO, "scene", out, *options, folder=folder)
+
+    code, said = render("out", "--set", "reflection=0.25", "--point", "a_quarter", "--seeds", 2)
+    check(code == 0, said)
+    external = json.loads((folder / "out/external.json").read_text())
+    check(external["point"] == "a_quarter" and external["settings"] == {"reflection": 0.25, "wrong": ""}, external)
+    check(external["milliseconds"] == 1.5 and external["seeds"] == 2 and external["driver"] == "none", external)
+    # A background that reflects is refused, but only by ssrlab, which knows what reflects.
+    code, said = run(ssrlab, "judge", "out", "--samples", 32, *cache, folder=folder)
+    check(code == 2 and "reflections change most of what they must not change" in said, said)
+    code, said = render("still")
+    check(code == 0, said)
+    code, said = run(ssrlab, "judge", "still", "--samples", 32, *cache, folder=folder)
+    check(code == 0 and "mirror_pillars.main.96x54: mse " in said, said)
+    view = "mirror_pillars.main.96x54"
+    code, said = run(ssrlab, "compare", f"scene/{view}/f0.light.exr", f"still/{view}/f0.s0.exr", "--metric", "mse", folder=folder)
+    check(re.search(r"^mse +0$", said, re.M), said)
+
+    for options, code_of, words in (
+            (["--set", "wrong=depth"], 2, "another camera or geometry"),
+            (["--set", "wrong=light"], 2, "are not the light of scene.json"),
+            (["--set", "wrong=NaN"], 2, "values are NaN or infinite"),
+            (["--set", "reflecton=1"], 2, "no setting 'reflecton'"),
+            (["--point", "best"], 2, "no point 'best'"),
+            (["--seeds", "0"], 2, "--seeds must be")):
+        code, said = render("wrong", *options)
+        check(code == code_of and words in said, (options, code, said))
+        check(not (folder / "wrong/external.json").exists(), "images that were refused are not described")
+    code, said = render("still", "--set", "reflection=1")
+    check(code == 2 and "holds images whose point is another" in said, said)
+
+
+def main():
+    check_descriptions()
+    missing = [program for program in ("node", "chromium") if not shutil.which(program)]
+    if missing:
+        print(f"skipped: {' and '.join(missing)} are not installed; what adapters say of themselves was checked")
+        sys.exit(SKIPPED)
+    with tempfile.TemporaryDirectory(prefix="ssrlab_engines_") as folder:
+        check_echo(Path(sys.argv[1]).resolve(), Path(folder))
+
+
+main()
