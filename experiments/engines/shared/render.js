@@ -1,4 +1,5 @@
-// Renders a scene folder of `ssrlab scene-for` with an engine that runs in a browser; render.sh says how it is called.
+// Renders a scene folder of `ssrlab scene-for` with an engine, in a browser or (program.js) a program of its own; render.sh
+// says how it is called.
 import { spawn } from "node:child_process";
 import { createServer } from "node:http";
 import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync } from "node:fs";
@@ -8,6 +9,7 @@ import { fileURLToPath } from "node:url";
 import { readExr } from "./exr.js";
 import { FrameWriter } from "./frames.js";
 import { Mistake } from "./mistake.js";
+import { renderWithProgram } from "./program.js";
 
 const ENGINES = dirname(dirname(fileURLToPath(import.meta.url)));
 const PACKAGES = join(dirname(dirname(ENGINES)), "build/engines");  // where run.sh installs them
@@ -161,6 +163,8 @@ export async function render(job) {
     const scene = json_of(join(job.folder, "scene.json"));
     const writer = new FrameWriter({ scene, ...job }), other = writer.otherThanThere();
     if (other) throw new Mistake(`${job.out} holds images whose ${other} is another: name another folder`);
+    if (job.engine.program)
+        return writer.finish(await renderWithProgram({ job: { ...job, folder: resolve(job.folder) }, scene, writer, adapter: join(ENGINES, job.name), minutes: MINUTES }));
     const { server, done, end } = serve(job, scene, writer);
     await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
     const profile = mkdtempSync(join(tmpdir(), "ssrlab-engine-"));
