@@ -15,7 +15,7 @@ from mathutils import Matrix
 
 Y_UP_TO_Z_UP = Matrix(((1, 0, 0, 0), (0, 0, -1, 0), (0, 1, 0, 0), (0, 0, 0, 1)))
 DIELECTRIC_F0 = 0.04
-OWN_SETTINGS = ("world",)  # of this adapter; the others are properties of Scene.eevee
+OWN_SETTINGS = ("environment",)  # of this adapter; the others are properties of Scene.eevee
 
 
 class AdapterError(Exception):
@@ -142,17 +142,16 @@ def prepare_render(scene):
 
 
 def apply_settings(eevee, settings):
-    """Returns them as the engine holds them."""
-    held = {}
     for name, value in settings.items():
-        if name not in OWN_SETTINGS:
-            try:
-                setattr(eevee, name, value)
-            except TypeError as e:
-                raise AdapterError(f"the setting {name} cannot be {value!r}: {e}") from e
-            value = getattr(eevee, name)
-        held[name] = round(value, 6) if isinstance(value, float) else value
-    return held
+        if name in OWN_SETTINGS:
+            continue
+        try:
+            setattr(eevee, name, value)
+        except TypeError as e:
+            raise AdapterError(f"the setting {name} cannot be {value!r}: {e}") from e
+        held = getattr(eevee, name)
+        if abs(held - value) > 1e-6 * abs(value):
+            raise AdapterError(f"the setting {name} cannot be {value!r}: the engine takes {held!r} for it")
 
 
 def set_view(scene, view):
@@ -205,7 +204,8 @@ def render_all(request, place):
     check_names(objects, contract)
     scene, emitters = bpy.context.scene, Emitters()
     prepare_render(scene)
-    settings = apply_settings(scene.eevee, request["settings"])
+    settings = request["settings"]
+    apply_settings(scene.eevee, settings)
     gltf = gltf_of(folder / "scene.glb")
     done = set()
     for node in (n for n in gltf["nodes"] if n.get("name") in objects and "mesh" in n):
@@ -232,7 +232,7 @@ def render_all(request, place):
             light = load_floats(folder / frame["light"])
             emitters.show(light)
             write(f"{name}.off", rendered(scene, 1, place))
-            scene.eevee.use_ssr, world.inputs["Strength"].default_value = True, float(settings["world"])
+            scene.eevee.use_ssr, world.inputs["Strength"].default_value = True, float(settings["environment"])
             before = 0
             for seed in range(request["seeds"]):
                 # Sample n is the same however many follow. So a longer render less a shorter one are the samples between.
@@ -240,18 +240,17 @@ def render_all(request, place):
                 write(f"{name}.s{seed}", total - before)
                 before = total
             bpy.data.images.remove(light)
-    return settings
 
 
 def main():
     request = json.loads(Path(sys.argv[sys.argv.index("--") + 1]).read_text())
     try:
         with tempfile.TemporaryDirectory() as place:
-            settings = render_all(request, Path(place))
+            render_all(request, Path(place))
     except AdapterError as e:
         print(f"error: {e}")
         sys.exit(2)
-    done = {"driver": gpu.platform.renderer_get(), "version": bpy.app.version_string, "settings": settings}
+    done = {"driver": gpu.platform.renderer_get(), "version": bpy.app.version_string}
     Path(request["out"], "done.json").write_text(json.dumps(done))
 
 

@@ -3,7 +3,7 @@ extends SceneTree
 # Renders a folder of `ssrlab scene-for godot` with Godot 3's screen-space reflections (README.md beside this file).
 # Run by render.sh; ../shared/program.js says what it reads and writes.
 
-const OWN_SETTINGS = ["sky"]  # of this adapter; the others are properties of Environment
+const OWN_SETTINGS = ["environment"]  # of this adapter; the others are properties of Environment
 # What surfaces and the background emit, and with which render modes: Godot reflects the sky, and the background's colour
 # where there is none, unless ambient light is disabled.
 const LIGHT = "texelFetch(light, ivec2(vec2(SCREEN_UV.x, 1.0 - SCREEN_UV.y) * size), 0).rgb"
@@ -213,6 +213,8 @@ func make_sky(background):
 		sky.panorama = texture
 	else:
 		sky.panorama = float_texture(background["raw"], background["width"], background["height"], Texture.FLAG_FILTER)
+		# Godot's panorama begins a quarter turn from scene.json's.
+		environment.background_sky_rotation = Vector3(0, PI / 2 + background["rotation"], 0)
 	environment.background_sky = sky
 
 func render_frame(view, frame):
@@ -230,7 +232,7 @@ func render_frame(view, frame):
 	write_image(view, frame, "depth", "depth", Image.FORMAT_RF)
 	write_image(view, frame, "off", "off", Image.FORMAT_RGBF)
 	environment.ss_reflections_enabled = true
-	if request["settings"]["sky"]:
+	if request["settings"]["environment"]:
 		environment.background_mode = Environment.BG_COLOR_SKY
 		write_image(view, frame, "s0", "sky", Image.FORMAT_RGBF)
 	else:

@@ -2,7 +2,7 @@
 //
 // The command gets one more word, the path of request.json: {folder, scene, settings, seeds, out}, `scene` being scene.json's
 // content. The program writes into `out`, for each view and frame, VIEW/fN.depth.f32, fN.off.f32, fN.s0.f32, ...: float32,
-// first row at the top, one channel (depth) or three. Then it writes done.json: {"driver", "version", "settings"?}.
+// first row at the top, one channel (depth) or three. Then it writes done.json: {"driver", "version"}.
 import { spawn } from "node:child_process";
 import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
