@@ -23,7 +23,7 @@ import "@babylonjs/core/PostProcesses/RenderPipeline/postProcessRenderPipelineMa
 import "@babylonjs/core/Rendering/depthRendererSceneComponent.js";
 import { LoadAssetContainerAsync } from "@babylonjs/core/Loading/sceneLoader.js";
 import "@babylonjs/loaders/glTF/2.0/index.js";
-import { exposureOf, latLong, scaled } from "ssrlab/light.js";
+import { exposed, exposureOf, scaled } from "ssrlab/light.js";
 import { driverOf, turned } from "ssrlab/page.js";
 
 const BYTE = 0, FLOAT = 1, HALF = 2, RGBA = 5, NEAREST = 1, BILINEAR = 2, TRILINEAR = 3;  // of Babylon's Constants
@@ -89,9 +89,9 @@ function cubeOf({ width, height, rgba }, size) {
     });
 }
 
-async function environmentOf(background, exposure, size_of_images, scene, engine) {
-    const size = background.color ? 16 : size_of_images;
-    const cube = new RawCubeTexture(scene, cubeOf(latLong(background, exposure), size), size, RGBA, FLOAT, true, false, TRILINEAR);
+async function environmentOf(background, exposure, largest, scene, engine) {
+    const size = Math.min(largest, background.height / 2);
+    const cube = new RawCubeTexture(scene, cubeOf(exposed(background, exposure), size), size, RGBA, FLOAT, true, false, TRILINEAR);
     cube.gammaSpace = false;
     cube.sphericalPolynomial = new SphericalPolynomial();  // diffuse light, which nothing shows
     await new HDRFiltering(engine).prefilter(cube);
@@ -147,8 +147,8 @@ export async function open({ view, settings, background, light: light_of, canvas
     };
     return {
         driver: driverOf(engine._gl),
-        pose(frame, { width, height, rgba }) {
-            light.update(turned({ width, height, rgba: scaled(rgba, exposure) }).rgba);
+        pose(frame, image) {
+            light.update(turned(exposed(image, exposure)).rgba);
             // glTF's right-handed world as Babylon's loader turns it: x is -x.
             const m = frame.world_from_camera, point = (x, y, z) => new Vector3(-x, y, z);
             camera.position = point(m[12], m[13], m[14]);

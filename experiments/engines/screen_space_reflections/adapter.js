@@ -2,9 +2,9 @@
 import * as THREE from "three";
 import { EffectComposer, EffectPass, Pass, RenderPass } from "postprocessing";
 import { SSREffect } from "screen-space-reflections";
-import { exposureOf, latLong, scaled } from "ssrlab/light.js";
-import { driverOf, turned } from "ssrlab/page.js";
-import { drawDepth, emitLight, loadScene, replaceMaterials } from "ssrlab/three_scene.js";
+import { exposed, exposureOf, scaled } from "ssrlab/light.js";
+import { driverOf } from "ssrlab/page.js";
+import { SPECULAR_OF_ENVIRONMENT, drawDepth, emitLight, environmentTexture, loadScene, replaceMaterials } from "ssrlab/three_scene.js";
 
 const JITTERS_OF_SEED = 37;  // of its 1,024 jitters of the camera, between the first ones of two seeds
 const SELECTIONS = { all: () => true, metals: (material) => material.metalness >= 0.5 };
@@ -28,15 +28,6 @@ class LightPass extends Pass {
     }
 }
 
-/** Filtered for all roughnesses: the effect takes the size of its levels from the scene's texture. */
-function environmentOf(renderer, background, exposure) {
-    const { width, height, rgba } = turned(latLong(background, exposure));
-    const image = new THREE.DataTexture(rgba, width, height, THREE.RGBAFormat, THREE.FloatType);
-    image.mapping = THREE.EquirectangularReflectionMapping;
-    image.needsUpdate = true;
-    return new THREE.PMREMGenerator(renderer).fromEquirectangular(image).texture;
-}
-
 export async function open({ view, settings, background, light: light_of, canvas, glb }) {
     const { width, height } = view;
     const renderer = new THREE.WebGLRenderer({ canvas, antialias: false, alpha: true });
@@ -46,11 +37,14 @@ export async function open({ view, settings, background, light: light_of, canvas
     renderer.toneMapping = THREE.NoToneMapping;
     renderer.setClearColor(0x000000, 0);
     const exposure = exposureOf(settings.exposure, await light_of(view.frames[0]));
-    const environment = settings.environment ? environmentOf(renderer, background, exposure) : null;
+    // Filtered here: the effect takes the size of the levels from the scene's texture.
+    const environment = settings.environment
+        ? new THREE.PMREMGenerator(renderer).fromEquirectangular(environmentTexture(exposed(background, exposure))).texture : null;
     const loaded = await loadScene({ glb, view }), { root, camera, meshes, light } = loaded;
     if (!(settings.selection in SELECTIONS)) throw new Error(`selection = ${settings.selection}: must be ${Object.keys(SELECTIONS).join(", ")}`);
     const selected = Object.values(meshes).filter((mesh) => SELECTIONS[settings.selection](mesh.material));
-    replaceMaterials(meshes, (material) => emitLight(material, light, settings.materialEnvironment ? "reflectedLight.indirectSpecular" : "vec3(0.0)"));
+    const on = { value: 0 };
+    replaceMaterials(meshes, (material) => emitLight(material, light, on, settings.materialEnvironment ? SPECULAR_OF_ENVIRONMENT : "vec3(0.0)"));
 
     const effectOf = (seed) => {
         const options = Object.fromEntries(Object.entries(settings).filter(([key]) => !OWN.includes(key)));
@@ -61,10 +55,11 @@ export async function open({ view, settings, background, light: light_of, canvas
     };
     return {
         driver: driverOf(renderer.getContext()),
-        pose: (frame, image) => loaded.pose(frame, { ...image, rgba: scaled(image.rgba, exposure) }),
+        pose: (frame, image) => loaded.pose(frame, exposed(image, exposure)),
         depth: () => drawDepth(renderer, loaded, view),
         render({ reflections, seed }) {
             root.environment = reflections ? environment : null;
+            on.value = reflections ? 1 : 0;
             renderer.autoClear = false;
             const composer = new EffectComposer(renderer, { frameBufferType: THREE.FloatType });
             composer.autoRenderToScreen = false;

@@ -1,6 +1,4 @@
-// What adapters do with light and environment before an engine gets them.
-
-const CONSTANT_SIZE = [64, 32];  // of an environment of one colour: engines filter it into mip levels
+// What adapters do with light before an engine gets it, and with settings.
 
 /**
  * By what light is multiplied before the engine sees it, and images divided afterwards. "auto": 1 % of the pixels get
@@ -13,28 +11,14 @@ export function exposureOf(setting, { rgba }) {
     return 1 / Math.max(1, brightest[Math.floor(0.99 * (brightest.length - 1))]);
 }
 
-/** RGBA values times a factor; alpha stays. */
-export function scaled(rgba, factor) {
-    return factor === 1 ? rgba : rgba.map((value, i) => (i % 4 === 3 ? value : value * factor));
+/** An image whose colours are multiplied by a factor; alpha stays. */
+export function exposed({ width, height, rgba }, factor) {
+    return { width, height, rgba: scaled(rgba, factor) };
 }
 
-/** {width, height, rgba} of the background as scene.json has it, without rotation: first row up, u = 0.5 + atan2(z, x) / 2 pi. */
-export function latLong(background, exposure) {
-    if (background.color) {
-        const [width, height] = CONSTANT_SIZE, rgba = new Float32Array(4 * width * height);
-        for (let i = 0; i < width * height; ++i) rgba.set([...background.color.map((value) => value * exposure), 1], 4 * i);
-        return { width, height, rgba };
-    }
-    const { width, height, rgba } = background, turned = new Float32Array(rgba.length);
-    const shift = ((background.rotation ?? 0) / (2 * Math.PI)) * width;
-    for (let x = 0; x < width; ++x) {
-        const at = x + shift, part = at - Math.floor(at), wrap = (column) => ((column % width) + width) % width;
-        const left = wrap(Math.floor(at)), right = wrap(left + 1);
-        for (let y = 0; y < height; ++y)
-            for (let c = 0; c < 4; ++c)
-                turned[4 * (y * width + x) + c] = rgba[4 * (y * width + left) + c] * (1 - part) + rgba[4 * (y * width + right) + c] * part;
-    }
-    return { width, height, rgba: scaled(turned, exposure) };
+/** The same of RGBA values. */
+export function scaled(rgba, factor) {
+    return factor === 1 ? rgba : rgba.map((value, i) => (i % 4 === 3 ? value : value * factor));
 }
 
 /** Names of settings that begin with `group` and a point, without both: {radius: 5} of {"denoise.radius": 5}. */

@@ -4,11 +4,11 @@ import * as TSL from "three/tsl";
 import { ssr } from "three/addons/tsl/display/SSRNode.js";
 import { temporalReproject } from "three/addons/tsl/display/TemporalReprojectNode.js";
 import { recurrentDenoise } from "three/addons/tsl/display/RecurrentDenoiseNode.js";
-import { exposureOf, latLong, scaled, settingsOf } from "ssrlab/light.js";
-import { driverOf, turned } from "ssrlab/page.js";
-import { loadScene, replaceMaterials } from "ssrlab/three_scene.js";
+import { exposed, exposureOf, scaled, settingsOf } from "ssrlab/light.js";
+import { driverOf } from "ssrlab/page.js";
+import { environmentTexture, loadScene, replaceMaterials } from "ssrlab/three_scene.js";
 
-const NOISE_OF_SEED = 4096;  // frames between the random numbers of two seeds
+const MOST_FRAMES = 4096;  // of an image: random numbers follow from the frame's number
 const CONSTRUCTOR = ["stochastic", "reflectNonMetals", "binaryRefine", "envImportanceSampling"];
 const UNIFORMS = ["maxDistance", "thickness", "intensity", "quality", "screenEdgeFade", "maxLuminance", "mirrorBias", "environmentIntensity"];
 const PROPERTIES = ["resolutionScale", "blurQuality", "screenEdgeFadeBlack", "stepExponent"];
@@ -19,18 +19,6 @@ class SpecularOnly extends THREE.PhysicalLightingModel {
         super.indirect(builder);
         builder.context.reflectedLight.indirectDiffuse.assign(0);
     }
-}
-
-/** Latitude and longitude, half floats: single ones are not filtered everywhere. */
-function environmentTexture(background, exposure) {
-    const { width, height, rgba } = turned(latLong(background, exposure));
-    const halves = Uint16Array.from(rgba, (value) => THREE.DataUtils.toHalfFloat(Math.min(value, 65504)));
-    const texture = new THREE.DataTexture(halves, width, height, THREE.RGBAFormat, THREE.HalfFloatType);
-    texture.mapping = THREE.EquirectangularReflectionMapping;
-    texture.magFilter = texture.minFilter = THREE.LinearFilter;
-    texture.wrapS = THREE.RepeatWrapping;
-    texture.needsUpdate = true;
-    return texture;
 }
 
 /** A material that emits the light of its pixel. */
@@ -80,7 +68,7 @@ export async function open({ view, settings, background, light, canvas, glb }) {
     renderer.setPixelRatio(1);
     renderer.setSize(width, height, false);
     const exposure = exposureOf(settings.exposure, await light(view.frames[0]));
-    const environment = settings.environment ? environmentTexture(background, exposure) : null;
+    const environment = settings.environment ? environmentTexture(exposed(background, exposure)) : null;
     const loaded = await loadScene({ glb, view }), { root: scene, camera, meshes } = loaded;
     const pixel = TSL.ivec2(TSL.screenCoordinate.xy);  // rows from the top
     const light_of_pixel = TSL.textureLoad(loaded.light, TSL.ivec2(pixel.x, TSL.int(height - 1).sub(pixel.y)));
@@ -102,23 +90,30 @@ export async function open({ view, settings, background, light, canvas, glb }) {
         pipelines[name] = new THREE.RenderPipeline(renderer, output);
         pipelines[name].outputColorTransform = false;
     }
+    // Nodes draw once per frame of the browser's clock: frames are counted here, so that images are the same every time.
+    renderer._animation.stop();
+    const clock = renderer._nodes.nodeFrame;
+    let images = 0;
     const read = async (pipeline, frames) => {
+        clock.frameId = node._noiseIndex.value = MOST_FRAMES * ++images;
         renderer.setRenderTarget(target);
-        for (let i = 0; i < frames; ++i) pipeline.render();
+        for (let i = 0; i < frames; ++i) {
+            clock.update();
+            pipeline.render();
+        }
         const values = await renderer.readRenderTargetPixelsAsync(target, 0, 0, width, height);
         renderer.setRenderTarget(null);
         return values;
     };
     return {
         driver: driverOf(renderer.backend.gl),
-        pose: (frame, image) => loaded.pose(frame, { ...image, rgba: scaled(image.rgba, exposure) }),
+        pose: (frame, image) => loaded.pose(frame, exposed(image, exposure)),
         async depth() {
             scene.environment = null;
             return { values: await read(pipelines.depth, 1) };
         },
-        async render({ reflections, seed }) {
+        async render({ reflections }) {
             scene.environment = reflections && !settings.stochastic ? environment : null;
-            node._noiseIndex.value = seed * NOISE_OF_SEED;
             history?._historyRenderTarget.setSize(1, 1);  // another size than the frame's: the history starts anew
             const values = await read(reflections ? pipelines.image : pipelines.off, reflections ? settings.frames : 1);
             return { values: scaled(values, 1 / exposure) };
