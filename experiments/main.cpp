@@ -302,6 +302,12 @@ int parse_and_run(int argc, char** argv) {
     scene_for_command_.add_option("--lit-samples", scene_for.lit_samples, "As the study's; default: all")
         ->check(CLI::Range(16, 1 << 24));
     scene_for_command_.add_flag("--ladder", scene_for.has_ladder, "The study has targets of the truth ladder");
+    scene_for_command_
+        .add_option("--fallback", scene_for.fallback,
+                    "As the study's: what rays see that find nothing. A probe shows a room from the camera's place, "
+                    "where the environment is the sky behind its walls")
+        ->check(CLI::IsMember({"environment", "probe"}))
+        ->capture_default_str();
     scene_for_command_.add_option("--out", scene_for.out, "Folder")->required()->type_name("DIR");
     add_scene_path(scene_for_command_, common), add_cache(scene_for_command_, common);
     add_reading(scene_for_command_);

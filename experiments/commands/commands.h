@@ -77,6 +77,7 @@ struct SceneForOptions {
     std::vector<std::string> frames{"0"};                                    ///< each one's number, or "0-63"
     unsigned samples = ReferenceSettings::default_samples, lit_samples = 0;  ///< of the light, as a study has them
     bool has_ladder = false;
+    std::string fallback = "environment";  ///< or "probe"
     std::filesystem::path out;
 };
 void scene_for_command(const SceneForOptions& options, const CommonOptions& common);

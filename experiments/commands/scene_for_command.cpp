@@ -65,6 +65,7 @@ void scene_for_command(const SceneForOptions& options, const CommonOptions& comm
                             .reference = {.max_samples = options.samples,
                                           .lit_samples = options.lit_samples,
                                           .ladder = options.has_ladder},
+                            .has_probe = options.fallback == "probe",
                             .out = options.out,
                             .cache = common.cache.empty() ? default_cache_folder() : common.cache,
                             .search_path = scene_search_path(common.scene_path),

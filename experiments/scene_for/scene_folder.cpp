@@ -8,6 +8,7 @@
 #include "experiments/config/external_images.h"
 #include "experiments/config/shot.h"
 #include "experiments/measuring/measure.h"
+#include "experiments/measuring/reflection_probe.h"
 #include "experiments/scene_for/raw_files.h"
 #include "experiments/scene_for/scene_glb.h"
 #include "experiments/scene_for/scene_numbers.h"
@@ -33,11 +34,14 @@ public:
                 {.scene = settings_.scene, .camera = camera, .extent = settings_.extent, .frames = settings_.frames},
                 settings_.search_path));
         const Scene& scene = shots.front().scene;  // that of all
+        if (settings_.has_probe && shots.size() > 1)
+            fail(settings_.scene, ": a probe is one camera's, and ", shots.size(),
+                 " were named: write a folder for each");
         done_.warnings = scene.warnings;
         json description = {{"scene", scene.name},
                             {"engine", settings_.engine.name},
                             {"samples", settings_.reference.max_samples},
-                            {"background", background(scene.environment)}};
+                            {"background", background(settings_.has_probe ? probe(shots.front()) : scene.environment)}};
         std::vector<GlbCamera> cameras;
         for (const Shot& shot : shots) {
             cameras.push_back({.lens = shot.camera,
@@ -57,6 +61,16 @@ public:
 
 private:
     bool is_raw() const { return settings_.engine.format == SceneFormat::raw; }
+
+    /// As shots have it that fall back to a probe (experiments/run/shots/open_shot.cpp), from the same cached views.
+    Environment probe(const Shot& shot) {
+        const ShotFrame first = shot_frame(shot, settings_.frames.front());
+        return reflection_probe(first.camera.world_from_view[3], settings_.reference,
+                                [&](const CameraPose& camera, glm::uvec2 extent, const ReferenceSettings& of_face) {
+                                    return cached_reference(shot.scene, first.scene, camera, extent, of_face,
+                                                            settings_.cache, {});
+                                });
+    }
 
     json background(const Environment& environment) {
         if (environment.type == Environment::Type::constant) return {{"color", numbers_of(environment.color)}};

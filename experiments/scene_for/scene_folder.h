@@ -30,6 +30,7 @@ struct SceneFolderSettings {
     glm::uvec2 extent{480, 270};
     std::vector<unsigned> frames{0};   ///< ascending
     ReferenceSettings reference;       ///< of the light
+    bool has_probe = false;            ///< a probe at the first camera takes the environment's place (reflection_probe.h)
     std::filesystem::path out, cache;  ///< cache: of references
     std::vector<std::filesystem::path> search_path;
     std::function<void(const std::string&)> say;                        ///< gets sentences for the user

@@ -2,10 +2,10 @@
 
 A point's images lie in a folder of their own, which a study names as `external`. The program is called once for each point and shot as
 
-    PROGRAM SCENE_FOLDER OUT --point NAME [--set KEY=VALUE ...]
+    PROGRAM SCENE_FOLDER OUT [--point NAME --set KEY=VALUE ...]
 
 SCENE_FOLDER is what `ssrlab scene-for any` wrote of the shot; OUT collects the images of all shots (experiments/README.md, "Images of other
-programs"), and its external.json states the `settings` with all their values. Without --set the program renders at its defaults."""
+programs"), and its external.json states the `settings` with all their values. Without options the program renders at its defaults."""
 
 import json
 import os
@@ -48,7 +48,7 @@ class Program:
         self.ssrlab, self.options = command[0], [word for word in command[1:] if word.split("=")[0] in OF_SCENES]
         reference = study.get("reference", {})
         self.samples = [f"--{name.replace('_', '-')}={reference[name]}" for name in ("samples", "lit_samples") if name in reference]
-        self.resolution = study.get("resolution", [480, 270])
+        self.resolution, self.fallback = study.get("resolution", [480, 270]), study.get("fallback", "environment")
 
     def images(self, name):
         """The folder of a point's images."""
@@ -56,7 +56,7 @@ class Program:
 
     @staticmethod
     def point(name):
-        """What the program, and with it external.json, calls a point."""
+        """What the program and results call a point."""
         return name.replace(" ", "_")
 
     def render(self, name, values, shots):
@@ -67,7 +67,7 @@ class Program:
             scene = self._scene(shot)
             if scene in done:
                 continue
-            words = [*self.words, path_inside(self.out, scene), self.images(name), "--point", self.point(name)]
+            words = [*self.words, path_inside(self.out, scene), self.images(name), *(["--point", self.point(name)] if values else [])]
             for key, value in values.items():
                 words += ["--set", f"{key}={setting(value)}"]
             self._call(words, f"images/{self.point(name)}.log")
@@ -86,6 +86,7 @@ class Program:
         if not os.path.exists(path_inside(written, "scene.json")):
             camera = [f"--camera={shot['camera']}"] if "camera" in shot else []
             words = [self.ssrlab, "scene-for", "any", shot["scene"], *camera, "--size", *map(str, size), "--frames", *map(str, frames)]
+            words += ["--fallback", shot.get("fallback", self.fallback)]
             self._call([*words, *self.samples, "--out", written, *self.options], f"{folder}.log")
         return folder
 

@@ -127,7 +127,7 @@ class Tuning:
         """Of a point that is tried in some shots, as an entry of `variants`."""
         if self.program:
             self.program.render(name, values, shots)
-            return {"external": self.program.images(name), "label": name}
+            return {"external": self.program.images(name), "label": name, "point": self.program.point(name)}
         return {"variant": self.start_entry["variant"], "label": name} | self.made_of(self.start_entry, values)
 
     @staticmethod

@@ -71,7 +71,8 @@ class FakeSsrlab:
             if "external" in entry:
                 with open(os.path.join(entry["external"], "external.json"), encoding="utf-8") as stream:
                     stated = json.load(stream)
-                points.append({"variant": stated["name"], "point": stated["point"], "label": entry["label"], "parameters": stated["settings"]})
+                assert stated["point"] in ("default", entry["point"]), stated
+                points.append({"variant": stated["name"], "point": entry["point"], "label": entry["label"], "parameters": stated["settings"]})
                 continue
             swept = {k: v[0] for k, v in entry["sweep"].items()}
             name = " ".join(f"{k}={v}" for k, v in sorted(swept.items())) or "default"
@@ -136,10 +137,10 @@ class FakeProgram:
         assert set(settings) <= set(DEFAULTS), settings
         stated = DEFAULTS | {k: v if isinstance(DEFAULTS[k], str) else json.loads(v) for k, v in settings.items()}
         with open(os.path.join(scene, "scene.json"), encoding="utf-8") as stream:
-            self.rendered.append((dict(pairs)["--point"], json.load(stream)["scene"]))
+            self.rendered.append((os.path.basename(out), json.load(stream)["scene"]))
         os.makedirs(out, exist_ok=True)
         with open(os.path.join(out, "external.json"), "w", encoding="utf-8") as stream:
-            json.dump({"name": "engine", "point": dict(pairs)["--point"], "settings": stated}, stream)
+            json.dump({"name": "engine", "point": dict(pairs).get("--point", "default"), "settings": stated}, stream)
         return types.SimpleNamespace(returncode=0)
 
 
