@@ -107,6 +107,7 @@ std::shared_ptr<const ExternalImages> read_external_images(const fs::path& folde
     images->licence = object.text("licence", "");
     images->settings = read_settings(object);
     images->seeds = unsigned(object.integer("seeds", 1, most_seeds, 1));
+    images->has_given_light = object.boolean("given_light", false);
     if (object.has("milliseconds")) images->milliseconds = object.number("milliseconds", 0, most_milliseconds);
     object.finish();
     return images;

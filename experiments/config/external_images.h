@@ -15,7 +15,9 @@ struct ExternalImages {
     std::string engine, version, driver, licence;  ///< as people know them; the last two may be ""
     nlohmann::json settings;                       ///< values by name: texts, numbers, true or false
     unsigned seeds = 1;                            ///< images of each frame, which differ by chance alone
-    std::optional<double> milliseconds;            ///< of a frame's reflections, as the engine states it
+    bool has_given_light =
+        false;  ///< surfaces emit what scene-for wrote: without reflections each pixel is the truth's
+    std::optional<double> milliseconds;  ///< of a frame's reflections, as the engine states it
 
     /// The frame as `seed` rendered it: all light, linear Rec. 709.
     std::filesystem::path image(const Shot& shot, unsigned frame, unsigned seed) const;

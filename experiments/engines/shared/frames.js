@@ -79,7 +79,7 @@ export class FrameWriter {
     /** What external.json says; `driver` and times are known when all is rendered. */
     description(driver = "") {
         const { name, engine, version, licence } = this.engine;
-        return { name, point: this.point, engine, version, driver, licence, settings: this.settings, seeds: this.seeds };
+        return { name, point: this.point, engine, version, driver, licence, settings: this.settings, seeds: this.seeds, given_light: true };
     }
 
     /** Several scenes share a folder, if all is rendered alike. Returns what differs from what is there; "": nothing. */

@@ -124,11 +124,11 @@ std::string shift_of(const HostImage& image, const ProofPixels& proof, const Dif
 
 std::string seen(const Differences& found, const ProofPixels& proof) {
     return std::to_string(found.count) + " of " + std::to_string(proof.count()) +
-           " pixels that show the background or surfaces that emit differ from the truth: ";
+           " pixels that no technique may change differ from the truth: ";
 }
 
 /// "" if nothing that was tried does.
-std::string what_undoes(const HostImage& image, const ProofPixels& proof, const Differences& found) {
+std::string what_undoes(const HostImage& image, const ProofPixels& proof) {
     const auto agrees = [&](const HostImage& other) {
         return count_differing(other, proof) <= most_differing(proof.count());
     };
@@ -148,7 +148,6 @@ std::string what_undoes(const HostImage& image, const ProofPixels& proof, const 
     }
     if (is_cut_at_one(image, proof))
         return "nothing is brighter than 1, where the scene is; switch tone mapping off, and write floats";
-    if (const std::string shift = shift_of(image, proof, found); !shift.empty()) return shift;
     return "";
 }
 
@@ -193,7 +192,8 @@ Differences differences(const HostImage& image, const ProofPixels& proof) {
 std::string why_refused(const HostImage& image, const ProofPixels& proof) {
     const Differences found = differences(image, proof);
     if (found.count <= most_differing(proof.count())) return "";
-    const std::string why = what_undoes(image, proof, found);
+    std::string why = what_undoes(image, proof);
+    if (why.empty()) why = shift_of(image, proof, found);
     return seen(found, proof) +
            (why.empty() ? "camera, materials or units are others; compare the picture of where with the scene" : why);
 }
@@ -201,7 +201,7 @@ std::string why_refused(const HostImage& image, const ProofPixels& proof) {
 std::string why_refused_with_reflections(const HostImage& image, const ProofPixels& proof) {
     const Differences found = differences(image, proof);
     if (found.count <= most_differing(proof.count())) return "";
-    if (const std::string why = what_undoes(image, proof, found); !why.empty()) return seen(found, proof) + why;
+    if (const std::string why = what_undoes(image, proof); !why.empty()) return seen(found, proof) + why;
     if (double(found.count) <= largest_leak * double(proof.count())) return "";
     return seen(found, proof) +
            "reflections change most of what they must not change, or the image is of another view "

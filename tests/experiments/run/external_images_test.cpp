@@ -109,6 +109,24 @@ TEST_F(ExternalImagesTest, HaveSeedsAndABaselineOfTheirOwn) {
 }
 
 /// Of a still scene, so that each frame errs as the only one did.
+/// Where surfaces emit the light that scene-for wrote, every pixel proves something.
+TEST_F(ExternalImagesTest, HoldTheGivenLightInEveryPixel) {
+    write_frames();
+    HostImage black_mirrors = frame.without_reflections(), lit_mirrors = black_mirrors;
+    size_t mirrors = 0;
+    for (size_t i = 0; i < frame.image.pixel_count(); ++i)
+        if (frame.specular.rgb(i) != glm::vec3(0.0f))
+            ++mirrors, black_mirrors.set_rgb(i, glm::vec3(0.0f)), lit_mirrors.set_rgb(i, glm::vec3(1.0f));
+    ASSERT_GT(mirrors, 100u);
+    write(lit_mirrors, "f0.off");
+    EXPECT_EQ(refusal(), "")
+        << "mirrors emit nothing, so that they prove nothing about a light that is the program's own";
+    describe(R"(, "given_light": true)");
+    EXPECT_TRUE(says(refusal(), "differ from the truth"));
+    write(black_mirrors, "f0.off");
+    EXPECT_EQ(refusal(), "");
+}
+
 TEST_F(ExternalImagesTest, AreMeasuredFrameByFrame) {
     const std::map<std::string, double> own = write_frames();
     for (const char* name : {"s0", "off"})
