@@ -7,8 +7,8 @@ import "@babylonjs/core/Engines/Extensions/engine.renderTarget.js";
 import "@babylonjs/core/Engines/Extensions/engine.renderTargetCube.js";
 import { Scene } from "@babylonjs/core/scene.js";
 import { FreeCamera } from "@babylonjs/core/Cameras/freeCamera.js";
-import { Matrix, Vector3 } from "@babylonjs/core/Maths/math.vector.js";
-import { SphericalPolynomial } from "@babylonjs/core/Maths/sphericalPolynomial.js";
+import { Matrix, Quaternion, Vector3 } from "@babylonjs/core/Maths/math.vector.js";
+import { CubeMapToSphericalPolynomialTools } from "@babylonjs/core/Misc/HighDynamicRange/cubemapToSphericalPolynomial.js";
 import { HDRFiltering } from "@babylonjs/core/Materials/Textures/Filtering/hdrFiltering.js";
 import { RawCubeTexture } from "@babylonjs/core/Materials/Textures/rawCubeTexture.js";
 import { RawTexture } from "@babylonjs/core/Materials/Textures/rawTexture.js";
@@ -20,13 +20,12 @@ import { VertexData } from "@babylonjs/core/Meshes/mesh.vertexData.js";
 import { ImageProcessingPostProcess } from "@babylonjs/core/PostProcesses/imageProcessingPostProcess.js";
 import { SSRRenderingPipeline } from "@babylonjs/core/PostProcesses/RenderPipeline/Pipelines/ssrRenderingPipeline.js";
 import "@babylonjs/core/PostProcesses/RenderPipeline/postProcessRenderPipelineManagerSceneComponent.js";
-import "@babylonjs/core/Rendering/depthRendererSceneComponent.js";
 import { LoadAssetContainerAsync } from "@babylonjs/core/Loading/sceneLoader.js";
 import "@babylonjs/loaders/glTF/2.0/index.js";
 import { exposed, exposureOf, scaled } from "ssrlab/light.js";
 import { driverOf, turned } from "ssrlab/page.js";
 
-const BYTE = 0, FLOAT = 1, HALF = 2, RGBA = 5, NEAREST = 1, BILINEAR = 2, TRILINEAR = 3;  // of Babylon's Constants
+const BYTE = 0, FLOAT = 1, HALF = 2, RGBA = 5, NEAREST = 1, TRILINEAR = 3, PRE_PASS_DEPTH = 5;  // of Babylon's Constants
 const TEXTURE_TYPES = { byte: BYTE, half: HALF, float: FLOAT };
 const OWN = ["forceGeometryBuffer", "textureType", "useScreenspaceDepth", "environment", "environmentSize", "exposure"];
 
@@ -91,9 +90,12 @@ function cubeOf({ width, height, rgba }, size) {
 
 async function environmentOf(background, exposure, largest, scene, engine) {
     const size = Math.min(largest, background.height / 2);
-    const cube = new RawCubeTexture(scene, cubeOf(exposed(background, exposure), size), size, RGBA, FLOAT, true, false, TRILINEAR);
+    const faces = cubeOf(exposed(background, exposure), size), [right, left, up, down, front, back] = faces;
+    const cube = new RawCubeTexture(scene, faces, size, RGBA, FLOAT, true, false, TRILINEAR);
     cube.gammaSpace = false;
-    cube.sphericalPolynomial = new SphericalPolynomial();  // diffuse light, which nothing shows
+    // Irradiance, which materials mix into the specular light of rough surfaces.
+    cube.sphericalPolynomial = CubeMapToSphericalPolynomialTools.ConvertCubeMapToSphericalPolynomial(
+        { size, right, left, up, down, front, back, format: RGBA, type: FLOAT, gammaSpace: false });
     await new HDRFiltering(engine).prefilter(cube);
     return cube;
 }
@@ -109,8 +111,6 @@ function cameraOf(view, scene) {
     }
     return camera;
 }
-
-const floats_of = (pixels) => new Float32Array(pixels.buffer, pixels.byteOffset, pixels.byteLength / 4);
 
 export async function open({ view, settings, background, light: light_of, canvas, glb }) {
     const { width, height } = view;
@@ -129,7 +129,7 @@ export async function open({ view, settings, background, light: light_of, canvas
     const camera = (scene.activeCamera = cameraOf(view, scene));
     const environment = settings.environment ? await environmentOf(background, exposure, settings.environmentSize, scene, engine) : null;
 
-    const pipelineOf = () => {
+    const pipelineOf = (settings) => {
         const type = TEXTURE_TYPES[settings.textureType];
         if (type === undefined) throw new Error(`textureType = ${settings.textureType}: must be ${Object.keys(TEXTURE_TYPES).join(", ")}`);
         const pipeline = new SSRRenderingPipeline("ssrlab", scene, [camera], settings.forceGeometryBuffer, type, settings.useScreenspaceDepth);
@@ -138,12 +138,21 @@ export async function open({ view, settings, background, light: light_of, canvas
         for (const [key, value] of Object.entries(settings)) if (!OWN.includes(key)) pipeline[key] = value;
         return pipeline;
     };
-    const draw = async () => {
+    /** Draws, with reflections if there are settings of them, and reads what `texture` returns of the last post-process. */
+    const draw = async (of_reflections, texture) => {
+        const pipeline = of_reflections ? pipelineOf(of_reflections) : null;
+        scene.environmentTexture = of_reflections ? environment : null;
+        // It makes materials write linear light, and is the last in the chain: what it reads is the image.
+        const last = new ImageProcessingPostProcess("ssrlab", 1, camera, NEAREST, engine, false, FLOAT);
         await scene.whenReadyAsync();
         for (let i = 0; i < 3; ++i) {  // the first ones rebuild the pre-pass, and miss effects that are still compiled
             scene.render();
             await new Promise((done) => setTimeout(done, 10));
         }
+        const pixels = await engine._readTexturePixels(texture(last), width, height, -1, 0, null, true, false);
+        last.dispose(camera);
+        pipeline?.dispose();
+        return new Float32Array(pixels.buffer, pixels.byteOffset, pixels.byteLength / 4);
     };
     return {
         driver: driverOf(engine._gl),
@@ -152,32 +161,23 @@ export async function open({ view, settings, background, light: light_of, canvas
             // glTF's right-handed world as Babylon's loader turns it: x is -x.
             const m = frame.world_from_camera, point = (x, y, z) => new Vector3(-x, y, z);
             camera.position = point(m[12], m[13], m[14]);
-            camera.upVector = point(m[4], m[5], m[6]);
-            camera.setTarget(point(m[12] - m[8], m[13] - m[9], m[14] - m[10]));
+            camera.rotationQuaternion = Quaternion.RotationQuaternionFromAxis(point(m[0], m[1], m[2]), point(m[4], m[5], m[6]), point(-m[8], -m[9], -m[10]));
             for (const [name, matrix] of Object.entries(frame.nodes)) {
                 const node = scene.getNodeByName(name);
                 if (!node) throw new Error(`scene.glb lacks the node '${name}' of scene.json`);
                 node.freezeWorldMatrix(Matrix.FromArray(matrix).multiply(node.parent.computeWorldMatrix(true)));
             }
         },
+        /** What the rays are traced through: the pre-pass's depth, which is cleared to 0. */
         async depth() {
-            const renderer = scene.enableDepthRenderer(camera, false, true, NEAREST, true), map = renderer.getDepthMap();
-            await draw();
-            const values = floats_of(await map.readPixels(0, 0, null, true, false));
-            const components = values.length / (width * height), nearest = new Float32Array(width * height);
-            for (let i = 0; i < nearest.length; ++i) nearest[i] = values[components * i] < view.far ? values[components * i] : 0;
-            scene.disableDepthRenderer(camera);
-            return { values: nearest, components: 1 };
+            const values = await draw({ ...settings, forceGeometryBuffer: false, useScreenspaceDepth: false }, () => {
+                const pre_pass = scene.prePassRenderer;
+                return pre_pass.getRenderTarget().textures[pre_pass.getIndex(PRE_PASS_DEPTH)].getInternalTexture();
+            });
+            return { values, components: values.length / (width * height) };
         },
         async render({ reflections }) {
-            scene.environmentTexture = reflections ? environment : null;
-            const pipeline = reflections ? pipelineOf() : null;
-            // It makes materials write linear light, and is the last in the chain: what it reads is the image.
-            const last = new ImageProcessingPostProcess("ssrlab", 1, camera, NEAREST, engine, false, FLOAT);
-            await draw();
-            const values = floats_of(await engine._readTexturePixels(last.inputTexture.texture, width, height, -1, 0, null, true, false));
-            last.dispose(camera);
-            pipeline?.dispose();
+            const values = await draw(reflections ? settings : null, (last) => last.inputTexture.texture);
             return { values: scaled(values, 1 / exposure) };
         },
     };
