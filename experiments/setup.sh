@@ -21,8 +21,9 @@ test_packages=(vulkan-validationlayers chromium chromium-driver nodejs python3-s
 exporter_packages=(blender librenderdoc librenderdoc-dev python3-renderdoc)
 # What only tests/experiments/cluster/slurm_test.sh needs: Slurm's daemons and commands, and what they know each other by.
 cluster_packages=(snakemake slurmctld slurmd slurm-client munge)
-# What only experiments/engines needs: Node.js serves pages with engines from its registry, and a browser runs them.
-engine_packages=(nodejs chromium)
+# What only experiments/engines needs: Node.js serves pages with engines from its registry, and a browser runs them; programs
+# that draw on a display get Xvfb. Its run.sh adds the engines that are Debian's.
+engine_packages=(nodejs chromium xvfb xauth libgl1-mesa-dri)
 # What only the website of the documents needs.
 docs_packages=(python3-sphinx python3-myst-parser furo)
 

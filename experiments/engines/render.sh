@@ -4,5 +4,6 @@
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 command -v node >/dev/null || { echo "error: node is missing; experiments/engines/run.sh installs it" >&2; exit 3; }
-grep -qs '"program"' "$here/${1:-}/engine.json" || [ -d "$here/../../build/engines/node_modules" ] || { echo "error: the engines are not here; experiments/engines/run.sh installs them" >&2; exit 3; }
+adapter=${1:-}; [[ $adapter == */* ]] || adapter=$here/$adapter
+grep -qs '"program"' "$adapter/engine.json" || [ -d "$here/../../build/engines/node_modules" ] || { echo "error: the engines are not here; experiments/engines/run.sh installs them" >&2; exit 3; }
 exec node "$here/shared/render.js" "$@"

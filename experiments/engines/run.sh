@@ -27,6 +27,10 @@ while [ $# -gt 0 ]; do
 done
 
 command -v npm >/dev/null || engine_packages+=(npm)  # some packages of nodejs bring it
+for file in experiments/engines/*/engine.json; do
+    package=$(sed -n 's/^ "debian": "\(.*\)",$/\1/p' "$file")
+    [ -z "$package" ] || engine_packages+=("$package")
+done
 install_packages "${build_packages[@]}" "${engine_packages[@]}"
 say "Engines of experiments/engines/package.json"
 mkdir -p build/engines

@@ -1,23 +1,26 @@
-// Renders with an engine that is a program of its own, not a page: engine.json has "program", the words of its command.
+// Renders with an engine that is a program of its own, not a page: engine.json has "program", the words of its command, in
+// which ADAPTER stands for the adapter's folder.
 //
 // The command gets one more word, the path of request.json: {folder, scene, settings, seeds, out}, `scene` being scene.json's
 // content. The program writes into `out`, for each view and frame, VIEW/fN.depth.f32, fN.off.f32, fN.s0.f32, ...: float32,
-// first row at the top, one channel (depth) or three. Then it writes done.json: {"driver", "version"}.
+// first row at the top, one channel (depth) or three. Then it writes done.json: {"driver", "version"}. What it cannot
+// do it prints as a line "error: SENTENCE", and ends with 2.
 import { spawn } from "node:child_process";
 import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { Mistake } from "./mistake.js";
 
 const LINES = 12;  // of its output, where it fails
 
-/** The display that the program draws on: Xvfb where there is none. */
-const on_display = (words) => (process.env.DISPLAY ? words : ["xvfb-run", "-a", "-s", "-screen 0 640x480x24", ...words]);
+/** On an X server of its own, so that no screen's driver or settings count. */
+const on_display = (words) => ["xvfb-run", "-a", "-s", "-screen 0 640x480x24", ...words];
 
 /** Resolves to what it printed, if it ended well. */
 function ended(words, home, minutes) {
     return new Promise((resolve, reject) => {
         // A software rasteriser, so that images are the same on every machine; a home of its own: settings of the user's change nothing.
-        const env = { ...process.env, HOME: home, LIBGL_ALWAYS_SOFTWARE: "1", XDG_CONFIG_HOME: "", XDG_DATA_HOME: "", XDG_CACHE_HOME: "" };
+        const env = { ...process.env, HOME: home, LIBGL_ALWAYS_SOFTWARE: "1" };
         for (const name of ["XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_CACHE_HOME"]) delete env[name];
         const program = spawn(words[0], words.slice(1), { env, stdio: ["ignore", "pipe", "pipe"], detached: true });
         let text = "";
@@ -29,7 +32,12 @@ function ended(words, home, minutes) {
         }, minutes * 60000);
         program.on("error", (error) => reject(new Error(`${words[0]} cannot be started: ${error.message}; experiments/engines/run.sh installs it`)));
         program.on("exit", () => clearTimeout(timer));
-        program.on("close", (code) => (code === 0 ? resolve(text) : reject(new Error(`${words[0]} ended with ${code}:\n${last()}`))));
+        program.on("close", (code) => {
+            const said = text.split("\n").find((line) => line.startsWith("error: "));
+            if (code === 0) resolve(text);
+            else if (code === 2 && said) reject(new Mistake(said.slice("error: ".length)));
+            else reject(new Error(`${words[0]} ended with ${code}:\n${last()}`));
+        });
     });
 }
 
@@ -52,20 +60,20 @@ function add_images(writer, scene, seeds, out) {
         }
 }
 
-/** `adapter`: the engine's folder; `writer`: of the images. */
-export async function renderWithProgram({ job, scene, writer, adapter, minutes }) {
-    const { folder, settings, seeds, engine } = job;
+/** Resolves to done.json when `writer` has all images. `job`: of render.js; `minutes`: at most. */
+export async function renderWithProgram({ job, scene, writer, minutes }) {
+    const { adapter, folder, settings, seeds, engine } = job;
     const place = mkdtempSync(join(tmpdir(), "ssrlab-engine-")), out = join(place, "out"), home = join(place, "home");
     try {
         for (const view of scene.views) mkdirSync(join(out, view.view), { recursive: true });
         mkdirSync(home);
         writeFileSync(join(place, "request.json"), JSON.stringify({ folder, scene, settings, seeds, out }));
-        const words = engine.program.map((word) => word.replace("ADAPTER", adapter));
-        const text = await ended(on_display([...words, join(place, "request.json")]), home, minutes);
+        const words = [...engine.program.map((word) => word.replace("ADAPTER", adapter)), join(place, "request.json")];
+        const text = await ended(engine.needs_display ? on_display(words) : words, home, minutes);
         if (!existsSync(join(out, "done.json"))) throw new Error(`${words[0]} wrote no images:\n${text.trim().split("\n").slice(-LINES).join("\n")}`);
         const done = JSON.parse(readFileSync(join(out, "done.json"), "utf8"));
         if (done.version !== engine.version)
-            throw new Error(`${words[0]} is version ${done.version}; the adapter is for ${engine.version}, and others may mean something else by the same settings`);
+            throw new Mistake(`${words[0]} is version ${done.version}; the adapter is for ${engine.version}, and others may mean something else by the same settings`);
         add_images(writer, scene, seeds, out);
         return done;
     } finally {

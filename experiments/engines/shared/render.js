@@ -69,7 +69,7 @@ export function parse(words) {
     for (const key of Object.keys(settings))
         if (!(key in own)) throw new Mistake(`${name} has no setting '${key}'; there are ${Object.keys(own).join(", ")}`);
     const point = job.point ?? (job.set.length ? job.set.map(([key, value]) => `${key}_${value}`).join("-").replace(/[^A-Za-z0-9_.-]/g, "_") : "default");
-    return { name: basename(adapter), adapter, folder, out, engine, point, settings: { ...own, ...settings }, seeds: job.seeds, chromium: job.chromium };
+    return { name: basename(adapter), adapter, folder: resolve(folder), out, engine, point, settings: { ...own, ...settings }, seeds: job.seeds, chromium: job.chromium };
 }
 
 function page(job) {
@@ -163,8 +163,10 @@ export async function render(job) {
     const scene = json_of(join(job.folder, "scene.json"));
     const writer = new FrameWriter({ scene, ...job }), other = writer.otherThanThere();
     if (other) throw new Mistake(`${job.out} holds images whose ${other} is another: name another folder`);
-    if (job.engine.program)
-        return writer.finish(await renderWithProgram({ job: { ...job, folder: resolve(job.folder) }, scene, writer, adapter: join(ENGINES, job.name), minutes: MINUTES }));
+    if (job.engine.program) {
+        const images = scene.views.reduce((sum, view) => sum + view.frames.length, 0) * job.seeds;
+        return writer.finish(await renderWithProgram({ job, scene, writer, minutes: MINUTES * images }));
+    }
     const { server, done, end } = serve(job, scene, writer);
     await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
     const profile = mkdtempSync(join(tmpdir(), "ssrlab-engine-"));

@@ -14,6 +14,7 @@ from pathlib import Path
 
 ENGINES = Path(__file__).resolve().parents[3] / "experiments/engines"
 ECHO = Path(__file__).resolve().parent / "echo"
+ECHO_PROGRAM = ECHO.with_name("echo_program")
 SKIPPED = 77  # as CMakeLists.txt tells ctest
 
 
@@ -43,6 +44,7 @@ def check_descriptions():
         if "package" in engine:
             check(engine["package"] in pinned, f"{folder.name}: {engine['package']} is pinned in package.json")
             check(not any(sign in engine["package"].partition(":")[2] for sign in "^~*"), f"{folder.name}: one version")
+        check("package" in engine or "debian" in engine, f"{folder.name} says what installs it")
         check(f"`{folder.name}`" in readme, f"{folder.name} is in README.md")
     check(len(names) == len(adapters), "names are unique")
 
@@ -91,6 +93,26 @@ def check_echo(ssrlab, folder):
     check(code == 2 and "holds images whose point is another" in said, said)
 
 
+def check_program(folder):
+    """After check_echo, whose scene it uses: an engine that is a program, not a page."""
+    def render(out, *options):
+        return run("node", ENGINES / "shared/render.js", ECHO_PROGRAM, "scene", out, *options, folder=folder)
+
+    code, said = render("of_program", "--set", "reflection=0.25", "--seeds", 2)
+    check(code == 0 and "0 of 5184 pixels differ from the light" in said and "0 of 5184 pixels have another depth" in said, said)
+    external = json.loads((folder / "of_program/external.json").read_text())
+    check(external["driver"] == "none" and external["seeds"] == 2 and "milliseconds" not in external, external)
+    view = "mirror_pillars.main.96x54"
+    for seed, bias in ((0, 0.25), (1, 0.5)):
+        from_page, from_program = folder / f"out/{view}/f0.s{seed}.exr", folder / f"of_program/{view}/f0.s{seed}.exr"
+        check(from_page.read_bytes() == from_program.read_bytes(), f"page and program say the same of seed {seed}, {bias} too bright")
+    for wrong, code_of, words in (("scene", 2, "error: this scene has too many echoes"), ("crash", 3, "the last words"),
+                                  ("version", 2, "python3 is version 2; the adapter is for 1")):
+        code, said = render("wrong_program", "--set", f"wrong={wrong}")
+        check(code == code_of and words in said, (wrong, code, said))
+        check(not (folder / "wrong_program/external.json").exists(), "what failed is not described")
+
+
 def main():
     check_descriptions()
     missing = [program for program in ("node", "chromium") if not shutil.which(program)]
@@ -99,6 +121,7 @@ def main():
         sys.exit(SKIPPED)
     with tempfile.TemporaryDirectory(prefix="ssrlab_engines_") as folder:
         check_echo(Path(sys.argv[1]).resolve(), Path(folder))
+        check_program(Path(folder))
 
 
 main()
