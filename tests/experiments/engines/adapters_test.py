@@ -13,6 +13,9 @@ import tempfile
 from pathlib import Path
 
 ENGINES = Path(__file__).resolve().parents[3] / "experiments/engines"
+sys.path.insert(0, str(ENGINES.parent / "python"))
+from ssrlab.json_files import read_json  # noqa: E402  (found by the path above)
+
 ECHO = Path(__file__).resolve().parent / "echo"
 ECHO_PROGRAM = ECHO.with_name("echo_program")
 SKIPPED = 77  # as CMakeLists.txt tells ctest
@@ -47,6 +50,20 @@ def check_descriptions():
         check("package" in engine or "debian" in engine, f"{folder.name} says what installs it")
         check(f"`{folder.name}`" in readme, f"{folder.name} is in README.md")
     check(len(names) == len(adapters), "names are unique")
+
+
+def check_studies():
+    """The comparison names points that there are, and searches name settings."""
+    externals = [v["external"] for v in read_json(ENGINES / "engines.json", has_comments=True)["variants"] if "external" in v]
+    check(len(externals) > 5, "engines are compared")
+    for external in externals:
+        name, point = Path(external).name.split(".", 1)
+        check(point in json.loads((ENGINES / name / "engine.json").read_text())["points"], f"{external}: the engine has such a point")
+    for file in ENGINES.glob("*/tune.json"):
+        search, engine = read_json(file), json.loads((file.parent / "engine.json").read_text())
+        check(search["tune"]["program"] == ["../render.sh", file.parent.name], f"{file} searches its own engine")
+        check(set(search["tune"]["axes"]) <= set(engine["defaults"]), f"{file}: axes are settings")
+        check(str((file.parent / search["extends"]).resolve()) == str(ENGINES / "tune.json"), f"{file} shares scenes and budget")
 
 
 def run(*command, folder):
@@ -115,6 +132,7 @@ def check_program(folder):
 
 def main():
     check_descriptions()
+    check_studies()
     missing = [program for program in ("node", "chromium") if not shutil.which(program)]
     if missing:
         print(f"skipped: {' and '.join(missing)} are not installed; what adapters say of themselves was checked")

@@ -1,0 +1,75 @@
+#!/usr/bin/env python3
+"""Renders the images of engines that a study names, those that are not there yet.
+
+usage: render_study.py SSRLAB STUDY.json OUT [ENGINE ...]
+
+Each `external` of the study is a folder NAME.POINT: adapter and point of engine.json. OUT/scenes gets what `ssrlab scene-for` writes of each
+shot. Of engines that draw random numbers, those whose engine.json has "seeds", so many images of each frame are rendered."""
+
+import argparse
+import os
+import subprocess
+import sys
+import time
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path[:0] = [os.path.join(HERE, os.pardir, room) for room in ("python", "tune")]
+from ssrlab.json_files import read_json  # noqa: E402
+from ssrlab.mistakes import ResultsError, exit_code, say  # noqa: E402
+from ssrlab.text_files import path_inside  # noqa: E402
+from studies import single_shots  # noqa: E402
+
+
+def scene_folder(shot, study, ssrlab, out):
+    """What `scene-for` wrote of a shot, written where it is not there."""
+    folder = path_inside(out, "scenes/" + shot["scene"].replace(":", "_"))
+    if os.path.exists(path_inside(folder, "scene.json")):
+        return folder
+    size = shot.get("resolution", study.get("resolution", [480, 270]))
+    words = [ssrlab, "scene-for", "any", shot["scene"], "--size", *map(str, size), "--out", folder]
+    words += ["--camera", shot["camera"]] if "camera" in shot else []
+    words += ["--fallback", shot.get("fallback", study.get("fallback", "environment"))]
+    for key, value in study.get("reference", {}).items():
+        words += [f"--{key.replace('_', '-')}={value}"] if key in ("samples", "lit_samples") else []
+    words += ["--ladder"] if "on_screen" in study.get("targets", []) else []
+    code = subprocess.run(words).returncode
+    if code != 0:
+        sys.exit(code)  # it has said why
+    return folder
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Renders the images of engines that a study names, those that are not there yet.")
+    parser.add_argument("ssrlab", help="the program")
+    parser.add_argument("study", help="its `external` folders are rendered")
+    parser.add_argument("out", help="folder of the scenes")
+    parser.add_argument("engines", nargs="*", metavar="ENGINE", help="default: all")
+    arguments = parser.parse_args()
+    study = read_json(arguments.study, has_comments=True)
+    frames = [os.path.normpath(os.path.join(os.path.dirname(arguments.study), v["external"])) for v in study["variants"] if "external" in v]
+    if arguments.engines:
+        frames = [folder for folder in frames if os.path.basename(folder).split(".")[0] in arguments.engines]
+    scenes = [scene_folder(shot, study, arguments.ssrlab, arguments.out) for shot in single_shots(study["shots"])]
+    jobs = [(folder, scene) for folder in frames for scene in scenes]
+    begin, rendered, left_out = time.monotonic(), 0, 0
+    for number, (folder, scene) in enumerate(jobs):
+        engine, point = os.path.basename(folder).split(".", 1)
+        view = read_json(path_inside(scene, "scene.json"))["views"][0]["view"]
+        if os.path.isdir(path_inside(folder, view)):
+            continue
+        settings = read_json(path_inside(HERE, f"{engine}/engine.json"))
+        if point not in settings["points"]:
+            raise ResultsError(f"{arguments.study}: {engine} has no point '{point}'")
+        left = (time.monotonic() - begin) / rendered * (len(jobs) - number) / 60 if rendered else None
+        say(f"{engine}, {point}, {os.path.basename(scene)}: {number + 1} of {len(jobs)}" + (f", about {left:.0f} min left" if left else ""))
+        words = [path_inside(HERE, "render.sh"), engine, scene, folder, "--point", point, "--seeds", str(settings.get("seeds", 1))]
+        rendered += 1
+        if subprocess.run(words).returncode != 0:
+            left_out += 1
+            say("it cannot be compared there, for the reason above, and is left out")
+    say(f"{rendered} rendered, {left_out} of them left out")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(exit_code(main, "rendering"))
