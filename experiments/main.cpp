@@ -570,6 +570,47 @@ int parse_and_run(int argc, char** argv) {
     add_reading(rays_command_);
     rays_command_.callback([&] { rays_command(rays, common); });
 
+    RecordOptions record;
+    CLI::App& record_command_ = *app.add_subcommand(
+        "record", "Write a page in which a browser does a technique's passes again (WebGL 2), beside the truth");
+    record_command_
+        .add_option("scene", record.shot.scene,
+                    "A scene's name (see: ssrlab list scenes), or a path to a .json, .gltf or .glb")
+        ->required()
+        ->type_name("SCENE");
+    record_command_
+        .add_option("--variant", record.variant,
+                    "A technique of fragment passes alone (see: ssrlab list variants); others are refused")
+        ->required()
+        ->type_name("NAME");
+    record_command_.add_option("--preset", record.preset, "One of its presets; default: its defaults")
+        ->type_name("NAME");
+    record_command_
+        .add_option_function<std::vector<std::string>>(
+            "--set", [&](const std::vector<std::string>& values) { record.parameters = parameters_of(values); },
+            "A parameter's value; may be repeated")
+        ->type_name("NAME=VALUE");
+    record_command_.add_option("--camera", record.shot.camera, "Default: the scene's first")->type_name("NAME");
+    record_command_.add_option("--size", record.shot.size, "Width and height in pixels; default: 192 108")
+        ->expected(2)
+        ->type_name("W H")
+        ->check(CLI::Range(1, 16384));
+    record_command_.add_option("--frames", record.frames, "Frames of the camera's path and of the animation")
+        ->capture_default_str()
+        ->type_name("A-B");
+    record_command_.add_option("--samples", record.samples, "Of the truth, per pixel")
+        ->check(CLI::Range(1, 1 << 24))
+        ->capture_default_str()
+        ->type_name("N");
+    record_command_.add_flag("--packed", record.is_packed,
+                             "G-buffer in the formats of engines, so that the page is smaller; default: float32");
+    record_command_.add_flag("--results", record.has_results,
+                             "Also what this device rendered, so that the page says where a browser differs from it");
+    record_command_.add_option("--out", record.out, "The page")->required()->type_name("PAGE.html");
+    add_device(record_command_, common), add_scene_path(record_command_, common), add_cache(record_command_, common);
+    add_reading(record_command_);
+    record_command_.callback([&] { record_command(record, common); });
+
     StabilityOptions stability;
     CLI::App& stability_command_ =
         *app.add_subcommand("stability", "Test techniques with extreme inputs: non-finite values and amplification");

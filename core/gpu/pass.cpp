@@ -118,6 +118,13 @@ void PassGraph::Impl::draw(const vk::raii::CommandBuffer& commands, const Pass& 
     commands.endRendering();
 }
 
+std::vector<std::byte> PassGraph::Impl::push_block(const Pass& pass, const ShaderInterface& interface) {
+    std::vector<std::byte> block(interface.push_size);
+    for (const auto& push : pass.pushes_)
+        std::memcpy(block.data() + interface.push_offsets.at(push.name), push.bits.data(), push.size);
+    return block;
+}
+
 /// Says only what differs from the shader as it is, which is not made a second time then.
 ShaderChanges PassGraph::Impl::changes_of(const Pass& pass) const {
     ShaderChanges result;
@@ -159,9 +166,7 @@ void PassGraph::Impl::run(Pass& pass, std::optional<glm::uvec3> groups, const Bu
         commands.bindPipeline(pass.is_compute_ ? vk::PipelineBindPoint::eCompute : vk::PipelineBindPoint::eGraphics,
                               *pipeline.pipeline);
         if (pipeline.interface.push_size) {
-            std::vector<std::byte> block(pipeline.interface.push_size);
-            for (const auto& push : pass.pushes_)
-                std::memcpy(block.data() + pipeline.interface.push_offsets.at(push.name), push.bits.data(), push.size);
+            const std::vector<std::byte> block = push_block(pass, pipeline.interface);
             const vk::ShaderStageFlags stages =
                 pass.is_compute_ ? vk::ShaderStageFlagBits::eCompute
                                  : vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
@@ -174,12 +179,13 @@ void PassGraph::Impl::run(Pass& pass, std::optional<glm::uvec3> groups, const Bu
         else
             commands.dispatch(groups->x, groups->y, groups->z);
     };
-    if (pipeline_observer || trace_observer) {
+    if (pipeline_observer || trace_observer || recorder) {
         ShaderChanges for_gpu = changed;
         for_gpu.is_for_gpu = true;
         const Shader& seen = pipelines.shader(pass.shader_, pass.vertex_shader_, *params, pass.includes_, for_gpu);
         const PipelineRecipe recipe = PipelineCache::recipe(seen, pass.shader_, *params, constants, state);
         if (pipeline_observer) pipeline_observer(pass.label_, recipe);
+        if (recorder) record_pass(pass, seen, recipe, attachments);
         if (trace_observer)
             run_traced(pass, seen, recipe, attachments, groups_of(groups, arguments, arguments_offset), record);
     }

@@ -98,6 +98,7 @@ void PassGraph::clear(const Image& image, glm::vec4 value) {
     });
     image.storage->is_written = true;
     impl_->add_clear_cost(bytes_of(image));
+    if (impl_->recorder) impl_->recorder->clear(image, value);
 }
 
 void PassGraph::clear(const Buffer& buffer, uint32_t value) {
@@ -118,6 +119,7 @@ void PassGraph::upload(const Image& image, const HostImage& pixels) {
     encode_texels(image.format, pixels.values, texels.data());
     impl_->flush();
     upload_texels(impl_->gpu, image, texels);
+    if (impl_->recorder) impl_->recorder->upload(image);
 }
 
 void PassGraph::upload_rgba8(const Image& image, std::span<const uint8_t> texels) {
@@ -126,6 +128,7 @@ void PassGraph::upload_rgba8(const Image& image, std::span<const uint8_t> texels
              texels.size());
     impl_->flush();
     upload_texels(impl_->gpu, image, std::as_bytes(texels));
+    if (impl_->recorder) impl_->recorder->upload(image);
 }
 
 void PassGraph::upload(const Buffer& buffer, std::span<const std::byte> bytes) {

@@ -14,6 +14,7 @@
 #include <span>
 
 class Device;
+struct GraphRecorder;
 struct PassTrace;
 struct PipelineRecipe;
 
@@ -184,6 +185,12 @@ public:
     /// From now on every pass runs as GPUs get it, and `observer` hears what lanes of it decided ({}: none); images are
     /// the same bits either way, times are not. Passes take the forms that use_gpu_forms() says.
     void trace(TraceObserver observer);
+
+    /// From now on `recorder` hears of every pass, clear and upload, so that they can be repeated elsewhere
+    /// (pass_record.h). A compute pass or a draw of meshes fails with Error, and so does a pass while constants are set
+    /// (set_constants()).
+    void record(GraphRecorder recorder);
+    void stop_recording();
 
     Clock clock() const;
     glm::uvec2 extent() const;

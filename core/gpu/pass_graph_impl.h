@@ -2,6 +2,7 @@
 #include "core/error.h"
 #include "core/gpu/device_impl.h"
 #include "core/gpu/pass_graph.h"
+#include "core/gpu/pass_record.h"
 #include "core/gpu/pipelines/pipeline.h"
 
 #include <map>
@@ -9,7 +10,7 @@
 
 // The inside of PassGraph: pass_graph.cpp makes resources, frame.cpp submits and times, pass.cpp describes and runs
 // passes, binding.cpp finds what their shaders ask for, limits.cpp refuses what an API does not have, pass_cost.cpp
-// says what counted shaders did.
+// says what counted shaders did, pass_record.cpp what another API needs to repeat them.
 
 // The uniform buffer: the camera block, then the blocks of parameters that a frame's passes read, one for each set of
 // them, at offsets that suit every device's alignment (256 at most).
@@ -42,6 +43,8 @@ struct PassGraph::Impl {
     Buffer shader_counts;                        ///< once something was counted
     vk::raii::QueryPool device_counts{nullptr};  ///< the same, where the device counts invocations
 
+    std::unique_ptr<GraphRecorder> recorder;  ///< none: nothing is recorded
+
     TraceObserver trace_observer;
     std::map<std::string, Pipeline> traced_pipelines;  ///< by the bytes of their simplified recipes
 
@@ -72,6 +75,10 @@ struct PassGraph::Impl {
     void run_traced(Pass& pass, const Shader& shader, const PipelineRecipe& recipe,
                     const std::vector<Image>& attachments, glm::uvec3 groups,
                     const std::function<void(const vk::raii::CommandBuffer&, const Pipeline&)>& record);
+
+    static std::vector<std::byte> push_block(const Pass& pass, const ShaderInterface& interface);
+    void record_pass(const Pass& pass, const Shader& shader, const PipelineRecipe& recipe,
+                     const std::vector<Image>& targets);
 
     ShaderChanges changes_of(const Pass& pass) const;
     /// Workgroups of a compute pass, read back where the device decides them.

@@ -161,6 +161,17 @@ struct RaysOptions {
 /// `room:*` quantiles over scenes.
 void rays_command(const RaysOptions& options, const CommonOptions& common);
 
+struct RecordOptions {
+    ShotOptions shot{.scene = {}, .camera = {}, .size = {192, 108}};  ///< its frame is not looked at
+    std::string variant, preset, frames = "0-7";  ///< a frame, or a range with both ends
+    nlohmann::json parameters = nlohmann::json::object();
+    unsigned samples = 256;
+    bool is_packed = false, has_results = false;
+    std::filesystem::path out;
+};
+/// Writes a page that does a technique's passes again in WebGL 2 (experiments/record/record.h).
+void record_command(const RecordOptions& options, const CommonOptions& common);
+
 struct StabilityOptions {
     std::vector<std::string> variants, cases;  ///< empty: all
     bool has_all_stages = false, is_of_precision = false;

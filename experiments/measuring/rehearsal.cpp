@@ -7,9 +7,6 @@
 
 #include <set>
 
-namespace {
-
-/// Nothing is drawn on it, and nothing behind it.
 HostGBuffer empty_gbuffer(glm::uvec2 extent) {
     const auto image = [&](unsigned channels) { return HostImage(extent, channels); };
     HostGBuffer gbuffer{.camera = camera_data(CameraPose{}, nullptr, {.extent = extent}),
@@ -27,8 +24,6 @@ HostGBuffer empty_gbuffer(glm::uvec2 extent) {
     gbuffer.second_depth = gbuffer.back_depth = gbuffer.depth;
     return gbuffer;
 }
-
-}  // namespace
 
 void rehearse(Device& device, const std::vector<VariantConfig>& variants) {
     const HostGBuffer host = empty_gbuffer({16, 16});

@@ -8,13 +8,13 @@
 #include "experiments/evaluation/study_tables.h"
 #include "experiments/evaluation/summary.h"
 #include "experiments/report/answers.h"
+#include "experiments/report/page_template.h"
 #include "experiments/report/report_data.h"
 #include "experiments/report/report_images.h"
 #include "experiments/report/report_warnings.h"
 
 #include <algorithm>
 #include <cstdio>
-#include <kainjow/mustache.hpp>
 #include <map>
 
 namespace {
@@ -65,21 +65,9 @@ constexpr const char* scripts[] = {"data.js",
                                    "save_tools.js",
                                    "start.js"};
 
-std::string part(const std::string& name) {
-    return read_text(std::filesystem::path(SSRLAB_SOURCE_DIR) / "experiments/report/page" / name);
-}
-
 /// What the page's Content-Security-Policy allows beside its own scripts where images lie in files: those of its
 /// folder, which browsers call 'self' on a web server, and only by their scheme where the page itself is a file.
 constexpr const char* linked_scripts = " 'self' file:";
-
-/// JSON inside a script element: no "</script>" may end it.
-std::string script_text(const json& value) {
-    std::string escaped;
-    for (const char c : value.dump(-1, ' ', false, json::error_handler_t::replace))
-        escaped += c == '<' ? "\\u003c" : std::string(1, c);
-    return escaped;
-}
 
 /// The rows of `metric` under the headline's target and mask; where there are none such, those of the first.
 std::vector<const MetricSummary*> headline_rows(std::span<const MetricSummary> errors, const PointSet& singles,
@@ -139,36 +127,6 @@ json without_scripts(const json& data, const Headline& headline, std::span<const
     return values;
 }
 
-kainjow::mustache::data mustache_data(const json& value) {
-    using kainjow::mustache::data;
-    if (value.is_object()) {
-        data object;
-        for (const auto& [key, part] : value.items()) object.set(key, mustache_data(part));
-        return object;
-    }
-    if (value.is_array()) {
-        data list(data::type::list);
-        for (const json& part : value) list.push_back(mustache_data(part));
-        return list;
-    }
-    if (value.is_boolean()) return data(value.get<bool>());
-    return data(value.is_string() ? value.get<std::string>() : value.dump());
-}
-
-/// A text with the tags of Mustache (mustache(5)), filled in: {{name}} is escaped for HTML, {{{name}}} is put in as it
-/// is (both are empty where `values` has no such name), and a section {{#name}} ... {{/name}} is repeated for each
-/// element of an array, or left out where `values` has no such name, an empty array or false. `partials`: the texts,
-/// with tags of their own, that {{>name}} stands for. Fails with Error if the template is malformed.
-std::string filled_template(const std::string& text, const json& values,
-                            const std::map<std::string, std::string>& partials) {
-    kainjow::mustache::mustache page(text);
-    kainjow::mustache::data all = mustache_data(values);
-    for (const auto& [name, partial] : partials) all.set(name, kainjow::mustache::data(partial));
-    const std::string filled = page.render(all);
-    if (!page.is_valid()) fail("a template of the report is malformed: ", page.error_message());
-    return filled;
-}
-
 /// What the folder holds of the study's data, for programs other than browsers.
 json data_files(const std::filesystem::path& folder) {
     json files = json::array();
@@ -186,12 +144,12 @@ json data_files(const std::filesystem::path& folder) {
 std::string page_text(const std::string& title, const json& data, json values) {
     values["title"] = title;
     values["data"] = script_text(data);
-    values["style"] = part("style.css") + part("viewer/viewer.css");
-    values["plot"] = part("vendor/plot.js");
+    values["style"] = page_part("style.css") + page_part("viewer/viewer.css");
+    values["plot"] = page_part("vendor/plot.js");
     std::string script;
-    for (const char* name : scripts) script += part(name);
+    for (const char* name : scripts) script += page_part(name);
     values["script"] = script;
-    return filled_template(part("template.html"), values, {{"no_scripts", part("no_scripts.html")}});
+    return filled_template(page_part("template.html"), values, {{"no_scripts", page_part("no_scripts.html")}});
 }
 
 StudyAnswers write_report(const std::filesystem::path& folder, bool links_images) {

@@ -68,15 +68,6 @@ std::vector<Entry> first_seeds(std::vector<Entry> entries) {
     return entries;
 }
 
-std::vector<unsigned char> compressed(const std::vector<unsigned char>& bytes) {
-    uLongf size = compressBound(bytes.size());
-    std::vector<unsigned char> packed(size);
-    if (compress2(packed.data(), &size, bytes.data(), bytes.size(), 6) != Z_OK)
-        fail_machine("not enough memory to compress an image of the report");
-    packed.resize(size);
-    return packed;
-}
-
 /// Of a plane with `width` values per row: from the values to the left, above, and above the left.
 int predicted(const std::vector<int16_t>& plane, size_t width, size_t i) {
     const bool has_left = i % width != 0, has_above = i >= width;
@@ -250,6 +241,15 @@ std::vector<unsigned char> encode_palette(const HostImage& rgb, json& palette) {
         bytes[i] = static_cast<unsigned char>(place->second);
     }
     return compressed(bytes);
+}
+
+std::vector<unsigned char> compressed(const std::vector<unsigned char>& bytes) {
+    uLongf size = compressBound(bytes.size());
+    std::vector<unsigned char> packed(size);
+    if (compress2(packed.data(), &size, bytes.data(), bytes.size(), 6) != Z_OK)
+        fail_machine("not enough memory to compress a part of a page");
+    packed.resize(size);
+    return packed;
 }
 
 std::string base64(const std::vector<unsigned char>& bytes) {

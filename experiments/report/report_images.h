@@ -42,5 +42,8 @@ std::vector<unsigned char> encode_bytes(const HostImage& image);
 /// per pixel. Fails with Error if there are more than 256 of them.
 std::vector<unsigned char> encode_palette(const HostImage& rgb, nlohmann::json& palette);
 
+/// A zlib stream.
+std::vector<unsigned char> compressed(const std::vector<unsigned char>& bytes);
+
 /// RFC 4648, with padding.
 std::string base64(const std::vector<unsigned char>& bytes);

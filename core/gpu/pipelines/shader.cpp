@@ -16,10 +16,10 @@
 
 namespace {
 
-/// `vertex`: the language's number of the vertex, 0 to 2.
-std::string fullscreen_triangle(const std::string& vertex) {
-    return "void main() { gl_Position = vec4(vec2(" + vertex + " << 1 & 2, " + vertex +
-           " & 2) * 2.0 - 1.0, 0.0, 1.0); }\n";
+/// On the near plane. `vertex`: the language's number of the vertex, 0 to 2; `near`: the API's clip z of that plane.
+std::string fullscreen_triangle(const std::string& vertex, const std::string& near) {
+    return "void main() { gl_Position = vec4(vec2(" + vertex + " << 1 & 2, " + vertex + " & 2) * 2.0 - 1.0, " + near +
+           ", 1.0); }\n";
 }
 
 const char* const webgl2_version = "#version 300 es\n";
@@ -222,7 +222,7 @@ std::string shader_prelude_for_cpu(const ParameterSet& params) {
 
 Webgl2Sources webgl2_sources(const std::string& file, const std::string& prelude, const ShaderIncludes& includes) {
     std::vector<SourceFile> files = {{"prelude"}, {file}};
-    Webgl2Sources sources{.vertex = webgl2_version + fullscreen_triangle("gl_VertexID"),
+    Webgl2Sources sources{.vertex = webgl2_version + fullscreen_triangle("gl_VertexID", "-1.0"),
                           .fragment = webgl2_fragment(prelude, includes, files),
                           .files = {}};
     for (const SourceFile& f : files) sources.files.push_back(f.name);
@@ -239,7 +239,7 @@ Shader compile(const std::string& file, const std::string& vertex_file, const st
     std::vector<std::pair<EShLanguage, std::string>> sources;
     if (!is_compute && !webgl2) {
         if (vertex_file.empty()) {
-            sources.emplace_back(EShLangVertex, fullscreen_triangle("gl_VertexIndex"));
+            sources.emplace_back(EShLangVertex, fullscreen_triangle("gl_VertexIndex", "0.0"));
         } else {
             files.push_back({vertex_file});
             sources.emplace_back(EShLangVertex,

@@ -1,0 +1,92 @@
+// From what a frame's passes left behind to reflected light, its error, and pictures.
+
+/// The technique's light in the image, RGB: the split-sum reflectance times a mix of fallback and what the technique
+/// found (core/gbuffer/composite.h).
+function reflectedLight(replay, frame) {
+    const {texels, images} = replay, radiance = images.read(frame.radiance);
+    const confidence = frame.confidence === frame.radiance ? radiance : images.read(frame.confidence);
+    const reflectance = texels[frame.reflectance].values, fallback = texels[frame.fallback].values;
+    return Float32Array.from(reflectance, (factor, i) => {
+        if (factor === 0) return 0;
+        const pixel = i / 3 | 0, weight = confidence[4 * pixel + frame.confidence_channel];
+        return factor * (fallback[i] * (1 - weight) + radiance[4 * pixel + i % 3] * weight);
+    });
+}
+
+/// Relative squared error: mean of d^2 / (r^2 + 0.01) over the mask's pixels and the channels, without the noise of the
+/// truth taken off. null: the mask is empty.
+function relativeError(test, truth, mask) {
+    let sum = 0, count = 0;
+    for (let i = 0; i < test.length; ++i) {
+        if (!mask[i / 3 | 0]) continue;
+        sum += (test[i] - truth[i]) ** 2 / (truth[i] ** 2 + 0.01);
+        ++count;
+    }
+    return count ? sum / count : null;
+}
+
+/// Of each pixel mean over channels of |d| / sqrt(r^2 + 0.01); 0 outside of the mask.
+function errorMap(test, truth, mask) {
+    const of = (i, c) => Math.abs(test[3 * i + c] - truth[3 * i + c]) / Math.sqrt(truth[3 * i + c] ** 2 + 0.01);
+    return Float32Array.from(mask, (isInside, i) => isInside ? (of(i, 0) + of(i, 1) + of(i, 2)) / 3 : 0);
+}
+
+/// Pixels whose values are not those that the Vulkan device had: {share, far: share of those that differ by more than
+/// a hundredth, largest}, over all channels; null where the page does not hold that device's results.
+function differenceFromRecorded(replay, frame) {
+    if (frame.result === undefined) return null;
+    const now = replay.images.read(frame.radiance), {values, channels} = replay.texels[frame.result];
+    const pixels = values.length / channels;
+    let differing = 0, far = 0, largest = 0;
+    for (let i = 0; i < pixels; ++i) {
+        let most = 0;
+        for (let c = 0; c < channels; ++c) {
+            const a = now[4 * i + c], b = values[channels * i + c];
+            most = Object.is(a, b) || a === b ? most : Math.max(most, Math.abs(a - b) || Infinity);
+        }
+        differing += most > 0;
+        far += most > 0.01;
+        largest = Math.max(largest, most);
+    }
+    return {share: differing / pixels, far: far / pixels, largest};
+}
+
+const sumOf = (a, b) => Float32Array.from(a, (v, i) => v + b[i]);
+
+/// RGBA pixels of linear RGB at an exposure (gain), through a curve of the report.
+function paintedLight(rgb, {width, height}, gain, curve) {
+    const out = new ImageData(width, height), {of} = toneCurves[curve];
+    for (let i = 0; i < width * height; ++i) {
+        const isBad = ![0, 1, 2].every(c => Number.isFinite(rgb[3 * i + c]));
+        for (let c = 0; c < 3; ++c)
+            out.data[4 * i + c] = isBad ? badColor[c] : srgbCode(of(Math.max(rgb[3 * i + c] * gain, 0)));
+        out.data[4 * i + 3] = 255;
+    }
+    return out;
+}
+
+/// What can be looked at: of a frame's results the picture on the left of the wipe, and on its right the truth's.
+const shown = {
+    image: {
+        title: "image",
+        left: (r, look) => paintedLight(sumOf(r.lit, r.reflected), r, look.gain, look.curve),
+        right: (r, look) => paintedLight(sumOf(r.lit, r.truth), r, look.gain, look.curve)
+    },
+    reflections: {
+        title: "reflected light alone",
+        left: (r, look) => paintedLight(r.reflected, r, look.gain, look.curve),
+        right: (r, look) => paintedLight(r.truth, r, look.gain, look.curve)
+    },
+    error: {
+        title: "error map",
+        scale: "black 0, yellow 1 and more: mean over channels of |d| / sqrt(r² + 0.01), where surfaces reflect",
+        left: r => falseColorPixels(errorMap(r.reflected, r.truth, r.mask), r, 1, false),
+        right: (r, look) => paintedLight(r.truth, r, look.gain, look.curve)
+    },
+    confidence: {
+        title: "confidence",
+        scale: "black 0, yellow 1: the share of the reflected light that is the technique's, the rest is the fallback",
+        left: r => falseColorPixels(r.confidence, r, 1, false),
+        right: (r, look) => paintedLight(r.truth, r, look.gain, look.curve)
+    },
+};

@@ -1,0 +1,69 @@
+#pragma once
+#include "core/gbuffer/gbuffer.h"
+#include "core/gpu/pass_record.h"
+#include "core/variant.h"
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+/// Texels for a page: described in its recording, encoded in elements of their own. What comes twice is kept once.
+class RecordedTexels {
+public:
+    /// Without loss; its place.
+    size_t add(const HostImage& image);
+    /// RGB as halves with so many bits of significand (encode_halves()); its place.
+    size_t add_rounded(const HostImage& rgb, unsigned significand_bits);
+
+    const nlohmann::json& descriptions() const { return descriptions_; }
+    const std::vector<std::string>& texts() const { return texts_; }  ///< base64, by their places
+
+private:
+    size_t keep(nlohmann::json description, const std::vector<unsigned char>& bytes);
+
+    nlohmann::json descriptions_ = nlohmann::json::array();
+    std::vector<std::string> texts_;
+    std::map<std::string, size_t> places_;  ///< by description and bytes
+};
+
+/// Writes down what a technique does to the images of a graph, frame by frame, as page/replay.js does it again: its
+/// images, programs in GLSL ES 3.00, and lists of commands. It listens while it lives, but for pauses.
+class Recorder {
+public:
+    Recorder(PassGraph& graph, RecordedTexels& texels);
+    ~Recorder();
+    Recorder(const Recorder&) = delete;
+    Recorder& operator=(const Recorder&) = delete;
+
+    /// What is read of `gbuffer` from now on is a frame's own.
+    void begin_frame(const GBuffer& gbuffer);
+    /// The frame's description: {"commands": place of its list, "inputs": {image: texels}, "radiance", "confidence":
+    /// images, "confidence_channel"}. Nothing is recorded until the next one begins.
+    nlohmann::json end_frame(const Reflections& reflections);
+
+    nlohmann::json images() const { return images_; }
+    nlohmann::json programs() const { return programs_; }
+    const std::string& vertex() const { return vertex_; }  ///< the vertex shader of all of them
+    nlohmann::json command_lists() const { return lists_; }
+    /// Places among the parameters with Use::uniform that some program reads.
+    const std::set<unsigned>& params_read() const { return params_read_; }
+
+private:
+    void add_pass(const RecordedPass& pass);
+    size_t program_of(const RecordedPass& pass);
+    size_t image_of(const Image& image);    ///< that a pass writes, a clear or an upload
+    size_t texture_of(const Image& image);  ///< that a pass reads
+    size_t described(const Image& image, const std::string& name);
+
+    PassGraph& graph_;
+    RecordedTexels& texels_;
+    nlohmann::json images_ = nlohmann::json::array(), programs_ = nlohmann::json::array();
+    nlohmann::json lists_ = nlohmann::json::array(), commands_, inputs_;
+    std::string vertex_;
+    std::map<std::string, size_t> program_places_, list_places_;
+    std::vector<ShaderReads> reads_;  ///< by program
+    std::set<unsigned> params_read_;
+    std::map<const ImageStorage*, size_t> known_;
+    std::vector<Image> kept_;  ///< so that no other image comes to lie where one of `known_` was
+    std::map<std::string, size_t> input_places_;
+    std::map<const ImageStorage*, std::string> inputs_now_;
+};
