@@ -606,6 +606,8 @@ int parse_and_run(int argc, char** argv) {
                              "G-buffer in the formats of engines, so that the page is smaller; default: float32");
     record_command_.add_flag("--results", record.has_results,
                              "Also what this device rendered, so that the page says where a browser differs from it");
+    record_command_.add_flag("--passes", record.has_passes,
+                             "Also what each pass of this device wrote, so that the page compares one by one");
     record_command_.add_option("--out", record.out, "The page")->required()->type_name("PAGE.html");
     add_device(record_command_, common), add_scene_path(record_command_, common), add_cache(record_command_, common);
     add_reading(record_command_);

@@ -166,7 +166,7 @@ struct RecordOptions {
     std::string variant, preset, frames = "0-7";  ///< a frame, or a range with both ends
     nlohmann::json parameters = nlohmann::json::object();
     unsigned samples = 256;
-    bool is_packed = false, has_results = false;
+    bool is_packed = false, has_results = false, has_passes = false;
     std::filesystem::path out;
 };
 /// Writes a page that does a technique's passes again in WebGL 2 (experiments/record/record.h).

@@ -55,6 +55,7 @@ void record_command(const RecordOptions& options, const CommonOptions& common) {
                  .point = point,
                  .samples = options.samples,
                  .has_results = options.has_results,
+                 .has_passes = options.has_passes,
                  .page = options.out,
                  .cache = common.cache.empty() ? default_cache_folder() : common.cache,
                  .search_path = scene_search_path(common.scene_path),

@@ -85,7 +85,7 @@ public:
           source_(scene_source(device, shot, config_, true)),
           store_(*source_, shot.config, 0),
           renderer_(device, shot.config.extent, settings.point),
-          recorder_(*renderer_.graph, texels_) {
+          recorder_(*renderer_.graph, texels_, settings.has_passes) {
         renderer_.variant->limits = Limits::webgl2;
     }
 
@@ -114,11 +114,8 @@ public:
         entry["reflectance"] = texels_.add_rounded(truth.reflectance, 10);
         entry["truth"] = texels_.add_rounded(specular, truth_significand_bits);
         entry["mask"] = texels_.add(image_of(truth.masks[0], host.extent()));
-        if (settings_.has_results) {
+        if (settings_.has_results || settings_.has_passes)
             entry["result"] = texels_.add(renderer_.graph->download(reflections.radiance));
-            entry["specular"] =
-                texels_.add_rounded(channels_of(renderer_.graph->download(composite.specular), 0, 3), 10);
-        }
         frames_.push_back(std::move(entry));
     }
 

@@ -14,6 +14,7 @@ struct RecordSettings {
     VariantConfig point;       ///< with one seed
     unsigned samples = 256;    ///< of the truth, per pixel
     bool has_results = false;  ///< also what the Vulkan device rendered, so that the page can compare
+    bool has_passes = false;   ///< also what each pass wrote there
     std::filesystem::path page;
     std::filesystem::path cache;                                        ///< of references
     std::vector<std::filesystem::path> search_path;                     ///< of scenes

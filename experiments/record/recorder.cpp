@@ -63,13 +63,26 @@ size_t RecordedTexels::add_rounded(const HostImage& rgb, unsigned significand_bi
     return keep({{"width", rgb.extent.x}, {"height", rgb.extent.y}, {"significand_bits", significand_bits}}, bytes);
 }
 
-Recorder::Recorder(PassGraph& graph, RecordedTexels& texels) : graph_(graph), texels_(texels) {}
-Recorder::~Recorder() { graph_.stop_recording(); }
+Recorder::Recorder(PassGraph& graph, RecordedTexels& texels, bool keeps_passes)
+    : graph_(graph), texels_(texels), keeps_passes_(keeps_passes) {}
+Recorder::~Recorder() { stop(); }
+
+void Recorder::stop() {
+    graph_.stop_recording();
+    if (keeps_passes_) graph_.observe({});
+}
 
 void Recorder::begin_frame(const GBuffer& gbuffer) {
     commands_ = json::array(), inputs_ = json::object();
     inputs_now_.clear();
     for (const Image& image : gbuffer.images()) inputs_now_.try_emplace(image.storage.get(), image.name);
+    if (keeps_passes_)
+        graph_.observe([this](const std::string& stage, std::span<const Image> written) {
+            for (const Image& image : written)
+                commands_.push_back({{"check", {image_of(image), image.first_mip}},
+                                     {"stage", stage},
+                                     {"texels", texels_.add(graph_.download(image))}});
+        });
     graph_.record({.pass = [this](const RecordedPass& pass) { add_pass(pass); },
                    .clear =
                        [this](const Image& image, glm::vec4 value) {
@@ -85,7 +98,7 @@ void Recorder::begin_frame(const GBuffer& gbuffer) {
 }
 
 json Recorder::end_frame(const Reflections& reflections) {
-    graph_.stop_recording();
+    stop();
     const auto [place, is_new] = list_places_.try_emplace(commands_.dump(), lists_.size());
     if (is_new) lists_.push_back(commands_);
     return {{"commands", place->second},

@@ -26,10 +26,12 @@ private:
 };
 
 /// Writes down what a technique does to the images of a graph, frame by frame, as page/replay.js does it again: its
-/// images, programs in GLSL ES 3.00, and lists of commands. It listens while it lives, but for pauses.
+/// images, programs in GLSL ES 3.00, and lists of commands.
 class Recorder {
 public:
-    Recorder(PassGraph& graph, RecordedTexels& texels);
+    /// `keeps_passes`: also what each pass has written, as commands {"check": [image, mip], "stage", "texels"} behind
+    /// it, so that each can be compared by itself.
+    Recorder(PassGraph& graph, RecordedTexels& texels, bool keeps_passes = false);
     ~Recorder();
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
@@ -48,6 +50,7 @@ public:
     const std::set<unsigned>& params_read() const { return params_read_; }
 
 private:
+    void stop();
     void add_pass(const RecordedPass& pass);
     size_t program_of(const RecordedPass& pass);
     size_t image_of(const Image& image);    ///< that a pass writes, a clear or an upload
@@ -56,6 +59,7 @@ private:
 
     PassGraph& graph_;
     RecordedTexels& texels_;
+    const bool keeps_passes_;
     nlohmann::json images_ = nlohmann::json::array(), programs_ = nlohmann::json::array();
     nlohmann::json lists_ = nlohmann::json::array(), commands_, inputs_;
     std::string vertex_;

@@ -31,24 +31,35 @@ function errorMap(test, truth, mask) {
     return Float32Array.from(mask, (isInside, i) => isInside ? (of(i, 0) + of(i, 1) + of(i, 2)) / 3 : 0);
 }
 
-/// Pixels whose values are not those that the Vulkan device had: {share, far: share of those that differ by more than
-/// a hundredth, largest}, over all channels; null where the page does not hold that device's results.
+/// Four channels against the first `channels` of what was recorded: {pixels, differing: those whose bits differ, far:
+/// those that differ by more than a hundredth, largest: difference, relative: to the recorded value, above 1e-4}.
+function compared(now, recorded, channels) {
+    const found = {pixels: recorded.length / channels, differing: 0, far: 0, largest: 0, relative: 0};
+    for (let i = 0; i < found.pixels; ++i) {
+        let most = 0;
+        for (let c = 0; c < channels; ++c) {
+            const a = now[4 * i + c], b = recorded[channels * i + c];
+            if (a === b || (Number.isNaN(a) && Number.isNaN(b))) continue;
+            const difference = Number.isNaN(a - b) ? Infinity : Math.abs(a - b);
+            most = Math.max(most, difference);
+            found.relative = Math.max(found.relative, difference / Math.max(Math.abs(b), 1e-4));
+        }
+        found.differing += most > 0;
+        found.far += most > 0.01;
+        found.largest = Math.max(found.largest, most);
+    }
+    return found;
+}
+
+/// What a frame left behind against what was recorded, and which of its pixels are `kept`: those where either holds
+/// something; null where the page does not hold results.
 function differenceFromRecorded(replay, frame) {
     if (frame.result === undefined) return null;
     const now = replay.images.read(frame.radiance), {values, channels} = replay.texels[frame.result];
-    const pixels = values.length / channels;
-    let differing = 0, far = 0, largest = 0;
-    for (let i = 0; i < pixels; ++i) {
-        let most = 0;
-        for (let c = 0; c < channels; ++c) {
-            const a = now[4 * i + c], b = values[channels * i + c];
-            most = Object.is(a, b) || a === b ? most : Math.max(most, Math.abs(a - b) || Infinity);
-        }
-        differing += most > 0;
-        far += most > 0.01;
-        largest = Math.max(largest, most);
-    }
-    return {share: differing / pixels, far: far / pixels, largest};
+    let kept = 0;
+    for (let i = 0; i < values.length / channels; ++i)
+        kept += [0, 1, 2, 3].some(c => now[4 * i + c] || (c < channels && values[channels * i + c]));
+    return {...compared(now, values, channels), kept};
 }
 
 const sumOf = (a, b) => Float32Array.from(a, (v, i) => v + b[i]);

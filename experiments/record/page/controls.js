@@ -13,8 +13,8 @@ function element(tag, attributes, ...children) {
 
 const fourDigits = x => x === null ? "–" : String(Number(x.toPrecision(4)));
 
-/// Ranges that span powers of ten, or are wider than a slider can show, move in equal ratios.
-const isLogarithmic = ({min, max}) => min >= 0 && max >= 1000 * Math.max(min, 1e-3);
+/// Ranges that span powers of ten move in equal ratios.
+const isLogarithmic = ({min, max}) => min >= 0 && max >= 1000 * (min || 1);
 
 /// Positions 0 to 1000 of a slider, and the values of its parameter.
 function scaleOf(p) {
@@ -64,7 +64,8 @@ function parameterRows(parameters, changed) {
         const range = p.choices.length ? p.choices.join(", ") : p.type === "bool" ? "off, on" : `${p.min} to ${p.max}`;
         return element("div", {class: "parameter", "data-name": p.name},
                        element("label", {}, element("b", {}, p.name), unit, room), output, reset,
-                       element("small", {}, `${p.doc}. Range: ${range}; default ${p.initial}.`));
+                       element("details", {}, element("summary", {}, "meaning"),
+                               element("small", {}, `${p.doc}. Range: ${range}; default ${p.initial}.`)));
     });
 }
 

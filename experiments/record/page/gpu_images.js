@@ -39,15 +39,14 @@ class GpuImages {
         return {texture, width, height, mips, format, ...glFormats[format]};
     }
 
-    upload(place, texels) {
-        const {gl} = this, image = this.images[place], {values} = texels;
+    upload(place, {values, width, height}, mip = 0) {
+        const {gl} = this, image = this.images[place];
         const data = image.type === "FLOAT"       ? values :
                      image.type === "UNSIGNED_INT" ? Uint32Array.from(values) :
                                                      Uint8Array.from(values, v => Math.round(255 * v));
         gl.bindTexture(gl.TEXTURE_2D, image.texture);
         gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
-        gl.texSubImage2D(
-            gl.TEXTURE_2D, 0, 0, 0, image.width, image.height, gl[image.layout], gl[image.type], data);
+        gl.texSubImage2D(gl.TEXTURE_2D, mip, 0, 0, width, height, gl[image.layout], gl[image.type], data);
     }
 
     /// With a texture unit; `filter` and the wraps are names of WebGL. Without an image: a texel that nothing looks at.
@@ -112,18 +111,19 @@ class GpuImages {
             gl.clearBufferfv(gl.COLOR, 0, value);
     }
 
-    /// Four channels of an image of floats, rows from the top.
-    read(place) {
-        const {gl} = this, {width, height, type} = this.images[place], pixels = width * height;
-        this.drawTo([[place, 0]], null);
+    /// Four channels of one mip, rows from the top.
+    read(place, mip = 0) {
+        const {gl} = this, {width, height, type} = this.images[place];
+        const w = Math.max(width >> mip, 1), h = Math.max(height >> mip, 1);
+        this.drawTo([[place, mip]], null);
         gl.readBuffer(gl.COLOR_ATTACHMENT0);
         if (type === "UNSIGNED_BYTE") {
-            const bytes = new Uint8Array(4 * pixels);
-            gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
+            const bytes = new Uint8Array(4 * w * h);
+            gl.readPixels(0, 0, w, h, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
             return Float32Array.from(bytes, v => v / 255);
         }
-        const values = new Float32Array(4 * pixels);
-        gl.readPixels(0, 0, width, height, gl.RGBA, gl.FLOAT, values);
+        const values = new Float32Array(4 * w * h);
+        gl.readPixels(0, 0, w, h, gl.RGBA, gl.FLOAT, values);
         return values;
     }
 }

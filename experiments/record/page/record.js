@@ -66,8 +66,6 @@ function drawWipe() {
     at("wipe").value = 100 * wipe;
 }
 
-const percent = share => `${fourDigits(100 * share)} %`;
-
 function writeNumbers() {
     const {results, place, replay} = page, frame = frames()[place], recorded = fourDigits(frame.error);
     at("error").textContent = isAsRecorded() ?
@@ -75,10 +73,22 @@ function writeNumbers() {
         `Error of this frame (relmse): ${fourDigits(results.error)}; with the recorded parameters: ${recorded}.`;
     const {difference} = results;
     at("difference").textContent = difference ?
-        `${percent(difference.share)} of its pixels do not have the bits that ${
-            replay.recording.facts.device.split(" (")[0]} gave them, ${
-            percent(difference.far)} differ by more than 0.01, at most by ${fourDigits(difference.largest)}.` :
+        `Of ${difference.kept} pixels with reflections ${difference.differing} do not have the bits of the recording, ${
+            difference.far} differ by more than 0.01, at most by ${fourDigits(difference.largest)}.` :
         "";
+}
+
+/// A table of what each pass writes, each on recorded inputs, against what was recorded.
+function writePasses() {
+    const rows = page.replay.checkPasses(page.place), cells = (tag, row) => row.map(text => element(tag, {}, text));
+    const header = ["pass", "image", "pixels", "with other bits", "largest difference", "relative"];
+    at("passes").replaceChildren(
+        element("thead", {}, element("tr", {}, ...cells("th", header))),
+        element("tbody", {}, ...rows.map(r => element("tr", {}, ...cells("td", [
+            r.stage, `${r.image} (${r.format}${r.mip ? `, mip ${r.mip}` : ""})`, String(r.pixels), String(r.differing),
+            fourDigits(r.largest), fourDigits(r.relative)
+        ])))));
+    showFrame(page.place);
 }
 
 /// The GPU reports a frame's time some frames later.
@@ -127,6 +137,9 @@ function listen() {
     };
     at("picture").addEventListener("pointerdown", drag);
     at("picture").addEventListener("pointermove", drag);
+    at("check").addEventListener("click", writePasses);
+    at("passes-room").hidden =
+        !page.replay.recording.command_lists.some(commands => commands.some(command => command.check));
 }
 
 /// What the page is of. The rest of its text is in the template.

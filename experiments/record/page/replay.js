@@ -115,6 +115,25 @@ class Replay {
         return done;
     }
 
+    /// Of a page that holds what each recorded pass wrote: does a frame's passes one by one, each on what was recorded,
+    /// and compares what it writes: [{stage, image, mip, pixels, differing, largest, relative}], as compared() gives them.
+    checkPasses(place) {
+        const rows = [], {images, texels} = this;
+        this.checked = ({check: [image, mip], stage, texels: recorded}) => {
+            const {name, format} = this.recording.images[image], {values, channels} = texels[recorded];
+            rows.push({stage, image: name, format, mip, ...compared(images.read(image, mip), values, channels)});
+            images.upload(image, texels[recorded], mip);
+        };
+        this.frame = -1;
+        while (this.frame < place) {
+            rows.length = 0;
+            this.render(++this.frame);
+        }
+        this.checked = null;
+        this.frame = -1;  // the images hold what was recorded
+        return rows;
+    }
+
     fill(block, words) {
         const {gl} = this, binding = blockBindings[block], size = Math.ceil(Math.max(words.length, 4) / 4) * 4;
         const padded = new Uint32Array(size);
@@ -139,6 +158,7 @@ class Replay {
 
     run(command) {
         if (command.clear) return this.images.clear(command.clear, command.value);
+        if (command.check) return this.checked?.(command);
         if (command.upload !== undefined) return this.images.upload(command.upload, this.texels[command.texels]);
         const {gl} = this, {program, samplers} = this.programs[command.program];
         gl.useProgram(program);
