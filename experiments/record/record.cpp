@@ -85,7 +85,7 @@ public:
           source_(scene_source(device, shot, config_, true)),
           store_(*source_, shot.config, 0),
           renderer_(device, shot.config.extent, settings.point),
-          recorder_(*renderer_.graph, texels_, settings.has_passes) {
+          recorder_(*renderer_.graph, texels_, known_reads, settings.has_passes) {
         renderer_.variant->limits = Limits::webgl2;
     }
 
@@ -130,6 +130,7 @@ public:
     const Recorder& recorder() const { return recorder_; }
     const std::vector<std::string>& texts() const { return texels_.texts(); }
     std::vector<double> errors;
+    KnownReads known_reads;
 
 private:
     const Shot& shot_;
@@ -189,7 +190,8 @@ RecordedPage record_page(Device& device, const RecordSettings& settings) {
     for (const FrameStep& step : shot.steps) made.add(step);
     json recording = made.recording();
     recording["facts"] = facts_of(shot, settings, device);
-    recording["parameters"] = recorded_parameters(device, settings.point, asked.extent, made.recorder().params_read());
+    recording["parameters"] =
+        recorded_parameters(device, settings.point, asked.extent, made.recorder().params_read(), made.known_reads);
 
     RecordedPage result{.errors = made.errors, .sliders = {}};
     const json& last = recording["command_lists"][recording["frames"].back()["commands"].get<size_t>()];

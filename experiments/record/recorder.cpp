@@ -63,8 +63,8 @@ size_t RecordedTexels::add_rounded(const HostImage& rgb, unsigned significand_bi
     return keep({{"width", rgb.extent.x}, {"height", rgb.extent.y}, {"significand_bits", significand_bits}}, bytes);
 }
 
-Recorder::Recorder(PassGraph& graph, RecordedTexels& texels, bool keeps_passes)
-    : graph_(graph), texels_(texels), keeps_passes_(keeps_passes) {}
+Recorder::Recorder(PassGraph& graph, RecordedTexels& texels, KnownReads& reads, bool keeps_passes)
+    : graph_(graph), texels_(texels), known_reads_(reads), keeps_passes_(keeps_passes) {}
 Recorder::~Recorder() { stop(); }
 
 void Recorder::stop() {
@@ -151,8 +151,10 @@ size_t Recorder::program_of(const RecordedPass& pass) {
     vertex_ = vertex;
     if (is_new) {
         programs_.push_back({{"stage", pass.stage}, {"fragment", fragment}});
-        reads_.push_back(reads_of(pass.recipe));
-        params_read_.insert(reads_.back().params.begin(), reads_.back().params.end());
+        const auto [reads, is_unknown] = known_reads_.try_emplace(fragment);
+        if (is_unknown) reads->second = reads_of(pass.recipe);
+        reads_.push_back(&reads->second);
+        params_read_.insert(reads->second.params.begin(), reads->second.params.end());
     }
     return place->second;
 }
@@ -161,7 +163,7 @@ void Recorder::add_pass(const RecordedPass& pass) {
     const size_t program = program_of(pass);
     json command = {{"program", program}, {"textures", json::array()}, {"targets", json::array()}};
     for (const RecordedPass::Texture& texture : pass.textures)
-        if (reads_[program].samplers.contains(texture.name))
+        if (reads_[program]->samplers.contains(texture.name))
             command["textures"].push_back({texture.name, texture_of(texture.image),
                                            texture.sampling.is_linear ? "LINEAR" : "NEAREST",
                                            wrap_name(texture.sampling.wrap_u), wrap_name(texture.sampling.wrap_v)});

@@ -25,13 +25,16 @@ private:
     std::map<std::string, size_t> places_;  ///< by description and bytes
 };
 
+/// What shaders look at, by their texts: it takes a while to find out.
+using KnownReads = std::map<std::string, ShaderReads>;
+
 /// Writes down what a technique does to the images of a graph, frame by frame, as page/replay.js does it again: its
 /// images, programs in GLSL ES 3.00, and lists of commands.
 class Recorder {
 public:
     /// `keeps_passes`: also what each pass has written, as commands {"check": [image, mip], "stage", "texels"} behind
     /// it, so that each can be compared by itself.
-    Recorder(PassGraph& graph, RecordedTexels& texels, bool keeps_passes = false);
+    Recorder(PassGraph& graph, RecordedTexels& texels, KnownReads& reads, bool keeps_passes = false);
     ~Recorder();
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
@@ -59,12 +62,13 @@ private:
 
     PassGraph& graph_;
     RecordedTexels& texels_;
+    KnownReads& known_reads_;
     const bool keeps_passes_;
     nlohmann::json images_ = nlohmann::json::array(), programs_ = nlohmann::json::array();
     nlohmann::json lists_ = nlohmann::json::array(), commands_, inputs_;
     std::string vertex_;
     std::map<std::string, size_t> program_places_, list_places_;
-    std::vector<ShaderReads> reads_;  ///< by program
+    std::vector<const ShaderReads*> reads_;  ///< by program
     std::set<unsigned> params_read_;
     std::map<const ImageStorage*, size_t> known_;
     std::vector<Image> kept_;  ///< so that no other image comes to lie where one of `known_` was

@@ -6,7 +6,6 @@
 #include "core/gpu/pipelines/shader_error.h"
 #include "experiments/measuring/rehearsal.h"
 #include "experiments/measuring/render_variant.h"
-#include "experiments/record/recorder.h"
 #include "variants/registry.h"
 
 #include <algorithm>
@@ -16,12 +15,12 @@ namespace {
 using nlohmann::json;
 
 /// All that two frames of an empty G-buffer do, as text, but for the values of parameters.
-std::string commands_of(Device& device, const VariantConfig& point, glm::uvec2 extent) {
+std::string commands_of(Device& device, const VariantConfig& point, glm::uvec2 extent, KnownReads& reads) {
     const HostGBuffer empty = empty_gbuffer(extent);
     const Renderer renderer(device, extent, point);
     renderer.variant->limits = Limits::webgl2;
     RecordedTexels texels;
-    Recorder recorder(*renderer.graph, texels);
+    Recorder recorder(*renderer.graph, texels, reads);
     PassGraph inputs(device, extent);
     json frames = json::array();
     for (unsigned index = 0; index < 2; ++index) {
@@ -60,10 +59,10 @@ std::vector<json> ends_of(const Parameter& p) {
 
 }  // namespace
 
-json recorded_parameters(Device& device, const VariantConfig& point, glm::uvec2 extent,
-                         const std::set<unsigned>& read) {
+json recorded_parameters(Device& device, const VariantConfig& point, glm::uvec2 extent, const std::set<unsigned>& read,
+                         KnownReads& known_reads) {
     const std::unique_ptr<Variant> variant = make_variant(point.variant, point.parameters, point.preset);
-    const std::string as_recorded = commands_of(device, point, extent);
+    const std::string as_recorded = commands_of(device, point, extent, known_reads);
     json all = json::array(), compiled_in = json::array();
     unsigned place = 0;
     for (const Parameter& p : variant->params) {
@@ -76,7 +75,7 @@ json recorded_parameters(Device& device, const VariantConfig& point, glm::uvec2 
         const auto changes_more = [&](const json& value) {
             VariantConfig changed = point;
             changed.parameters[p.name] = value;
-            return commands_of(device, changed, extent) != as_recorded;
+            return commands_of(device, changed, extent, known_reads) != as_recorded;
         };
         if (!read.contains(place++))
             one["why_not"] = "no recorded shader reads it";
@@ -94,7 +93,8 @@ void require_replayable(Device& device, const VariantConfig& point) {
     const std::string name = point.variant + (point.preset.empty() ? "" : " (" + point.preset + ")");
     std::string commands;
     try {
-        commands = commands_of(device, point, {16, 16});
+        KnownReads reads;
+        commands = commands_of(device, point, {16, 16}, reads);
     } catch (const MachineError&) {
         throw;
     } catch (const ShaderError&) {

@@ -1,5 +1,6 @@
 #pragma once
 #include "experiments/config/config.h"
+#include "experiments/record/recorder.h"
 
 #include <nlohmann/json.hpp>
 #include <set>
@@ -13,7 +14,7 @@ class Device;
 /// Whether a parameter decides more is found by rendering with its least and its largest value. Then the parameters
 /// that the chosen parts of the technique have compiled in, which have no slider either.
 nlohmann::json recorded_parameters(Device& device, const VariantConfig& point, glm::uvec2 extent,
-                                   const std::set<unsigned>& read);
+                                   const std::set<unsigned>& read, KnownReads& known_reads);
 
 /// Renders two frames of an empty G-buffer. Fails with Error, naming the pass, if WebGL 2 cannot do what the technique
 /// does, or if it has no passes.

@@ -91,7 +91,7 @@ def record(program, folder, name, *options):
     page = os.path.join(folder, name + ".html")
     command = [program, "record", "rotating_mirror", "--variant", "diligent_ssr", "--size", *SIZE, "--frames", FRAMES]
     done = subprocess.run(
-        [*command, "--samples", "4", "--passes", "--out", page, *options],
+        [*command, "--samples", "4", "--out", page, *options],
         env={**os.environ, "SSRLAB_CACHE": os.path.join(folder, "cache")},
         capture_output=True,
         text=True,
@@ -163,7 +163,7 @@ def check_slider(browser, changed_page):
 
 def main():
     with tempfile.TemporaryDirectory() as folder:
-        page = record(sys.argv[1], folder, "page")
+        page = record(sys.argv[1], folder, "page", "--passes")
         changed = record(sys.argv[1], folder, "changed", "--set", "temporal_radiance_stability_factor=0.5")
         browser = open_browser(os.path.join(folder, "profile"), SOFTWARE)
         try:

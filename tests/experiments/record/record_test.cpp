@@ -22,6 +22,7 @@ bool has(const std::string& text, const std::string& part) { return text.find(pa
 /// Three frames of a technique on an empty G-buffer.
 struct SmallRecording {
     RecordedTexels texels;
+    KnownReads reads;
     json images, programs, lists, frames = json::array();
     std::set<unsigned> params_read;
     std::vector<std::vector<std::string>> stages;  ///< that were timed, of each frame
@@ -31,7 +32,7 @@ struct SmallRecording {
         const HostGBuffer empty = empty_gbuffer({45, 27});
         const Renderer renderer(device, empty.extent(), point);
         PassGraph inputs(device, empty.extent());
-        Recorder recorder(*renderer.graph, texels);
+        Recorder recorder(*renderer.graph, texels, reads);
         for (unsigned index = 0; index < 3; ++index) {
             const GBuffer gbuffer = upload_gbuffer(inputs, empty);
             CameraData camera = empty.camera;
@@ -128,7 +129,8 @@ TEST(Record, HoldsMipsOfOddSizesAndStencils) {
 TEST(Record, HasSlidersForWhatOnlyShadersRead) {
     Device device;
     const VariantConfig point = single_point("diligent_ssr");
-    const json parameters = recorded_parameters(device, point, {32, 18}, SmallRecording(point).params_read);
+    SmallRecording recording(point);
+    const json parameters = recorded_parameters(device, point, {32, 18}, recording.params_read, recording.reads);
     std::map<std::string, json> by_name;
     for (const json& p : parameters) by_name[p["name"]] = p;
     for (const char* name : {"roughness_threshold", "temporal_radiance_stability_factor", "ggx_importance_sample_bias"})
