@@ -90,6 +90,7 @@ json recorded_parameters(Device& device, const VariantConfig& point, glm::uvec2 
 }
 
 void require_replayable(Device& device, const VariantConfig& point) {
+    make_variant(point.variant, point.parameters, point.preset);  // what is wrong with these is said as it is
     const std::string name = point.variant + (point.preset.empty() ? "" : " (" + point.preset + ")");
     std::string commands;
     try {

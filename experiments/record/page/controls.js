@@ -48,12 +48,19 @@ function parameterInput(p, value, changed) {
     return input;
 }
 
+/// A name that may go on in the next line behind '_' and '.'.
+const breakable = name => name.split(/(?<=[_.])/).flatMap(part => [part, element("wbr", {})]);
+
 /// A row for each parameter that has a slider; `changed(parameter, value)`.
 function parameterRows(parameters, changed) {
     return parameters.filter(p => p.is_slider).map(p => {
         const output = element("output", {}, String(p.value));
         const room = element("span", {class: "parameter-input"});
-        const put = value => room.replaceChildren(parameterInput(p, value, take));
+        const put = value => {
+            const input = parameterInput(p, value, take);
+            input.setAttribute("aria-label", p.name);
+            room.replaceChildren(input);
+        };
         const take = value => {
             output.value = String(value);
             changed(p, value);
@@ -63,7 +70,7 @@ function parameterRows(parameters, changed) {
         const unit = p.unit ? ` (${p.unit})` : "";
         const range = p.choices.length ? p.choices.join(", ") : p.type === "bool" ? "off, on" : `${p.min} to ${p.max}`;
         return element("div", {class: "parameter", "data-name": p.name},
-                       element("label", {}, element("b", {}, p.name), unit, room), output, reset,
+                       element("span", {}, element("b", {}, ...breakable(p.name)), unit), output, room, reset,
                        element("details", {}, element("summary", {}, "meaning"),
                                element("small", {}, `${p.doc}. Range: ${range}; default ${p.initial}.`)));
     });
