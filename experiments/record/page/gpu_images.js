@@ -111,7 +111,7 @@ class GpuImages {
             gl.clearBufferfv(gl.COLOR, 0, value);
     }
 
-    /// Four channels of one mip, rows from the top.
+    /// Four channels of one mip as numbers, rows from the top.
     read(place, mip = 0) {
         const {gl} = this, {width, height, type} = this.images[place];
         const w = Math.max(width >> mip, 1), h = Math.max(height >> mip, 1);
@@ -121,6 +121,11 @@ class GpuImages {
             const bytes = new Uint8Array(4 * w * h);
             gl.readPixels(0, 0, w, h, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
             return Float32Array.from(bytes, v => v / 255);
+        }
+        if (type === "UNSIGNED_INT") {
+            const numbers = new Uint32Array(4 * w * h);
+            gl.readPixels(0, 0, w, h, gl.RGBA_INTEGER, gl.UNSIGNED_INT, numbers);
+            return Float32Array.from(numbers);
         }
         const values = new Float32Array(4 * w * h);
         gl.readPixels(0, 0, w, h, gl.RGBA, gl.FLOAT, values);

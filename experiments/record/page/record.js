@@ -19,6 +19,7 @@ function showFrame(place) {
     const {replay} = page, frame = frames()[place], {texels} = replay;
     page.place = place;
     replay.show(place);
+    replay.requireNoError();
     const values = of => texels[of].values, {width, height} = replay.recording.facts;
     const reflected = reflectedLight(replay, frame), confidence = replay.images.read(frame.confidence);
     page.results = {
@@ -112,7 +113,11 @@ let lastStep = 0;
 function tick(now) {
     if (page.isPlaying && now - lastStep > 100) {
         lastStep = now;
-        showFrame((page.place + 1) % frames().length);
+        try {
+            showFrame((page.place + 1) % frames().length);
+        } catch (error) {
+            showProblem(error);
+        }
     }
     writeTimes();
     requestAnimationFrame(tick);
@@ -176,8 +181,11 @@ async function start() {
     document.documentElement.dataset.ready = "";
 }
 
-start().catch(error => {
+function showProblem(error) {
+    play(false);
     at("problem").textContent = hasInflate ? error.message : whyNoImages;
     at("problem").hidden = false;
     document.documentElement.dataset.ready = "failed";
-});
+}
+
+start().catch(showProblem);

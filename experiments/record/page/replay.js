@@ -18,6 +18,9 @@ class Replay {
         if (!gl) throw new Error("This browser has no WebGL 2.");
         if (!gl.getExtension("EXT_color_buffer_float"))
             throw new Error("This browser's WebGL 2 cannot draw to floats (EXT_color_buffer_float).");
+        const side = Math.max(...recording.images.map(image => Math.max(image.width, image.height)));
+        if (side > gl.getParameter(gl.MAX_TEXTURE_SIZE))
+            throw new Error(`This browser's WebGL 2 has no textures of ${side} pixels.`);
         this.timer = gl.getExtension("EXT_disjoint_timer_query_webgl2");
         this.queries = [];
         this.images = new GpuImages(gl, recording.images);
@@ -29,6 +32,13 @@ class Replay {
         this.programs = this.compile(recording.programs);
         this.values = new Map(blockParameters(recording).map(p => [p.name, p.value]));
         this.frame = -1;  // the one whose results the images hold
+    }
+
+    /// Fails with a sentence where WebGL has refused something since the last call.
+    requireNoError() {
+        const {gl} = this, code = gl.getError();
+        if (gl.isContextLost()) throw new Error("The browser has taken the GPU away from this page; load it again.");
+        if (code !== gl.NO_ERROR) throw new Error(`This browser's WebGL 2 refused a command (error ${code}).`);
     }
 
     get renderer() {
