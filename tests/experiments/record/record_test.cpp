@@ -104,7 +104,9 @@ TEST(Record, HoldsEveryPassAndEveryImage) {
                 EXPECT_LT(target[1], image["mips"]) << image;
                 written.insert(target[0].get<size_t>());
             }
-            if (command.contains("depth")) EXPECT_TRUE(written.contains(command["depth"][0].get<size_t>()));
+            if (command.contains("depth")) {
+                EXPECT_TRUE(written.contains(command["depth"][0].get<size_t>()));
+            }
         }
         EXPECT_EQ(stages, std::set(recording.stages[f].begin(), recording.stages[f].end())) << "frame " << f;
         EXPECT_TRUE(written.contains(frame["radiance"].get<size_t>()));
