@@ -337,9 +337,28 @@ def composed():
     return Picture(panels, "error, mean over third-party scenes, 95 % intervals", columns=2)
 
 
+ENGINES = {"three_ssrpass": "three.js SSRPass", "three_ssrnode": "three.js SSRNode", "babylon_ssr": "Babylon.js", "blender_eevee": "Blender EEVEE", "godot3": "Godot", "screen_space_reflections": "npm screen-space-reflections"}
+
+
+def engines():
+    cells = grid("engines", "errors")
+
+    def panel(metric):
+        points = sorted({row for row, _ in cells} - {"none, default"}, key=lambda p: cells[p, metric].value)
+        rows = []
+        for point in points:
+            name, _, setting = point.partition(", ")
+            is_engine = name in ENGINES
+            mark = Mark("engine" if is_engine else "ssrlab", style.COLORS[1 if is_engine else 0], "o" if is_engine else "s", cells[point, metric])
+            rows.append((f"{ENGINES.get(name, name)}, {setting}".removesuffix(", default"), [mark]))
+        return Panel(metric.upper(), rows, 1.0)
+
+    return Picture([panel("mse"), panel("flip")], "error over that of no reflections, mean over scenes like these, 95 % intervals", columns=2)
+
+
 PUBLISHED_PRESETS = ("default", "sdk_1_5", "current", "frostbite_2015", "blog", "high")
 
-PICTURES = {p.__name__: p for p in (techniques, budgets, rooms, metrics, causes, limit, third_party, traced_environment, corrections, estimators, march, thickness, temporal, fragments, resolution, compilers, gpu_times, exact_rays, resolves, composed)}
+PICTURES = {p.__name__: p for p in (techniques, budgets, rooms, metrics, causes, limit, third_party, traced_environment, corrections, estimators, march, thickness, temporal, fragments, resolution, compilers, gpu_times, exact_rays, resolves, composed, engines)}
 
 
 def save(name, folder):
