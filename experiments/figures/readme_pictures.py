@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """The pictures of the repository's README, in experiments/figures/readme, and of experiments/findings.
 
-usage: experiments/figures/readme_pictures.py [RESULTS] [--report QUICKSTART] [--findings COMPARISON] [--composed COMPOSED_MOTION]
+usage: experiments/figures/readme_pictures.py [RESULTS] [--report QUICKSTART] [--findings COMPARISON] [--composed COMPOSED_MOTION] [--engines ENGINES]
 
 error_time.png is drawn from experiments/summaries/quickstart.csv. With RESULTS, a folder that `ssrlab run
 experiments/configs/readme.json` filled, comparison.png too; with QUICKSTART, that of the quickstart, the first screen of
-its report (report.png), for which it needs chromium; with COMPARISON and COMPOSED_MOTION, those of the configs of these
-names, the crops that findings/figures.json and findings/composed.json name. Needs Debian's python3-matplotlib, -numpy and -pil.
+its report (report.png), for which it needs chromium; with COMPARISON, COMPOSED_MOTION and ENGINES, those of the
+studies of these names, the crops that findings/figures.json, composed.json and engines.json name. Needs Debian's python3-matplotlib, -numpy and -pil.
 """
 
 import argparse
@@ -163,6 +163,7 @@ def main():
     parser.add_argument("--report", metavar="QUICKSTART", help="the results folder of the quickstart, for a picture of its report")
     parser.add_argument("--findings", metavar="COMPARISON", help="the results folder of the comparison, for the findings' pictures")
     parser.add_argument("--composed", metavar="COMPOSED_MOTION", help="that of composed_ssr in motion, for more of them")
+    parser.add_argument("--engines", metavar="ENGINES", help="that of experiments/engines/engines.json, for those of engines")
     arguments = parser.parse_args()
     style.apply()
     draw_error_time()
@@ -174,6 +175,8 @@ def main():
         draw_findings(arguments.findings, "figures.json")
     if arguments.composed:
         draw_findings(arguments.composed, "composed.json")
+    if arguments.engines:
+        draw_findings(arguments.engines, "engines.json")
 
 
 if __name__ == "__main__":
