@@ -23,6 +23,7 @@ import "@babylonjs/core/PostProcesses/RenderPipeline/postProcessRenderPipelineMa
 import { LoadAssetContainerAsync } from "@babylonjs/core/Loading/sceneLoader.js";
 import "@babylonjs/loaders/glTF/2.0/index.js";
 import { exposed, exposureOf, scaled } from "ssrlab/light.js";
+import { Mistake } from "ssrlab/mistake.js";
 import { driverOf, turned } from "ssrlab/page.js";
 
 const BYTE = 0, FLOAT = 1, HALF = 2, RGBA = 5, NEAREST = 1, TRILINEAR = 3, PRE_PASS_DEPTH = 5;  // of Babylon's Constants
@@ -131,7 +132,7 @@ export async function open({ view, settings, background, light: light_of, canvas
 
     const pipelineOf = (settings) => {
         const type = TEXTURE_TYPES[settings.textureType];
-        if (type === undefined) throw new Error(`textureType = ${settings.textureType}: must be ${Object.keys(TEXTURE_TYPES).join(", ")}`);
+        if (type === undefined) throw new Mistake(`textureType = ${settings.textureType}: must be ${Object.keys(TEXTURE_TYPES).join(", ")}`);
         const pipeline = new SSRRenderingPipeline("ssrlab", scene, [camera], settings.forceGeometryBuffer, type, settings.useScreenspaceDepth);
         pipeline.inputTextureColorIsInGammaSpace = pipeline.generateOutputInGammaSpace = false;
         pipeline.environmentTexture = environment;

@@ -3,6 +3,7 @@ import * as THREE from "three";
 import { EffectComposer, EffectPass, Pass, RenderPass } from "postprocessing";
 import { SSREffect } from "screen-space-reflections";
 import { exposed, exposureOf, scaled } from "ssrlab/light.js";
+import { Mistake } from "ssrlab/mistake.js";
 import { driverOf } from "ssrlab/page.js";
 import { SPECULAR_OF_ENVIRONMENT, drawDepth, emitLight, environmentTexture, loadScene, replaceMaterials } from "ssrlab/three_scene.js";
 
@@ -41,7 +42,7 @@ export async function open({ view, settings, background, light: light_of, canvas
     const environment = settings.environment
         ? new THREE.PMREMGenerator(renderer).fromEquirectangular(environmentTexture(exposed(background, exposure))).texture : null;
     const loaded = await loadScene({ glb, view }), { root, camera, meshes, light } = loaded;
-    if (!(settings.selection in SELECTIONS)) throw new Error(`selection = ${settings.selection}: must be ${Object.keys(SELECTIONS).join(", ")}`);
+    if (!(settings.selection in SELECTIONS)) throw new Mistake(`selection = ${settings.selection}: must be ${Object.keys(SELECTIONS).join(", ")}`);
     const selected = Object.values(meshes).filter((mesh) => SELECTIONS[settings.selection](mesh.material));
     const on = { value: 0 };
     replaceMaterials(meshes, (material) => emitLight(material, light, on, settings.materialEnvironment ? SPECULAR_OF_ENVIRONMENT : "vec3(0.0)"));

@@ -1,8 +1,9 @@
 // The images of one point of an engine, as {"external": FOLDER} reads them, and what is checked before they are written.
-import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
-import { join } from "node:path";
+import { existsSync, mkdirSync, rmSync, rmdirSync, writeFileSync } from "node:fs";
+import { dirname, join } from "node:path";
 import { readExr, writeExr } from "./exr.js";
 import { Mistake } from "./mistake.js";
+import { jsonOf, pathInside } from "./scene_folder.js";
 
 /** A pixel's view distance may differ by this share of itself. */
 const DEPTH_TOLERANCE = 0.01;
@@ -28,31 +29,47 @@ export function channelsOf(values, width, height, components, rows) {
 export class FrameWriter {
     /** `scene`: scene.json; `folder`: where it lies; `engine`: the adapter's engine.json. */
     constructor({ scene, folder, out, engine, point, settings, seeds }) {
-        Object.assign(this, { scene, folder, out, engine, point, settings, seeds, milliseconds: [] });
+        Object.assign(this, { scene, folder, out, engine, point, settings, seeds, milliseconds: [], written: [] });
+    }
+
+    view(name) {
+        const view = this.scene.views.find((v) => v.view === name);
+        if (!view) throw new Mistake(`scene.json has no view '${name}'`);
+        return view;
     }
 
     frame(view, number) {
-        return this.scene.views.find((v) => v.view === view).frames.find((f) => f.frame === number);
+        const frame = this.view(view).frames.find((f) => f.frame === number);
+        if (!frame) throw new Mistake(`scene.json has no frame ${number} of '${view}'`);
+        return frame;
+    }
+
+    /** A file that frame() names, as the folder's. */
+    read(view, frame, key) {
+        return readExr(pathInside(this.folder, this.frame(view, frame)[key]));
     }
 
     /** `kind`: "off", "s0", ..., or "depth", which is only compared. Returns a sentence on what was found, or "". */
     add({ view, frame, kind, values, components, rows, milliseconds }) {
-        const { width, height } = this.scene.views.find((v) => v.view === view);
+        const { width, height } = this.view(view);
+        if (!/^(depth|off|s[0-9]+)$/.test(kind)) throw new Mistake(`${view}: '${kind}' is no kind of image`);
         if (values.length !== width * height * components)
             throw new Mistake(`${view}: the page sent ${values.length} values; ${width} x ${height} pixels of ${components} are needed`);
         const channels = channelsOf(values, width, height, components, rows);
         if (kind === "depth") return this.compareDepth(view, frame, channels[0]);
         const broken = channels.reduce((sum, channel) => sum + channel.filter((v) => !Number.isFinite(v)).length, 0);
         if (broken) throw new Mistake(`${view}, frame ${frame}, ${kind}: ${broken} values are NaN or infinite`);
-        const [R, G, B] = channels;
-        writeExr(join(this.out, view, `f${frame}.${kind}.exr`), width, height, { R, G, B });
+        const said = kind === "off" ? this.compareLight(view, frame, channels) : "", [R, G, B] = channels;
+        const file = pathInside(this.out, `${view}/f${this.frame(view, frame).frame}.${kind}.exr`);
+        this.written.push(file);
+        writeExr(file, width, height, { R, G, B });
         if (milliseconds !== undefined) this.milliseconds.push(milliseconds);
-        return kind === "off" ? this.compareLight(view, frame, channels) : "";
+        return said;
     }
 
     /** With reflections off every pixel holds the light that it was given: else something else shines or filters. */
     compareLight(view, frame, channels) {
-        const { width, height, channels: light } = readExr(join(this.folder, this.frame(view, frame).light)), pixels = channels[0].length;
+        const { width, height, channels: light } = this.read(view, frame, "light"), pixels = channels[0].length;
         const around = (of, i) => {
             let most = 0;
             for (let y = Math.max(0, Math.floor(i / width) - 1); y <= Math.min(height - 1, Math.floor(i / width) + 1); ++y)
@@ -69,9 +86,9 @@ export class FrameWriter {
 
     /** Since each pixel emits its own light, only depth shows whether camera and geometry are the scene's. */
     compareDepth(view, frame, depth) {
-        const { width, height, channels } = readExr(join(this.folder, this.frame(view, frame).depth)), truth = channels.Y;
+        const { width, height, channels } = this.read(view, frame, "depth"), truth = channels.Y;
         const pixels = depth.length, apart = (a, b) => Math.abs(a - b) > DEPTH_TOLERANCE * b;
-        const nearest = this.scene.views.find((v) => v.view === view).near / 2;
+        const nearest = this.view(view).near / 2;
         const seen = depth.map((value) => (value < nearest ? 0 : value));  // a filter's last bits leak into the background
         let differing = 0, columns = 0, rows = 0;  // where depth steps from a column to the next, and from a row
         for (let i = 0; i < pixels; ++i) {
@@ -94,8 +111,20 @@ export class FrameWriter {
     otherThanThere() {
         const file = join(this.out, "external.json");
         if (!existsSync(file)) return "";
-        const there = JSON.parse(readFileSync(file, "utf8"));
+        const there = jsonOf(file);
         return Object.entries(this.description()).find(([key, value]) => key !== "driver" && JSON.stringify(there[key]) !== JSON.stringify(value))?.[0] ?? "";
+    }
+
+    /** Removes what was written: half of a view's images would be taken for all of them. */
+    discard() {
+        for (const file of this.written) rmSync(file, { force: true });
+        for (const folder of new Set([...this.written.map(dirname), this.out]))
+            try {
+                rmdirSync(folder);
+            } catch {
+                // Other images are there, or nothing is.
+            }
+        this.written = [];
     }
 
     finish({ driver }) {

@@ -1,4 +1,5 @@
 // Runs in the browser: hands the scene's frames to an adapter, and its images to the server that started the page.
+import { Mistake } from "ssrlab/mistake.js";
 
 const sent = async (path, body) => {
     const answer = await fetch(path, { method: "POST", body });
@@ -85,6 +86,7 @@ export async function run(adapter) {
         }
         await sent("/done", JSON.stringify({ driver }));
     } catch (error) {
-        await fetch("/fail", { method: "POST", body: error.stack || String(error) });
+        const is_mistake = error instanceof Mistake;
+        await fetch(is_mistake ? "/fail?mistake" : "/fail", { method: "POST", body: is_mistake ? error.message : error.stack || String(error) });
     }
 }

@@ -6,9 +6,10 @@
 // first row at the top, one channel (depth) or three. Then it writes done.json: {"driver", "version"}. What it cannot
 // do it prints as a line "error: SENTENCE", and ends with 2.
 import { spawn } from "node:child_process";
-import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { atEnd, endGroup, removeFolder } from "./at_end.js";
 import { Mistake } from "./mistake.js";
 
 const LINES = 12;  // of its output, where it fails
@@ -20,19 +21,21 @@ const on_display = (words) => ["xvfb-run", "-a", "-s", "-screen 0 640x480x24", .
 function ended(words, home, minutes) {
     return new Promise((resolve, reject) => {
         // A software rasteriser, so that images are the same on every machine; a home of its own: settings of the user's change nothing.
-        const env = { ...process.env, HOME: home, LIBGL_ALWAYS_SOFTWARE: "1" };
+        const env = { ...process.env, HOME: home, TMPDIR: home, LIBGL_ALWAYS_SOFTWARE: "1" };
         for (const name of ["XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_CACHE_HOME"]) delete env[name];
         const program = spawn(words[0], words.slice(1), { env, stdio: ["ignore", "pipe", "pipe"], detached: true });
+        const stop = atEnd(() => endGroup(program));
         let text = "";
         for (const stream of [program.stdout, program.stderr]) stream.on("data", (bytes) => (text = (text + bytes).slice(-100000)));
         const last = () => text.trim().split("\n").slice(-LINES).join("\n");
         const timer = setTimeout(() => {
-            process.kill(-program.pid, "SIGKILL");
+            stop();
             reject(new Error(`no end after ${minutes} minutes:\n${last()}`));
         }, minutes * 60000);
         program.on("error", (error) => reject(new Error(`${words[0]} cannot be started: ${error.message}; experiments/engines/run.sh installs it`)));
         program.on("exit", () => clearTimeout(timer));
         program.on("close", (code) => {
+            stop();
             const said = text.split("\n").find((line) => line.startsWith("error: "));
             if (code === 0) resolve(text);
             else if (code === 2 && said) reject(new Mistake(said.slice("error: ".length)));
@@ -64,6 +67,7 @@ function add_images(writer, scene, seeds, out) {
 export async function renderWithProgram({ job, scene, writer, minutes }) {
     const { adapter, folder, settings, seeds, engine } = job;
     const place = mkdtempSync(join(tmpdir(), "ssrlab-engine-")), out = join(place, "out"), home = join(place, "home");
+    const remove = atEnd(() => removeFolder(place));
     try {
         for (const view of scene.views) mkdirSync(join(out, view.view), { recursive: true });
         mkdirSync(home);
@@ -77,6 +81,6 @@ export async function renderWithProgram({ job, scene, writer, minutes }) {
         add_images(writer, scene, seeds, out);
         return done;
     } finally {
-        rmSync(place, { recursive: true, force: true, maxRetries: 5, retryDelay: 100 });
+        remove();
     }
 }

@@ -2,27 +2,21 @@
 // says how it is called.
 import { spawn } from "node:child_process";
 import { createServer } from "node:http";
-import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync } from "node:fs";
+import { existsSync, mkdtempSync, readFileSync, readdirSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { basename, dirname, extname, join, normalize, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
+import { atEnd, endGroup, removeFolder } from "./at_end.js";
 import { readExr } from "./exr.js";
 import { FrameWriter } from "./frames.js";
 import { Mistake } from "./mistake.js";
 import { renderWithProgram } from "./program.js";
+import { jsonOf, pathInside, readScene } from "./scene_folder.js";
 
 const ENGINES = dirname(dirname(fileURLToPath(import.meta.url)));
 const PACKAGES = join(dirname(dirname(ENGINES)), "build/engines");  // where run.sh installs them
 const TYPES = { ".js": "text/javascript", ".mjs": "text/javascript", ".json": "application/json", ".wasm": "application/wasm", ".html": "text/html" };
 const MINUTES = 20;  // for all frames, on a processor
-
-const json_of = (file) => {
-    try {
-        return JSON.parse(readFileSync(file, "utf8"));
-    } catch (error) {
-        throw new Mistake(`${file} cannot be read as JSON: ${error.message}`);
-    }
-};
 
 export function adapters() {
     return readdirSync(ENGINES).filter((name) => existsSync(join(ENGINES, name, "engine.json"))).sort();
@@ -59,15 +53,15 @@ export function parse(words) {
     if (!existsSync(join(adapter, "engine.json")))
         throw new Mistake(`no engine '${name}'; there are ${adapters().join(", ")}, and paths of folders with engine.json and adapter.js`);
     if (!(Number.isInteger(job.seeds) && job.seeds >= 1 && job.seeds <= 1000)) throw new Mistake(`--seeds must be from 1 to 1000`);
-    const engine = json_of(join(adapter, "engine.json"));
+    const engine = jsonOf(join(adapter, "engine.json"));
     const preset = job.point ?? "default";
-    const is_known = preset in engine.points;
+    const is_known = Object.hasOwn(engine.points, preset);
     if (!is_known && job.set.length === 0)
         throw new Mistake(`${name} has no point '${preset}'; there are ${Object.keys(engine.points).join(", ")}, and --set names settings of a new one`);
     const set = Object.fromEntries(job.set), settings = { ...(is_known ? engine.points[preset] : {}), ...set };
     const own = engine.defaults ?? {};
     for (const key of Object.keys(settings))
-        if (!(key in own)) throw new Mistake(`${name} has no setting '${key}'; there are ${Object.keys(own).join(", ")}`);
+        if (!Object.hasOwn(own, key)) throw new Mistake(`${name} has no setting '${key}'; there are ${Object.keys(own).join(", ")}`);
     const point = job.point ?? (job.set.length ? job.set.map(([key, value]) => `${key}_${value}`).join("-").replace(/[^A-Za-z0-9_.-]/g, "_") : "default");
     return { name: basename(adapter), adapter, folder: resolve(folder), out, engine, point, settings: { ...own, ...settings }, seeds: job.seeds, chromium: job.chromium };
 }
@@ -82,8 +76,8 @@ import("ssrlab/page.js").then(async (page) => page.run(await import("/adapter/ad
 </script>`;
 }
 
-function rgba_of(file) {
-    const { width, height, channels } = readExr(file), rgba = new Float32Array(width * height * 4).fill(1);
+function rgba_of({ width, height, channels }) {
+    const rgba = new Float32Array(width * height * 4).fill(1);
     ["R", "G", "B"].forEach((name, c) => {
         for (let i = 0; i < width * height; ++i) rgba[4 * i + c] = channels[name][i];
     });
@@ -109,15 +103,16 @@ function serve(job, scene, writer) {
         "/": (_, answer) => answer.writeHead(200, { "content-type": "text/html" }).end(page(job)),
         "/job": (_, answer) => answer.end(JSON.stringify({ scene, settings: job.settings, seeds: job.seeds })),
         "/environment": (_, answer) => {
-            const { width, height, bytes } = rgba_of(join(job.folder, scene.background.image));
+            const { width, height, bytes } = rgba_of(readExr(pathInside(job.folder, scene.background.image)));
             answer.writeHead(200, { "x-width": width, "x-height": height }).end(bytes);
         },
         "/log": async (request, answer) => {
             process.stderr.write(`  ${job.name}: ${await body_of(request)}\n`);
             answer.end();
         },
-        "/fail": async (request, answer) => {
-            end.reject(new Error(`in the page: ${(await body_of(request)).toString()}`));
+        "/fail": async (request, answer, url) => {
+            const said = (await body_of(request)).toString();
+            end.reject(url.searchParams.has("mistake") ? new Mistake(said) : new Error(`in the page: ${said}`));
             answer.end();
         },
         "/done": async (request, answer) => {
@@ -139,8 +134,8 @@ function serve(job, scene, writer) {
         },
     };
     const server = createServer(async (request, answer) => {
-        const url = new URL(request.url, "http://localhost"), path = decodeURIComponent(url.pathname);
         try {
+            const url = new URL(request.url, "http://localhost"), path = decodeURIComponent(url.pathname);
             if (answers[path]) return await answers[path](request, answer, url);
             if (path.startsWith("/engines/")) return send_file(answer, ENGINES, path.slice("/engines/".length));
             if (path.startsWith("/adapter/")) return send_file(answer, job.adapter, path.slice("/adapter/".length));
@@ -148,7 +143,7 @@ function serve(job, scene, writer) {
             if (path.startsWith("/scene/")) return send_file(answer, job.folder, path.slice("/scene/".length));
             if (path.startsWith("/light/")) {
                 const [, , view, frame] = path.split("/");
-                return answer.end(rgba_of(join(job.folder, writer.frame(view, Number(frame)).light)).bytes);
+                return answer.end(rgba_of(writer.read(view, Number(frame), "light")).bytes);
             }
             answer.writeHead(404).end();
         } catch (error) {
@@ -160,32 +155,42 @@ function serve(job, scene, writer) {
 }
 
 export async function render(job) {
-    const scene = json_of(join(job.folder, "scene.json"));
+    const scene = readScene(job.folder);
     const writer = new FrameWriter({ scene, ...job }), other = writer.otherThanThere();
     if (other) throw new Mistake(`${job.out} holds images whose ${other} is another: name another folder`);
-    if (job.engine.program) {
+    let is_whole = false;
+    const clean = atEnd(() => is_whole || writer.discard());
+    try {
         const images = scene.views.reduce((sum, view) => sum + view.frames.length, 0) * job.seeds;
-        return writer.finish(await renderWithProgram({ job, scene, writer, minutes: MINUTES * images }));
+        writer.finish(await (job.engine.program ? renderWithProgram({ job, scene, writer, minutes: MINUTES * images }) : renderWithPage(job, scene, writer)));
+        is_whole = true;
+    } finally {
+        clean();
     }
+}
+
+/** Resolves to what the page said last, when `writer` has all images. */
+async function renderWithPage(job, scene, writer) {
     const { server, done, end } = serve(job, scene, writer);
     await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
-    const profile = mkdtempSync(join(tmpdir(), "ssrlab-engine-"));
+    const profile = mkdtempSync(join(tmpdir(), "ssrlab-engine-")), remove = atEnd(() => removeFolder(profile));
     // A software rasteriser, so that images are the same on every machine; --no-sandbox: containers run as root.
     const browser = spawn(job.chromium, ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--no-first-run", "--mute-audio",
         "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist", ...(job.engine.chromium ?? []),
-        `--user-data-dir=${profile}`, `http://127.0.0.1:${server.address().port}/`], { stdio: "ignore", detached: true });
+        `--user-data-dir=${profile}`, `http://127.0.0.1:${server.address().port}/`], { stdio: "ignore", detached: true, env: { ...process.env, TMPDIR: profile } });
+    const stop = atEnd(() => endGroup(browser));
     browser.on("error", (error) => end.reject(new Error(`${job.chromium} cannot be started: ${error.message}; install Debian's chromium, or name one by CHROMIUM`)));
     browser.on("exit", () => end.reject(new Error(`${job.chromium} ended before the images were there`)));
     const timer = setTimeout(() => end.reject(new Error(`no end after ${MINUTES} minutes`)), MINUTES * 60000);
     try {
-        writer.finish(await done);
+        return await done;
     } finally {
         clearTimeout(timer);
         server.close();
         server.closeAllConnections();
-        if (browser.pid) process.kill(-browser.pid, "SIGKILL");
+        stop();
         await new Promise((resolve) => (browser.exitCode !== null || browser.signalCode !== null || !browser.pid ? resolve() : browser.once("exit", resolve)));
-        rmSync(profile, { recursive: true, force: true, maxRetries: 5, retryDelay: 100 });
+        remove();
     }
 }
 

@@ -1,6 +1,7 @@
 // three.js: SSRPass of the examples. README.md of the folder above lists its traps.
 import * as THREE from "three";
 import { SSRPass } from "three/addons/postprocessing/SSRPass.js";
+import { Mistake } from "ssrlab/mistake.js";
 import { driverOf } from "ssrlab/page.js";
 import {
     SPECULAR_OF_ENVIRONMENT, drawDepth, emitLight, environmentTexture, loadScene, readFloats, replaceMaterials,
@@ -21,7 +22,7 @@ export async function open({ view, settings, background, canvas, glb }) {
     renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     renderer.toneMapping = THREE.NoToneMapping;
     const loaded = await loadScene({ glb, view }), { root, camera, meshes, light } = loaded;
-    if (!(settings.selects in SELECTS)) throw new Error(`selects = ${settings.selects}: must be ${Object.keys(SELECTS).join(", ")}`);
+    if (!(settings.selects in SELECTS)) throw new Mistake(`selects = ${settings.selects}: must be ${Object.keys(SELECTS).join(", ")}`);
     const selects = Object.values(meshes).filter((mesh) => SELECTS[settings.selects](mesh.material));
     const on = { value: 0 };
     replaceMaterials(meshes, (material) => emitLight(material, light, on, SPECULAR_OF_ENVIRONMENT));

@@ -5,11 +5,14 @@ ssrlab as they were drawn. Downloads nothing: the engine is an echo.
 usage: adapters_test.py SSRLAB
 """
 import json
+import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 ENGINES = Path(__file__).resolve().parents[3] / "experiments/engines"
@@ -100,12 +103,15 @@ def check_echo(ssrlab, folder):
             (["--set", "wrong=depth"], 2, "another camera or geometry"),
             (["--set", "wrong=light"], 2, "are not the light of scene.json"),
             (["--set", "wrong=NaN"], 2, "values are NaN or infinite"),
+            (["--set", "wrong=setting"], 2, "error: wrong = setting: must be another"),
             (["--set", "reflecton=1"], 2, "no setting 'reflecton'"),
+            (["--set", "constructor=1"], 2, "no setting 'constructor'"),
+            (["--point", "constructor"], 2, "no point 'constructor'"),
             (["--point", "best"], 2, "no point 'best'"),
             (["--seeds", "0"], 2, "--seeds must be")):
         code, said = render("wrong", *options)
         check(code == code_of and words in said, (options, code, said))
-        check(not (folder / "wrong/external.json").exists(), "images that were refused are not described")
+        check(not (folder / "wrong").exists(), "of what was refused nothing stays, which would be taken for a view's images")
     code, said = render("still", "--set", "reflection=1")
     check(code == 2 and "holds images whose point is another" in said, said)
 
@@ -127,7 +133,60 @@ def check_program(folder):
                                   ("version", 2, "python3 is version 2; the adapter is for 1")):
         code, said = render("wrong_program", "--set", f"wrong={wrong}")
         check(code == code_of and words in said, (wrong, code, said))
-        check(not (folder / "wrong_program/external.json").exists(), "what failed is not described")
+        check(not (folder / "wrong_program").exists(), "of what failed nothing stays")
+
+
+def check_signals(folder):
+    """Ctrl-C ends the browser or the program, too, and leaves neither images nor temporary files."""
+    temporary = folder / "temporary"
+    temporary.mkdir()
+    for adapter, started, name in ((ECHO, "differ from the light", signal.SIGINT), (ECHO_PROGRAM, "", signal.SIGTERM)):
+        words = ["node", ENGINES / "shared/render.js", adapter, "scene", "stopped", "--set", "wrong=endless"]
+        with subprocess.Popen(words, cwd=folder, env=os.environ | {"TMPDIR": str(temporary)}, stdout=subprocess.PIPE, text=True) as process:
+            if started:
+                for line in process.stdout:
+                    if started in line:
+                        break
+            while process.poll() is None and not running_in(temporary):
+                time.sleep(0.05)
+            process.send_signal(name)
+            check(process.wait(30) == 128 + name, f"a shell's exit code, not {process.returncode}")
+        end = time.monotonic() + 10
+        while running_in(temporary) and time.monotonic() < end:
+            time.sleep(0.05)
+        check(not running_in(temporary), f"what it started has ended: {running_in(temporary)}")
+        check(not list(temporary.iterdir()), f"nothing stays: {list(temporary.iterdir())}")
+        check(not (folder / "stopped").exists(), "half of a view's images are none")
+
+
+def running_in(folder):
+    """Processes whose temporary folder that is, or lies in it, but for render.js itself."""
+    found = []
+    for process in Path("/proc").glob("[0-9]*"):
+        try:
+            words, variables = (process / "cmdline").read_bytes(), (process / "environ").read_bytes()
+        except OSError:
+            continue  # another user's, or gone
+        if f"TMPDIR={folder}/".encode() in variables and b"render.js" not in words:
+            found.append(words.replace(b"\0", b" ").decode(errors="replace").strip())
+    return [words for words in found if words]  # zombies have none
+
+
+def check_strangers(folder):
+    """Names in a scene.json of somebody else's lead nowhere but into its folder."""
+    own = (folder / "scene/scene.json").read_text()
+    (folder / "strange").mkdir()
+    for change in (lambda s: s["views"][0].update(view="../../elsewhere"), lambda s: s.update(meshes="/etc/passwd"),
+                   lambda s: s["background"].update(image="../secret.exr"), lambda s: s["views"][0]["frames"][0].update(light="../../secret.exr")):
+        scene = json.loads(own)
+        change(scene)
+        (folder / "strange/scene.json").write_text(json.dumps(scene))
+        code, said = run("node", ENGINES / "shared/render.js", ECHO, "strange", "of_stranger", folder=folder)
+        check(code == 2 and "is no path below" in said, (code, said))
+    for text, words in (("{", "cannot be read as JSON"), ('{"scene": "fence"}', "no views or no background")):
+        (folder / "strange/scene.json").write_text(text)
+        code, said = run("node", ENGINES / "shared/render.js", ECHO, "strange", "of_stranger", folder=folder)
+        check(code == 2 and words in said, (code, said))
 
 
 def main():
@@ -140,6 +199,8 @@ def main():
     with tempfile.TemporaryDirectory(prefix="ssrlab_engines_") as folder:
         check_echo(Path(sys.argv[1]).resolve(), Path(folder))
         check_program(Path(folder))
+        check_strangers(Path(folder))
+        check_signals(Path(folder))
 
 
 main()

@@ -1,7 +1,9 @@
 // No engine: gives back what it got, so that everything around an engine is tested without any.
+import { Mistake } from "ssrlab/mistake.js";
 import { turned } from "ssrlab/page.js";
 
 export async function open({ view, settings, scene }) {
+    if (settings.wrong === "setting") throw new Mistake("wrong = setting: must be another");
     let light, frame;
     return {
         driver: "none",
@@ -15,6 +17,7 @@ export async function open({ view, settings, scene }) {
         },
         render({ reflections, seed }) {
             const values = turned(light).rgba;
+            if (reflections && settings.wrong === "endless") return new Promise(() => {});
             if (settings.wrong === "light") values.fill(1);
             if (reflections) for (let i = 0; i < values.length; ++i) values[i] += settings.reflection * (1 + seed);
             if (reflections && settings.wrong === "NaN") values[5] = NaN;

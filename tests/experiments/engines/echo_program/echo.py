@@ -2,6 +2,7 @@
 import array
 import json
 import sys
+import time
 from pathlib import Path
 
 
@@ -20,6 +21,8 @@ def main():
     if settings["wrong"] == "crash":
         print("the last words")
         sys.exit(1)
+    if settings["wrong"] == "endless":
+        time.sleep(600)
     for view in request["scene"]["views"]:
         for frame in view["frames"]:
             place = out / view["view"]
