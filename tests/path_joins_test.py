@@ -14,6 +14,7 @@ from markdown_test import FILES, ROOT
 PROGRAM = "the program spells it out, or makes it"
 REQUEST = "a config, or the command line, is what the user asks for, and may name any folder"
 LISTED = "of the user's own folder, which was listed"
+CHECKED = "of a scene.json that experiments/engines/shared/scene_folder.js has let through"
 SCENE = "scenes have a rule of their own: file_below() (core/reading_limits.h)"
 
 ALLOWED = {
@@ -46,6 +47,11 @@ ALLOWED = {
     ("groundtruth/reference/reference_cache.cpp", 'folder / (key + ".partial.exr")'): PROGRAM,
     ("experiments/captures/blender_export.py", "arguments.out / f'frame_{frame:04}'"): PROGRAM,
     ("experiments/captures/renderdoc_export.py", "folder / f'frame_{arguments.frame:04}'"): PROGRAM,
+    ("experiments/engines/blender_eevee/render.py", "folder / background['image']"): CHECKED,
+    ("experiments/engines/blender_eevee/render.py", "folder / frame['light']"): CHECKED,
+    ("experiments/engines/blender_eevee/render.py", "out / f'{name}.f32'"): CHECKED,
+    ("experiments/engines/render_study.py", "os.path.join(HERE, os.pardir, room)"): PROGRAM,
+    ("experiments/engines/render_study.py", "os.path.join(os.path.dirname(file), v['external'])"): REQUEST,
     ("experiments/figures/findings_pictures.py", "folder / f'{name}.svg'"): PROGRAM,
     ("experiments/figures/judge.py", "os.path.join(arguments.out, f'pair_{number}.png')"): PROGRAM,
     ("experiments/figures/paper_tables/documents.py", "os.path.join(folder, name)"): LISTED,

@@ -125,7 +125,10 @@ export function drawDepth(renderer, { root, camera }, view) {
         renderer.clear();
         renderer.render(root, camera);
     });
-    materials.forEach((material, object) => (object.material = material));
+    materials.forEach((material, object) => {
+        object.material.dispose();
+        object.material = material;
+    });
     root.background = background;
     return image;
 }

@@ -4,6 +4,7 @@ ssrlab as they were drawn. Downloads nothing: the engine is an echo.
 
 usage: adapters_test.py SSRLAB
 """
+import importlib.util
 import json
 import os
 import re
@@ -172,6 +173,19 @@ def running_in(folder):
     return [words for words in found if words]  # zombies have none
 
 
+def check_study_script(ssrlab, folder):
+    """After check_echo, whose images of two seeds it uses: which images a study's script takes for whole."""
+    script = ENGINES / "render_study.py"
+    code, said = run(sys.executable, "-B", script, ssrlab, ENGINES / "engines.json", "study", "three_ssrpas", folder=folder)
+    check(code == 2 and "has no engine 'three_ssrpas'" in said and not (folder / "study").exists(), (code, said))
+    spec = importlib.util.spec_from_file_location("render_study", script)
+    render_study = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(render_study)
+    view, out = json.loads((folder / "scene/scene.json").read_text())["views"][0], str(folder / "out")
+    check(render_study.has_images(out, view, 2), "all images are there")
+    check(not render_study.has_images(out, view, 3), "a third seed is not")
+
+
 def check_strangers(folder):
     """Names in a scene.json of somebody else's lead nowhere but into its folder."""
     own = (folder / "scene/scene.json").read_text()
@@ -199,6 +213,7 @@ def main():
     with tempfile.TemporaryDirectory(prefix="ssrlab_engines_") as folder:
         check_echo(Path(sys.argv[1]).resolve(), Path(folder))
         check_program(Path(folder))
+        check_study_script(Path(sys.argv[1]).resolve(), Path(folder))
         check_strangers(Path(folder))
         check_signals(Path(folder))
 
