@@ -5,12 +5,12 @@
 #include "core/scene/load_scene.h"
 #include "core/shown_text.h"
 #include "experiments/commands/commands.h"
+#include "experiments/commands/frame_numbers.h"
 #include "experiments/run/progress.h"
 #include "experiments/scene_for/scene_folder.h"
 
 #include <algorithm>
 #include <cstdio>
-#include <set>
 
 namespace {
 
@@ -26,35 +26,12 @@ const SceneEngine& engine_named(const std::string& name) {
          "; 'any' writes all formats");
 }
 
-/// Ascending, of "3" and "0-63".
-std::vector<unsigned> frames_of(const std::vector<std::string>& texts) {
-    constexpr unsigned most_frames = 10000, last_frame = 999999;
-    std::set<unsigned> frames;
-    for (const std::string& text : texts) {
-        unsigned first = 0, last = 0;
-        int end = 0;
-        const auto is_whole = [&] { return end > 0 && size_t(end) == text.size(); };
-        const bool has_digits = text.find_first_not_of("0123456789-") == text.npos && text.size() < 16;
-        if (has_digits && std::sscanf(text.c_str(), "%6u-%6u%n", &first, &last, &end) == 2 && is_whole()) {
-        } else if (end = 0; has_digits && std::sscanf(text.c_str(), "%6u%n", &first, &end) == 1 && is_whole()) {
-            last = first;
-        } else {
-            fail("--frames: '", shortened(text),
-                 "' must be a frame, as 3, or the first and the last of several, as 0-63, up to ", last_frame);
-        }
-        if (last < first) fail("--frames: '", text, "' runs backwards");
-        if (last - first >= most_frames)
-            fail("--frames: '", text, "' are ", last - first + 1, " frames, of which ", most_frames, " are allowed");
-        for (unsigned frame = first; frame <= last; ++frame) frames.insert(frame);
-    }
-    return {frames.begin(), frames.end()};
-}
-
 }  // namespace
 
 void scene_for_command(const SceneForOptions& options, const CommonOptions& common) {
     const SceneEngine& engine = engine_named(options.engine);
-    const std::vector<unsigned> frames = frames_of(options.frames);
+    constexpr size_t most_frames = 10000;
+    const std::vector<unsigned> frames = frame_numbers(options.frames, most_frames, "a folder");
     Progress progress(1.0);
     const SceneFolder written =
         write_scene_folder({.engine = engine,

@@ -266,8 +266,10 @@ TEST_F(CommandLine, WritesScenesForEngines) {
                              "mirror_pillars.dolly.32x18/f5.depth.exr"})
         EXPECT_TRUE(fs::exists(folder / "s" / file)) << file;
     expect_mistake("scene-for thre mirror_pillars --out s", "unknown engine 'thre'; did you mean 'three'?");
-    expect_mistake("scene-for any mirror_pillars --frames 5-1 --out s", "--frames: '5-1' runs backwards");
+    expect_mistake("scene-for any mirror_pillars --frames 5-1 --out s", "--frames: '5-1' ends before it begins");
     expect_mistake("scene-for any mirror_pillars --frames 1e3 --out s", "--frames: '1e3' must be a frame");
+    expect_mistake("scene-for any mirror_pillars --frames 0-9999 10000 --out s",
+                   "10001 frames are more than the 10000 that a folder holds");
     expect_mistake("scene-for any mirror_pillars --camera bak --out s", "'bak'");
     EXPECT_EQ(ssrlab("scene-for any mirror_pillars").code, 2) << "without --out";
 }

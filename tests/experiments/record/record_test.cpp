@@ -59,8 +59,8 @@ TEST_F(CommandLine, RecordRefusesWhatNoBrowserCanReplay) {
     expect_mistake(record + "--variant diligent_ssr --preset curent", "did you mean 'current'?");
     expect_mistake(record + "--variant diligent_ssr --set roughness_treshold=1", "did you mean 'roughness_threshold'?");
     expect_mistake(record + "--variant diligent_ssr --frames 5-2", "ends before it begins");
-    expect_mistake(record + "--variant diligent_ssr --frames all", "a range such as 0-9");
-    expect_mistake(record + "--variant diligent_ssr --frames 0-5000", "a page holds 1000");
+    expect_mistake(record + "--variant diligent_ssr --frames all", "--frames: 'all' must be a frame");
+    expect_mistake(record + "--variant diligent_ssr --frames 0-5000", "more than the 1000 that a page holds");
     expect_mistake(record + "--variant diligent_ssr --camera man", "did you mean 'main'?");
     expect_mistake("record mirror_pilars --variant diligent_ssr --out page.html", "did you mean 'mirror_pillars'?");
     expect_mistake("record mirror_pillars --variant diligent_ssr --size 1920 1080 --frames 0-9 --out page.html",
