@@ -10,8 +10,10 @@
 #include "experiments/scene_for/raw_files.h"
 #include "experiments/scene_for/scene_folder.h"
 #include "experiments/scene_for/scene_glb.h"
+#include "tests/error_message.h"
 #include "tests/experiments/run/external_fixture.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace {
@@ -253,6 +255,20 @@ TEST_F(SceneForTest, WritesAnEnvironmentThatIsNoColour) {
             EXPECT_NEAR(float(code[c]) * scale, value, scale) << i;
         }
     }
+}
+
+/// In place of mirror_pillars' constant environment of 0.02.
+TEST_F(SceneForTest, AProbeTakesTheEnvironmentsPlace) {
+    SceneFolderSettings probed = settings("mirror_pillars");
+    probed.extent = {32, 18};
+    probed.has_probe = true;
+    write_scene_folder(probed);
+    const nlohmann::json background = read_json(folder / "scene/scene.json")["background"];
+    const HostImage seen = read_exr_rgb(folder / "scene" / background.at("image").get<std::string>());
+    EXPECT_GT(std::ranges::max(seen.values), 0.5f) << "pillars emit 1";
+    probed.cameras = {"main", "dolly"};
+    const std::string why = error_message([&] { write_scene_folder(probed); });
+    EXPECT_NE(why.find("a probe is one camera's, and 2 were named"), std::string::npos) << why;
 }
 
 TEST_F(SceneForTest, NamesAreUniqueAndPlain) {
