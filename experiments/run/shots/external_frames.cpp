@@ -177,11 +177,11 @@ private:
     }
 
     std::string note() const {
-        std::string text = point_.shot.name() + ": " + point_.variant.variant + " " + point_.variant.point +
-                           " was rendered by " + images_.engine + " " + images_.version +
-                           (images_.driver.empty() ? "" : " on " + images_.driver) + "; of " +
-                           std::to_string(compared_) + " pixels of background and emission " +
-                           std::to_string(differing_) + " differ from the truth";
+        std::string text =
+            point_.shot.name() + ": " + point_.variant.variant + " " + point_.variant.point + " was rendered by " +
+            images_.engine + " " + images_.version + (images_.driver.empty() ? "" : " on " + images_.driver) + "; of " +
+            std::to_string(compared_) + (images_.has_given_light ? " pixels " : " pixels of background and emission ") +
+            std::to_string(differing_) + " differ from the truth";
         if (most_leaks_ > 0)
             text += ", with reflections up to " + std::to_string(most_leaks_) +
                     ": the technique adds light where nothing reflects, which counts as its error";

@@ -1,6 +1,7 @@
 // Images of another program as rows of a study: those that ssrlab itself rendered and wrote as such err as before, and
 // what cannot be compared is refused with the reason.
 #include "core/error.h"
+#include "core/files.h"
 #include "tests/experiments/run/external_fixture.h"
 
 #include <limits>
@@ -108,7 +109,6 @@ TEST_F(ExternalImagesTest, HaveSeedsAndABaselineOfTheirOwn) {
     EXPECT_EQ(rows, 1u);
 }
 
-/// Of a still scene, so that each frame errs as the only one did.
 /// Where surfaces emit the light that scene-for wrote, every pixel proves something.
 TEST_F(ExternalImagesTest, HoldTheGivenLightInEveryPixel) {
     write_frames();
@@ -125,8 +125,11 @@ TEST_F(ExternalImagesTest, HoldTheGivenLightInEveryPixel) {
     EXPECT_TRUE(says(refusal(), "differ from the truth"));
     write(black_mirrors, "f0.off");
     EXPECT_EQ(refusal(), "");
+    const std::string manifest = read_text(folder / "refused/manifest.json");
+    EXPECT_NE(manifest.find("of " + std::to_string(frame.image.pixel_count()) + " pixels 0 differ"), std::string::npos);
 }
 
+/// Of a still scene, so that each frame errs as the only one did.
 TEST_F(ExternalImagesTest, AreMeasuredFrameByFrame) {
     const std::map<std::string, double> own = write_frames();
     for (const char* name : {"s0", "off"})
