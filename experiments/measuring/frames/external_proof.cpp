@@ -198,11 +198,11 @@ std::string why_refused(const HostImage& image, const ProofPixels& proof) {
            (why.empty() ? "camera, materials or units are others; compare the picture of where with the scene" : why);
 }
 
-std::string why_refused_with_reflections(const HostImage& image, const ProofPixels& proof) {
+std::string why_refused_with_reflections(const HostImage& image, const ProofPixels& proof, bool may_change_all) {
     const Differences found = differences(image, proof);
     if (found.count <= most_differing(proof.count())) return "";
     if (const std::string why = what_undoes(image, proof); !why.empty()) return seen(found, proof) + why;
-    if (double(found.count) <= largest_leak * double(proof.count())) return "";
+    if (may_change_all || double(found.count) <= largest_leak * double(proof.count())) return "";
     return seen(found, proof) +
            "reflections change most of what they must not change, or the image is of another view "
            "than the one without them";

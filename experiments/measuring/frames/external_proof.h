@@ -40,9 +40,9 @@ std::string why_refused(const HostImage& image, const ProofPixels& proof);
 
 /// The same of an image with reflections, whose camera the one without has proved. Where a technique adds light to the
 /// background or to what emits (a blur that leaks over a mirror's edge), that is its error and no reason to refuse it,
-/// if at most half of the proof pixels differ and nothing undoes it. No shift is looked for: it undoes each leak that
-/// is a pixel wide.
-std::string why_refused_with_reflections(const HostImage& image, const ProofPixels& proof);
+/// if at most half of the proof pixels differ, or `may_change_all`, and nothing undoes it. No shift is looked for: it
+/// undoes each leak that is a pixel wide.
+std::string why_refused_with_reflections(const HostImage& image, const ProofPixels& proof, bool may_change_all);
 
 /// Where an image differs: red on the image's luminance in grey, green where it was compared and agrees.
 HostImage difference_picture(const HostImage& image, const ProofPixels& proof);

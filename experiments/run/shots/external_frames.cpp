@@ -118,7 +118,7 @@ private:
                  " pixels show the background or surfaces that emit, of which ", least_proof_pixels,
                  " are needed to see whether images of another program have the same camera; choose another view");
         const std::string why =
-            has_reflections ? why_refused_with_reflections(image, proof) : why_refused(image, proof);
+            has_reflections ? why_refused_with_reflections(image, proof, is_proved) : why_refused(image, proof);
         if (why.empty()) return;
         const std::string name = "images/refused." + point_.variant.variant + "." + point_.shot.name() + ".f" +
                                  std::to_string(step.frame) + ".png";

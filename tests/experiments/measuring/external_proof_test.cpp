@@ -101,12 +101,16 @@ TEST(ExternalProof, LeavesWhatReflectionsLeakToTheirError) {
     for (unsigned x = 0; x < extent.x; ++x)
         for (unsigned y = 50; y < 70; ++y) leaking.set_rgb(size_t(y) * extent.x + x, glm::vec3(0.1f * float(x % 7)));
     EXPECT_NE(why_refused(leaking, proof()), "");
-    EXPECT_EQ(why_refused_with_reflections(leaking, proof()), "");
+    EXPECT_EQ(why_refused_with_reflections(leaking, proof(), false), "");
     const HostImage wide = photo({1.0f, 0.5f});  // as if each edge leaked by half a pixel: no proof of another camera
     EXPECT_NE(why_refused(wide, proof()), "");
-    EXPECT_EQ(why_refused_with_reflections(wide, proof()), "");
-    EXPECT_TRUE(says(why_refused_with_reflections(turned(photo(middle), false, true), proof()), "upside down"));
-    EXPECT_TRUE(says(why_refused_with_reflections(HostImage(extent, 3, 0.1f), proof()), "change most of what"));
+    EXPECT_EQ(why_refused_with_reflections(wide, proof(), false), "");
+    const HostImage other(extent, 3, 0.1f);
+    EXPECT_TRUE(says(why_refused_with_reflections(other, proof(), false), "change most of what"));
+    EXPECT_EQ(why_refused_with_reflections(other, proof(), true), "");
+    for (const bool may_change_all : {false, true})
+        EXPECT_TRUE(says(why_refused_with_reflections(turned(photo(middle), false, true), proof(), may_change_all),
+                         "upside down"));
 }
 
 TEST(ExternalProof, SaysWhereToAnImageIsShifted) {
