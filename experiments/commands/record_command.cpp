@@ -43,7 +43,8 @@ void record_command(const RecordOptions& options, const CommonOptions& common) {
                  .say = [&](const std::string& text) { progress.say(shown_text(text)); },
                  .report = [&](double share, const std::string& what) { progress.update(share, what); }});
     progress.say(shown_text(options.out.string()));
-    std::printf("%zu frames of %u passes, %.2f MB; relmse of the last frame %.4g\n", page.errors.size(), page.passes,
-                double(page.bytes) * 1e-6, page.errors.back());
+    std::printf("%s of %u passes, %.2f MB; relmse of the last frame %.4g\n",
+                counted(page.errors.size(), "frame").c_str(), page.passes, double(page.bytes) * 1e-6,
+                page.errors.back());
     std::printf("sliders: %s\n", listed(page.sliders).c_str());
 }

@@ -51,7 +51,7 @@ void scene_for_command(const SceneForOptions& options, const CommonOptions& comm
     for (const std::string& warning : written.warnings)
         std::fprintf(stderr, "warning: %s\n", shown_text(warning).c_str());
     for (const std::string& view : written.views) progress.say(shown_text((options.out / view).string()));
-    std::printf("%s: %s, %zu light images (%zu from the cache)\n",
-                shown_text((options.out / "scene.json").string()).c_str(),
-                counted(written.views.size(), "view").c_str(), written.rendered + written.cached, written.cached);
+    std::printf("%s: %s, %s (%zu from the cache)\n", shown_text((options.out / "scene.json").string()).c_str(),
+                counted(written.views.size(), "view").c_str(),
+                counted(written.rendered + written.cached, "light image").c_str(), written.cached);
 }
