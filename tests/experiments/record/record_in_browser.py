@@ -43,7 +43,7 @@ CLEANUP_FAR = 0.08  # share of the pixels with reflections that differ by more t
 # Whole frames: the share of the pixels with reflections that differ by more than 0.01. In the first it is that of the
 # last pass. From the second on, history comes from the surface or from its mirror image, whichever looks more alike,
 # which rounding decides where both do.
-FRAME_FAR = [0.08, 0.15, 0.15]
+FRAME_FAR = [CLEANUP_FAR, 0.15, 0.15]
 ERROR_RELATIVE = 0.02  # of the frame's error to the recorded one
 
 SIZE, FRAMES = ("96", "54"), "0-2"
