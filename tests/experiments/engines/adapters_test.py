@@ -105,6 +105,8 @@ def check_echo(ssrlab, folder):
 
     for options, code_of, words in (
             (["--set", "wrong=depth"], 2, "another camera or geometry"),
+            (["--set", "wrong=turned"], 2, "another camera or geometry"),
+            (["--set", "wrong=size"], 2, "the page sent 20732 values; 96 x 54 pixels of 4 are needed"),
             (["--set", "wrong=light"], 2, "are not the light of scene.json"),
             (["--set", "wrong=NaN"], 2, "values are NaN or infinite"),
             (["--set", "wrong=setting"], 2, "error: wrong = setting: must be another"),

@@ -13,7 +13,7 @@ export async function open({ view, settings, scene }) {
         },
         async depth() {
             const values = new Float32Array(await (await fetch(`/scene/${frame.depth_raw}`)).arrayBuffer());
-            return { values: settings.wrong === "depth" ? values.map((v) => v * 1.1) : values, components: 1, rows: "top" };
+            return { values: settings.wrong === "depth" ? values.map((v) => v * 1.1) : values, components: 1, rows: settings.wrong === "turned" ? "bottom" : "top" };
         },
         render({ reflections, seed }) {
             const values = turned(light).rgba;
@@ -21,6 +21,7 @@ export async function open({ view, settings, scene }) {
             if (settings.wrong === "light") values.fill(1);
             if (reflections) for (let i = 0; i < values.length; ++i) values[i] += settings.reflection * (1 + seed);
             if (reflections && settings.wrong === "NaN") values[5] = NaN;
+            if (settings.wrong === "size") return { values: values.subarray(4), components: 4 };
             return { values, components: 4, rows: "bottom", milliseconds: reflections ? 1.5 : undefined };
         },
     };
