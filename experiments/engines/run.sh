@@ -11,7 +11,7 @@ for word in "$@"; do
     case $word in
     -h | --help)
         echo "usage: experiments/engines/run.sh [--install | ENGINE ...]"
-        echo "--install: installs alone. ENGINE: renders those alone, and compares nothing; default: all. Some 30 minutes."
+        echo "--install: installs alone. ENGINE: renders those alone, and compares nothing; default: all."
         echo "Engines: $(cd experiments/engines && printf '%s ' */engine.json | sed 's,/engine.json,,g')"
         exit ;;
     --install) install_only=1 ;;

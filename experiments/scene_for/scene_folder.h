@@ -28,9 +28,9 @@ struct SceneFolderSettings {
     std::string scene;
     std::vector<std::string> cameras;  ///< empty: the scene's first
     glm::uvec2 extent{480, 270};
-    std::vector<unsigned> frames{0};   ///< ascending
-    ReferenceSettings reference;       ///< of the light
-    bool has_probe = false;            ///< a probe at the first camera takes the environment's place (reflection_probe.h)
+    std::vector<unsigned> frames{0};  ///< ascending
+    ReferenceSettings reference;      ///< of the light
+    bool has_probe = false;  ///< a probe at the first camera takes the environment's place (reflection_probe.h)
     std::filesystem::path out, cache;  ///< cache: of references
     std::vector<std::filesystem::path> search_path;
     std::function<void(const std::string&)> say;                        ///< gets sentences for the user

@@ -54,7 +54,7 @@ class Outcome:
         with whole_file(self.file("tune.csv")) as temporary, open(temporary, "w", newline="", encoding="utf-8") as stream:
             lines = [["point", "batch", "stopped", "shots", "runs", "ratio", "low", "high", "time", *axes]]
             for point in self.points.values():
-                error = ratio_of(self.race.error(point))
+                error = ratio_of(self.race.error(point)) if point.errors else Measured("", "", "")
                 row = [point.name, point.batch, point.stopped, len(point.shots()), point.runs(), error.value, error.low, error.high]
                 values = [point.values.get(name, "") if point.values else point.parameters[name] for name in axes]
                 lines.append(row + ["" if point.refusal or not self.studies.has_time else math.exp(self.log_time(point))] + [json.dumps(v) if isinstance(v, bool) else v for v in values])

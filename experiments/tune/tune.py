@@ -31,6 +31,7 @@ from studies import Studies, StudyFailed  # noqa: E402
 
 SAME_TIME = {True: 1.05, False: 1.0}  # with a clock, whose noise it is about; with counts, which are exact
 BEYOND = 1.25  # a point that takes so much longer than the largest budget in the first shot is not run in others; what has no time counts as such
+REFUSED = 2  # exit code of a program whose images cannot be compared
 AT_DEFAULTS = "defaults"  # the name of a program's point without settings
 FUTILE = 5  # batches without a point that was not tried before, after which the space counts as searched
 
@@ -79,7 +80,8 @@ class Tuning:
         self.names += [AT_DEFAULTS] if self.program else []
         say(f"start: {', '.join(self.names)} in {len(self.studies.shots)} shots, which need references")
         if self.program:
-            entries.append(self.trial_entry(AT_DEFAULTS, {}, self.studies.shots))
+            self.program.render(AT_DEFAULTS, {}, self.studies.shots)
+            entries.append(self.trial_entry(AT_DEFAULTS, {}))
         results = self.studies.run("search/start", entries, self.studies.shots, seeds)
         self.points = {name: Point(name, {}) for name in self.names}
         for name in [self.baseline, *self.names]:
@@ -123,10 +125,9 @@ class Tuning:
         entry = {"variant": point["variant"], "label": self.names[index], "baseline": point["baseline"]}
         return entry | self.made_of(point, point["swept"])
 
-    def trial_entry(self, name, values, shots):
-        """Of a point that is tried in some shots, as an entry of `variants`."""
+    def trial_entry(self, name, values):
+        """Of a point that is tried, as an entry of `variants`."""
         if self.program:
-            self.program.render(name, values, shots)
             return {"external": self.program.images(name), "label": name, "point": self.program.point(name)}
         return {"variant": self.start_entry["variant"], "label": name} | self.made_of(self.start_entry, values)
 
@@ -179,14 +180,26 @@ class Tuning:
             self.race.add(point)
 
     def measure(self, name, points, shots, seeds, is_timed=True):
+        points = [p for p in points if self.is_rendered(p, shots)]
         if not points:
             return
-        entries = [self.trial_entry(p.name, p.values, shots) for p in points]
+        entries = [self.trial_entry(p.name, p.values) for p in points]
         if self.program or is_timed and self.studies.has_clock:  # which is compared within the same frames
             entries.insert(0, self.given_entry(self.names.index(self.baseline)))
         results = self.studies.run(name, entries, shots, seeds, is_timed)
         for point in points:
             self.studies.read_into(point, results)
+
+    def is_rendered(self, point, shots):
+        """Of a program: settings with which it renders nothing that can be compared are no fault of the search."""
+        try:
+            if self.program:
+                self.program.render(point.name, point.values, shots)
+        except ProgramFailed as failed:
+            if failed.code != REFUSED:
+                raise
+            point.refusal = failed.said[-1] if failed.said else str(failed)
+        return not point.refusal
 
     def those_left(self, points, stage):
         """Stops those that are significantly worse, take too long, or have no time."""
@@ -194,8 +207,8 @@ class Tuning:
         for point in points:
             too_long = math.log(max(self.budgets) * BEYOND)
             if point.refusal:
-                point.stopped = f"after {stage}: no estimate: {point.refusal}"
-                point.estimate = (self.race.error(point).mean, too_long)
+                point.stopped = f"after {stage}: {'refused' if self.program else 'no estimate'}: {point.refusal}"
+                point.estimate = (self.race.error(point).mean if point.errors else 0.0, too_long)
                 continue
             beaten = self.race.beaten_by(point)
             time = self.race.log_time(point)
@@ -231,7 +244,9 @@ class Tuning:
         tried = {name: by_name[name].values for name in found if name in by_name}
         if self.program:
             tried[AT_DEFAULTS] = {}
-        entries += [self.trial_entry(name, values, self.studies.judged_shots) for name, values in tried.items()]
+        for name, values in tried.items() if self.program else ():
+            self.program.render(name, values, self.studies.judged_shots)
+        entries += [self.trial_entry(name, values) for name, values in tried.items()]
         return self.studies.run("judged", entries, self.studies.judged_shots, self.studies.judge_seeds), found
 
     def say(self, number, fresh):

@@ -129,7 +129,8 @@ export class FrameWriter {
 
     finish({ driver }) {
         const external = this.description(driver), times = this.milliseconds.sort((a, b) => a - b);
-        if (times.length) external.milliseconds = times[times.length >> 1];
+        const isAlone = !existsSync(join(this.out, "external.json"));  // several scenes have no time in common
+        if (times.length && isAlone) external.milliseconds = times[times.length >> 1];
         mkdirSync(this.out, { recursive: true });
         writeFileSync(join(this.out, "external.json"), JSON.stringify(external, null, 1) + "\n");
     }

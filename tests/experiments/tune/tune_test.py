@@ -117,10 +117,12 @@ class FakeSsrlab:
 class FakeProgram:
     """In place of `ssrlab scene-for` and of a program that renders: writes what it was asked for."""
 
-    def __init__(self, fails_at=None):
+    def __init__(self, fails_at=None, refuses=None):
+        """`refuses`: whether it renders nothing that can be compared with these settings."""
         self.rendered, self.scenes, self.fails_at = [], [], fails_at
+        self.refuses = refuses or (lambda settings: False)
 
-    def __call__(self, words, **_):
+    def __call__(self, words, **options):
         if words[1] == "scene-for":
             self.scenes.append(words[2:4])
             folder = words[words.index("--out") + 1]
@@ -136,6 +138,9 @@ class FakeProgram:
         settings = dict(value.split("=") for key, value in pairs if key == "--set")
         assert set(settings) <= set(DEFAULTS), settings
         stated = DEFAULTS | {k: v if isinstance(DEFAULTS[k], str) else json.loads(v) for k, v in settings.items()}
+        if self.refuses(stated):
+            options["stdout"].write("error: all is NaN\n")
+            return types.SimpleNamespace(returncode=2)
         with open(os.path.join(scene, "scene.json"), encoding="utf-8") as stream:
             self.rendered.append((os.path.basename(out), json.load(stream)["scene"]))
         os.makedirs(out, exist_ok=True)
@@ -294,6 +299,13 @@ def test_program(folder):
     check(all(r["time"] == "" for r in read(folder, "tune.csv")), "times that nobody measured")
     page = read(folder, "tuned.md")
     check("# Tuned: engine" in page and "not measured" in page and "| defaults |" in page, page)
+    refusing = os.path.join(folder, "refusing")
+    os.makedirs(refusing)
+    code, said = search(refusing, FakeSsrlab(), rules, FakeProgram(refuses=lambda settings: settings["march"] == "tree"))
+    check(code == 0, said)
+    refused = [r for r in read(refusing, "tune.csv") if r["march"] == "tree"]
+    check(refused and all(r["stopped"] == "after 1 of 4 shots: refused: error: all is NaN" and r["ratio"] == "" for r in refused), f"{refused}")
+    check("tree" not in read(refusing, "presets.json"), "what cannot be compared is not found")
     unknown = os.path.join(folder, "unknown")
     os.makedirs(unknown)
     code, said = search(unknown, FakeSsrlab(), rules | {"axes": {"reys": [1]}}, FakeProgram())
