@@ -78,6 +78,7 @@ class Markdown(unittest.TestCase):
             "findings/flight_helmet.png": "findings/figures.json",
             "findings/room_10103.png": "findings/composed.json",
             "findings/room_10105.png": "findings/composed.json",
+            "findings/metal_corner.png": "findings/engines.json",
         }
         for name, source in made_from.items():
             picture = (ROOT / "experiments" / name).read_bytes()
