@@ -52,7 +52,7 @@ TUNE = BASE | {
         "judge": {"shots": [SCENE | {"scene": "grazing"}], "seeds": 2}, "most_runs": 10, "most_minutes": 1, "batch": 2, "seed": 1,
     },
 }  # fmt: skip
-OVER_PROGRAM = BASE | {"variants": [{"variant": "none"}], "tune": {"program": ["./render", "quickly"], "axes": {"steps": [1, 2]}}}
+OVER_PROGRAM = BASE | {"variants": [{"variant": TECHNIQUE}], "tune": {"program": ["./render", "quickly"], "axes": {"steps": [1, 2]}}}
 EXTENDING = {"extends": "study.json", "variants": [{"variant": TECHNIQUE, "preset": "best", "remove": False}, {"external": "frames", "remove": False}]}
 OF_PARAMETERS = ("parameters", "against", "sweep", "zip", "each", "axes")  # objects that name them
 

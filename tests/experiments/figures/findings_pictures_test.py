@@ -32,13 +32,14 @@ def main():
     kept = {file.name: file.read_text(encoding="utf-8") for file in (FINDINGS / "pictures").glob("*.svg")}
     check(kept.keys() == new.keys(), f"{sorted(kept)} are kept, {sorted(new)} are drawn")
     text = (FINDINGS / "README.md").read_text(encoding="utf-8")
+    pages = "".join(file.read_text(encoding="utf-8") for file in FINDINGS.glob("*.md"))
     again = f"experiments/figures/{script.name} draws it anew"
     for name, picture in kept.items():
         check(noted(picture, "source") == noted(new[name], "source"), f"{name} shows other numbers than the summaries hold; {again}")
         if noted(picture, "creator") == noted(new[name], "creator"):  # of the same version of matplotlib
             check(picture == new[name], f"{name} is drawn otherwise now; {again}")
         check(len(picture.encode()) <= MOST_BYTES, f"{name} has {len(picture.encode())} bytes")
-        check(f"](pictures/{name})" in text, f"no finding shows {name}")
+        check(f"](pictures/{name})" in pages, f"no finding shows {name}")
     headings = [part.split("\n", 1) for part in text.split("\n## ")[1:]]
     without = [title for title, part in headings if "](pictures/" not in part and title != "What this does not show"]
     check(not without, f"findings without a picture: {without}")
