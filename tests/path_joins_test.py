@@ -50,7 +50,6 @@ ALLOWED = {
     ("experiments/engines/blender_eevee/render.py", "folder / background['image']"): CHECKED,
     ("experiments/engines/blender_eevee/render.py", "folder / frame['light']"): CHECKED,
     ("experiments/engines/blender_eevee/render.py", "out / f'{name}.f32'"): CHECKED,
-    ("experiments/engines/render_study.py", "os.path.join(HERE, os.pardir, room)"): PROGRAM,
     ("experiments/engines/render_study.py", "os.path.join(os.path.dirname(file), v['external'])"): REQUEST,
     ("experiments/figures/findings_pictures.py", "folder / f'{name}.svg'"): PROGRAM,
     ("experiments/figures/judge.py", "os.path.join(arguments.out, f'pair_{number}.png')"): PROGRAM,

@@ -14,26 +14,20 @@ import sys
 import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path[:0] = [os.path.join(HERE, os.pardir, room) for room in ("python", "tune")]
+sys.path.insert(0, os.path.join(HERE, os.pardir, "python"))
 from ssrlab.json_files import read_json  # noqa: E402
 from ssrlab.mistakes import Fault, ResultsError, exit_code, say  # noqa: E402
+from ssrlab.shots import scene_folder_name, scene_for_words, single_shots  # noqa: E402
 from ssrlab.text_files import path_inside  # noqa: E402
-from studies import single_shots  # noqa: E402
 
 
 def scene_folder(shot, study, ssrlab, out):
     """What `scene-for` wrote of a shot, written where it is not there."""
-    folder = path_inside(out, "scenes/" + shot["scene"].replace(":", "_"))
+    words = scene_for_words(shot, study)
+    folder = path_inside(out, f"scenes/{scene_folder_name(words)}")
     if os.path.exists(path_inside(folder, "scene.json")):
         return folder
-    size = shot.get("resolution", study.get("resolution", [480, 270]))
-    words = [ssrlab, "scene-for", "any", shot["scene"], "--size", *map(str, size), "--out", folder]
-    words += ["--camera", shot["camera"]] if "camera" in shot else []
-    words += ["--fallback", shot.get("fallback", study.get("fallback", "environment"))]
-    for key, value in study.get("reference", {}).items():
-        words += [f"--{key.replace('_', '-')}={value}"] if key in ("samples", "lit_samples") else []
-    words += ["--ladder"] if "on_screen" in study.get("targets", []) else []
-    code = subprocess.run(words).returncode
+    code = subprocess.run([ssrlab, "scene-for", "any", *words, "--out", folder]).returncode
     if code != 0:
         sys.exit(code)  # it has said why
     return folder

@@ -13,6 +13,7 @@ import subprocess
 
 from ssrlab.json_files import read_json
 from ssrlab.mistakes import ResultsError
+from ssrlab.shots import scene_folder_name, scene_for_words
 from ssrlab.text_files import path_inside, write_text
 
 OF_SCENES = ("--scene-path", "--cache", "--max-memory", "--allow-outside")  # options of `ssrlab run` that `scene-for` has, too
@@ -46,9 +47,7 @@ class Program:
         self.words = [os.path.normpath(os.path.join(folder, words[0])) if "/" in words[0] else words[0], *words[1:]]
         self.out = os.path.abspath(out)
         self.ssrlab, self.options = command[0], [word for word in command[1:] if word.split("=")[0] in OF_SCENES]
-        reference = study.get("reference", {})
-        self.samples = [f"--{name.replace('_', '-')}={reference[name]}" for name in ("samples", "lit_samples") if name in reference]
-        self.resolution, self.fallback = study.get("resolution", [480, 270]), study.get("fallback", "environment")
+        self.study = study
 
     def images(self, name):
         """The folder of a point's images."""
@@ -76,18 +75,11 @@ class Program:
 
     def _scene(self, shot):
         """The folder of a shot's scene, within that of the search; written where it is not there."""
-        size = shot.get("resolution", self.resolution)
-        frames = shot.get("frames", [0])
-        if isinstance(frames, dict):
-            frames = range(frames["from"], frames["to"] + 1)
-        name = "_".join([shot["scene"], shot.get("camera", ""), "x".join(map(str, size)), *map(str, frames)])
-        folder = "scenes/" + "".join(c if c.isalnum() or c in "_-" else "_" for c in name)
+        words = scene_for_words(shot, self.study)
+        folder = f"scenes/{scene_folder_name(words)}"
         written = path_inside(self.out, folder)
         if not os.path.exists(path_inside(written, "scene.json")):
-            camera = [f"--camera={shot['camera']}"] if "camera" in shot else []
-            words = [self.ssrlab, "scene-for", "any", shot["scene"], *camera, "--size", *map(str, size), "--frames", *map(str, frames)]
-            words += ["--fallback", shot.get("fallback", self.fallback)]
-            self._call([*words, *self.samples, "--out", written, *self.options], f"{folder}.log")
+            self._call([self.ssrlab, "scene-for", "any", *words, "--out", written, *self.options], f"{folder}.log")
         return folder
 
     def _call(self, words, log):

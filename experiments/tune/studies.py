@@ -1,6 +1,5 @@
 """The studies that a search consists of: each a config that is written, run by `ssrlab run`, and read."""
 
-import itertools
 import json
 import os
 import subprocess
@@ -10,6 +9,7 @@ from ssrlab.csv_files import needed_number, number, whole
 from ssrlab.json_files import read_json
 from ssrlab.mistakes import ResultsError
 from ssrlab.results import Results
+from ssrlab.shots import single_shots
 from ssrlab.text_files import path_inside, write_text
 from race import NORMAL
 
@@ -32,31 +32,6 @@ def _positive(row, column):
     if value <= 0:
         raise ResultsError(f"{row.file}:{row.line}: '{column}' = \"{row[column]}\" is not above 0")
     return value
-
-
-def in_a_row(shot):
-    """A shot of `room:*` is one of each of `count` scenes from number `first` on."""
-    numbers = {k: v for k, v in shot.items() if k in ("first", "count")}
-    shot = {k: v for k, v in shot.items() if k not in numbers}
-    if not shot.get("scene", "").endswith(":*"):
-        return [shot]
-    first = numbers.get("first", 0)
-    return [shot | {"scene": f"{shot['scene'][:-1]}{i}"} for i in range(first, first + numbers["count"])]
-
-
-def single_shots(entries):
-    """Entries of `shots`, those that list scenes, cameras, settings, sizes or frames taken apart."""
-    found = []
-    for entry in entries:
-        names = ("scene", "camera", "lit", "depth_format", "depth_direction", "normal_encoding", "gbuffer_formats")
-        lists = {k: entry[k] for k in names if isinstance(entry.get(k), list)}
-        if isinstance(entry.get("resolution", [0])[0], list):
-            lists["resolution"] = entry["resolution"]
-        if isinstance(entry.get("frames"), list) and not isinstance(entry["frames"][0], int):
-            lists["frames"] = entry["frames"]
-        for values in itertools.product(*lists.values()):
-            found += in_a_row(entry | dict(zip(lists, values)))
-    return found
 
 
 class Studies:
