@@ -4,8 +4,8 @@
 usage: render_study.py SSRLAB STUDY.json OUT [ENGINE ...]
 
 Each `external` of the study is a folder ENGINE.POINT: adapter and point of engine.json. OUT/scenes gets what `ssrlab scene-for` writes of each
-shot. Of engines that draw random numbers, those whose engine.json has "seeds", so many images of each frame are rendered. Images that render.sh refuses (exit code 2) are left out; where it failed (3), the others are rendered
-all the same, and this script ends with 3."""
+shot. Of engines that draw random numbers, those whose engine.json has "seeds", so many images of each frame are rendered. Images that render.sh
+refuses (exit code 2) are left out; where it failed (3), the others are rendered all the same, and this script ends with 3."""
 
 import argparse
 import os

@@ -62,6 +62,9 @@ export function parse(words) {
     const own = engine.defaults ?? {};
     for (const key of Object.keys(settings))
         if (!Object.hasOwn(own, key)) throw new Mistake(`${name} has no setting '${key}'; there are ${Object.keys(own).join(", ")}`);
+    for (const [key, value] of Object.entries(settings))
+        if (typeof value !== typeof own[key] && own[key] !== "auto")  // which is of the adapter's, or a number
+            throw new Mistake(`${name}: --set ${key} must be a ${typeof own[key]} like the default ${JSON.stringify(own[key])}, not ${JSON.stringify(value)}`);
     const point = job.point ?? (job.set.length ? job.set.map(([key, value]) => `${key}_${value}`).join("-").replace(/[^A-Za-z0-9_.-]/g, "_") : "default");
     return { name: basename(adapter), adapter, folder: resolve(folder), out, engine, point, settings: { ...own, ...settings }, seeds: job.seeds, chromium: job.chromium };
 }

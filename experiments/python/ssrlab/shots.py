@@ -18,7 +18,7 @@ def single_shots(entries):
     """Entries of `shots`, those that list scenes, cameras, settings, sizes or frames taken apart."""
     found = []
     for entry in entries:
-        names = ("scene", "camera", "lit", "depth_format", "depth_direction", "normal_encoding", "gbuffer_formats")
+        names = ("scene", "camera", "lit", "lit_specular", "fallback", "depth_format", "depth_direction", "normal_encoding", "gbuffer_formats")
         lists = {k: entry[k] for k in names if isinstance(entry.get(k), list)}
         if isinstance(entry.get("resolution", [0])[0], list):
             lists["resolution"] = entry["resolution"]

@@ -111,6 +111,7 @@ def check_echo(ssrlab, folder):
             (["--set", "wrong=NaN"], 2, "values are NaN or infinite"),
             (["--set", "wrong=setting"], 2, "error: wrong = setting: must be another"),
             (["--set", "reflecton=1"], 2, "no setting 'reflecton'"),
+            (["--set", "reflection=true"], 2, "must be a number"),
             (["--set", "constructor=1"], 2, "no setting 'constructor'"),
             (["--point", "constructor"], 2, "no point 'constructor'"),
             (["--point", "best"], 2, "no point 'best'"),
