@@ -102,6 +102,16 @@ nlohmann::json parameters_of(const std::vector<std::string>& values) {
     return parameters;
 }
 
+/// A technique's values: those of a preset, or its defaults, with others in their place.
+void add_values(CLI::App& command, std::string& preset, nlohmann::json& parameters) {
+    command.add_option("--preset", preset, "One of its presets; default: its defaults")->type_name("NAME");
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--set", [&parameters](const std::vector<std::string>& values) { parameters = parameters_of(values); },
+            "A parameter's value; may be repeated")
+        ->type_name("NAME=VALUE");
+}
+
 /// A command whose options a script declares, --help among them.
 void hand_on(CLI::App& command, int (*call)(const std::vector<std::string>&), int& status) {
     command.prefix_command()->set_help_flag();
@@ -514,13 +524,7 @@ int parse_and_run(int argc, char** argv) {
     shaders_command_.add_option("variant", shaders.variant, "A technique (see: ssrlab list variants)")
         ->required()
         ->type_name("NAME");
-    shaders_command_.add_option("--preset", shaders.preset, "One of its presets; default: its defaults")
-        ->type_name("NAME");
-    shaders_command_
-        .add_option_function<std::vector<std::string>>(
-            "--set", [&](const std::vector<std::string>& values) { shaders.parameters = parameters_of(values); },
-            "A parameter's value; may be repeated")
-        ->type_name("NAME=VALUE");
+    add_values(shaders_command_, shaders.preset, shaders.parameters);
     shaders_command_
         .add_option(
             "--chip", shaders.chips,
@@ -583,13 +587,7 @@ int parse_and_run(int argc, char** argv) {
                     "A technique of fragment passes alone (see: ssrlab list variants); others are refused")
         ->required()
         ->type_name("NAME");
-    record_command_.add_option("--preset", record.preset, "One of its presets; default: its defaults")
-        ->type_name("NAME");
-    record_command_
-        .add_option_function<std::vector<std::string>>(
-            "--set", [&](const std::vector<std::string>& values) { record.parameters = parameters_of(values); },
-            "A parameter's value; may be repeated")
-        ->type_name("NAME=VALUE");
+    add_values(record_command_, record.preset, record.parameters);
     record_command_.add_option("--camera", record.shot.camera, "Default: the scene's first")->type_name("NAME");
     record_command_.add_option("--size", record.shot.size, "Width and height in pixels; default: 192 108")
         ->expected(2)
