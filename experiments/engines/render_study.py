@@ -4,7 +4,7 @@
 usage: render_study.py SSRLAB STUDY.json OUT [ENGINE ...]
 
 Each `external` of the study is a folder ENGINE.POINT: adapter and point of engine.json. OUT/scenes gets what `ssrlab scene-for` writes of each
-shot. Of engines that draw random numbers, those whose engine.json has "seeds", so many images of each frame are rendered. Images that render.sh
+shot. Of points that draw random numbers, those that "seeds" of engine.json names, so many images of each frame are rendered. Images that render.sh
 refuses (exit code 2) are left out; where it failed (3), the others are rendered all the same, and this script ends with 3."""
 
 import argparse
@@ -68,7 +68,7 @@ def main():
     for number, (folder, scene) in enumerate(jobs):
         engine, point = os.path.basename(folder).split(".", 1)
         settings = read_json(path_inside(HERE, f"{engine}/engine.json"))
-        seeds = settings.get("seeds", 1)
+        seeds = settings.get("seeds", {}).get(point, 1)
         if all(has_images(folder, view, seeds) for view in read_json(path_inside(scene, "scene.json"))["views"]):
             continue
         if point not in settings["points"]:

@@ -56,7 +56,7 @@ class Outcome:
             for point in self.points.values():
                 error = ratio_of(self.race.error(point)) if point.errors else Measured("", "", "")
                 row = [point.name, point.batch, point.stopped, len(point.shots()), point.runs(), error.value, error.low, error.high]
-                values = [point.values.get(name, "") if point.values else point.parameters[name] for name in axes]
+                values = [point.values.get(name, "") if point.values else point.parameters.get(name, "") for name in axes]  # none of them: beside a program
                 lines.append(row + ["" if point.refusal or not self.studies.has_time else math.exp(self.log_time(point))] + [json.dumps(v) if isinstance(v, bool) else v for v in values])
             write_lines(stream, lines)
 

@@ -34,10 +34,16 @@ def setting(value):
     return value if isinstance(value, str) else json.dumps(value)
 
 
-def declared_by(settings):
-    """JSON schemas of an external.json's settings, whose values are their defaults."""
+def declared_by(settings, axes):
+    """JSON schemas of an external.json's settings, whose values are their defaults. A program may write 1.0 as 1: numbers are whole where the
+    ends of their axis are written without a point, too."""
     types = {bool: "boolean", int: "integer", float: "number", str: "string"}
-    return {name: {"type": types[type(value)], "default": value} for name, value in settings.items()}
+    declared = {name: {"type": types[type(value)], "default": value} for name, value in settings.items()}
+    for name, axis in axes.items():
+        ends = (axis.get("lin") or axis.get("log")) if isinstance(axis, dict) else None
+        if ends and any(isinstance(end, float) for end in ends):
+            declared[name]["type"] = "number"
+    return declared
 
 
 class Program:

@@ -108,7 +108,7 @@ class Tuning:
         if unknown:
             states = f"those are {', '.join(sorted(settings))}" if settings else "it states none"
             raise ResultsError(f"tune: 'axes': '{unknown[0]}' is no setting of which external.json of the program states the value; {states}")
-        self.declared = declared_by(settings)
+        self.declared = declared_by(settings, self.rules["axes"])
         self.searched = next(v["variant"] for v in results.manifest["variants"] if v.get("label") == AT_DEFAULTS)
 
     def cost_of_baseline(self, results):

@@ -106,7 +106,9 @@ class FakeSsrlab:
                 effects.append(key | row | {"low": error / base * 0.99, "high": error / base * 1.01, "low_holm": error / base * 0.98, "high_holm": error / base * 1.02, "verdict": "not distinguishable"})
         shots = [{"shot": s["scene"], "scene": s["scene"], "references": [{"hash": s["scene"]}]} for s in study["shots"]]
         with open(os.path.join(out, "manifest.json"), "w", encoding="utf-8") as stream:
-            json.dump({"variants": points, "shots": shots}, stream)
+            is_beside_program = any("external" in entry for entry in study["variants"])  # whose settings are not a technique's parameters
+            own = [p | {"parameters": {"of_its_own": 1}} if is_beside_program and p["variant"] == "sssr" else p for p in points]
+            json.dump({"variants": own, "shots": shots}, stream)
         for name, rows in (("results", results), ("costs", costs), ("estimates", estimates), ("effects", effects), ("summary", []), ("time_summary", times), ("time_effects", time_effects)):
             with open(os.path.join(out, name + ".csv"), "w", newline="", encoding="utf-8") as stream:
                 writer = csv.DictWriter(stream, rows[0].keys() if rows else ["shot", "frame", "represents_shot", "standing", "dominated", "fits_from_ms"])
@@ -145,7 +147,8 @@ class FakeProgram:
             self.rendered.append((os.path.basename(out), json.load(stream)["scene"]))
         os.makedirs(out, exist_ok=True)
         with open(os.path.join(out, "external.json"), "w", encoding="utf-8") as stream:
-            json.dump({"name": "engine", "point": dict(pairs).get("--point", "default"), "settings": stated}, stream)
+            as_javascript = {k: int(v) if isinstance(v, float) and v.is_integer() else v for k, v in stated.items()}
+            json.dump({"name": "engine", "point": dict(pairs).get("--point", "default"), "settings": as_javascript}, stream)
         return types.SimpleNamespace(returncode=0)
 
 
