@@ -78,6 +78,16 @@ bool ExternalImages::has_view(const Shot& shot) const {
     return fs::is_directory(path_inside(folder, view_name(shot)), error);
 }
 
+fs::path ExternalImages::half(const Shot& shot, unsigned frame, char which) const {
+    return path_inside(folder, frame_name(shot, frame, std::string("half_") + which));
+}
+
+bool ExternalImages::has_halves(const Shot& shot, unsigned frame) const {
+    std::error_code error;
+    return has_given_light && fs::is_regular_file(half(shot, frame, 'a'), error) &&
+           fs::is_regular_file(half(shot, frame, 'b'), error);
+}
+
 std::string ExternalImages::content_hash(const Shot& shot) const {
     ContentHash hash;
     hash.add(read_text(path_inside(folder, description)));
@@ -85,6 +95,8 @@ std::string ExternalImages::content_hash(const Shot& shot) const {
         if (!step.is_measured) continue;
         hash.add(read_text(proof(shot, step.frame)));
         for (unsigned seed = 0; seed < seeds; ++seed) hash.add(read_text(image(shot, step.frame, seed)));
+        if (has_halves(shot, step.frame))
+            for (const char which : {'a', 'b'}) hash.add(read_text(half(shot, step.frame, which)));
     }
     return hash.hex();
 }

@@ -26,6 +26,10 @@ struct ExternalImages {
     /// The folder of a view's images, within `folder`: `<scene>.<camera>.<width>x<height>`.
     static std::string view_name(const Shot& shot);
     bool has_view(const Shot& shot) const;
+    /// The frame as rendered in the light of one half of its samples, 'a' or 'b'.
+    std::filesystem::path half(const Shot& shot, unsigned frame, char which) const;
+    /// Whether there is both: of a given light, where what rendered the images has seen its noise.
+    bool has_halves(const Shot& shot, unsigned frame) const;
 
     /// Of external.json and of the images of the frames that a shot measures. Fails where one is missing.
     std::string content_hash(const Shot& shot) const;

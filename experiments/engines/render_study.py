@@ -49,7 +49,8 @@ def external_folders(study, file, engines):
 def has_images(folder, view, seeds):
     """Whether all frames of a view of scene.json are there; a render that was killed may have left some."""
     kinds = ["off", *(f"s{seed}" for seed in range(seeds))]
-    names = [f"{view['view']}/f{frame['frame']}.{kind}.exr" for frame in view["frames"] for kind in kinds]
+    halves = ["half_a", "half_b"] if all("light_halves" in frame for frame in view["frames"]) else []
+    names = [f"{view['view']}/f{frame['frame']}.{kind}.exr" for frame in view["frames"] for kind in kinds + halves]
     return all(os.path.exists(path_inside(folder, name)) for name in names)
 
 

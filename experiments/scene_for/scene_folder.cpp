@@ -127,25 +127,44 @@ private:
         return view;
     }
 
-    /// Light is what external images are compared with where nothing reflects, PoseTruth::direct. Depth shows an
-    /// adapter whether its camera and geometry are the scene's.
+    /// Light is what external images are compared with where nothing reflects, PoseTruth::direct; by each half of its
+    /// samples alone, what its noise does to reflections can be seen. Depth shows an adapter whether its camera and
+    /// geometry are the scene's.
     json frame_of(const std::string& view, const Shot& shot, const ShotFrame& now) {
         const std::string stem = view + "/f" + std::to_string(now.frame);
         const Reference reference = reference_of(shot, now);
-        const HostImage light = sum(reference.diffuse.mean, reference.highlights);
-        write_exr(path_inside(settings_.out, stem + ".light.exr"), light);
         write_exr(
             path_inside(settings_.out, stem + ".depth.exr"),
             LayeredImage{.layers = {{.name = "", .channel_names = "Y", .image = reference.depth}}, .attributes = {}});
         json entry = {{"frame", now.frame},
                       {"world_from_camera", matrix_numbers(now.camera.world_from_view)},
-                      {"light", stem + ".light.exr"},
                       {"depth", stem + ".depth.exr"}};
-        if (!is_raw()) return entry;
-        write_raw_floats(path_inside(settings_.out, stem + ".light.f32"), light);
-        write_raw_floats(path_inside(settings_.out, stem + ".depth.f32"), reference.depth);
-        entry["light_raw"] = stem + ".light.f32", entry["depth_raw"] = stem + ".depth.f32";
+        if (is_raw()) {
+            write_raw_floats(path_inside(settings_.out, stem + ".depth.f32"), reference.depth);
+            entry["depth_raw"] = stem + ".depth.f32";
+        }
+        const LightFiles whole = write_light(stem + ".light", sum(reference.diffuse.mean, reference.highlights));
+        entry["light"] = whole.exr;
+        if (is_raw()) entry["light_raw"] = whole.raw;
+        if (reference.diffuse.half_a.values == reference.diffuse.half_b.values) return entry;  // it has no noise
+        for (const auto& [name, half] :
+             {std::pair(".half_a", &reference.diffuse.half_a), {".half_b", &reference.diffuse.half_b}}) {
+            const LightFiles files = write_light(stem + name, sum(*half, reference.highlights));
+            entry["light_halves"].push_back(files.exr);
+            if (is_raw()) entry["light_halves_raw"].push_back(files.raw);
+        }
         return entry;
+    }
+
+    struct LightFiles {
+        std::string exr, raw;  ///< the second is written for some engines alone
+    };
+
+    LightFiles write_light(const std::string& stem, const HostImage& light) {
+        const LightFiles files{.exr = stem + ".exr", .raw = stem + ".f32"};
+        write_exr(path_inside(settings_.out, files.exr), light);
+        if (is_raw()) write_raw_floats(path_inside(settings_.out, files.raw), light);
+        return files;
     }
 
     Reference reference_of(const Shot& shot, const ShotFrame& now) {

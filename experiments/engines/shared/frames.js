@@ -60,10 +60,12 @@ export class FrameWriter {
         const broken = channels.reduce((sum, channel) => sum + channel.filter((v) => !Number.isFinite(v)).length, 0);
         if (broken) throw new Mistake(`${view}, frame ${frame}, ${kind}: ${broken} values are NaN or infinite`);
         const said = kind === "off" ? this.compareLight(view, frame, channels) : "", [R, G, B] = channels;
-        const file = pathInside(this.out, `${view}/f${this.frame(view, frame).frame}.${kind}.exr`);
+        const { half, half_of } = this.view(view);
+        if (half && kind !== "s0") return said;  // of a view in half of the light that is all that is kept
+        const file = pathInside(this.out, `${half_of ?? view}/f${this.frame(view, frame).frame}.${half ?? kind}.exr`);
         this.written.push(file);
         writeExr(file, width, height, { R, G, B });
-        if (milliseconds !== undefined) this.milliseconds.push(milliseconds);
+        if (milliseconds !== undefined && !half) this.milliseconds.push(milliseconds);
         return said;
     }
 

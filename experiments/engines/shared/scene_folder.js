@@ -28,7 +28,19 @@ export function pathInside(folder, name) {
 
 const FILES_OF_BACKGROUND = ["image", "hdr", "raw"], FILES_OF_FRAMES = ["light", "depth", "light_raw", "depth_raw"];
 
-/** The folder's scene.json, of which programs, too, may take names of files and views as they are. */
+/** Two views more, of one in whose frames each half of the light's samples is known: as it is, but in the light of one half. */
+function viewsOfHalves(view) {
+    if (!view.frames.every((frame) => frame.light_halves)) return [];
+    return ["half_a", "half_b"].map((half, h) => ({
+        ...view,
+        view: `${view.view}.${half}`,
+        half,
+        half_of: view.view,
+        frames: view.frames.map((frame) => ({ ...frame, light: frame.light_halves[h], light_raw: frame.light_halves_raw?.[h] })),
+    }));
+}
+
+/** The folder's scene.json, of which programs, too, may take names of files and views as they are; views of halves of the light come with it. */
 export function readScene(folder) {
     const scene = jsonOf(join(folder, "scene.json"));
     const check = (owner, keys) => keys.forEach((key) => owner[key] === undefined || pathInside(folder, owner[key]));
@@ -40,7 +52,9 @@ export function readScene(folder) {
         for (const frame of view.frames) {
             if (!Number.isInteger(frame.frame)) throw new Mistake(`${folder}/scene.json: 'frame' = ${JSON.stringify(frame.frame)} is no whole number`);
             check(frame, FILES_OF_FRAMES);
+            for (const halves of [frame.light_halves, frame.light_halves_raw]) halves?.forEach((file) => pathInside(folder, file));
         }
     }
+    scene.views = scene.views.flatMap((view) => [view, ...viewsOfHalves(view)]);
     return scene;
 }

@@ -159,18 +159,22 @@ private:
         });
     }
 
-    /// What the noise of the truth's light without reflections adds, which is taken from the image.
+    /// What the noise of the truth's light without reflections adds, which is taken from the image: all of it, or of a
+    /// given light what is reflected of it, where the image was rendered in each half of that light, too.
     LitNoises lit_noise() const {
         LitNoises noise;
         for (const FrameStep& step : point_.shot.steps) {
             if (!step.is_measured) continue;
             const PoseTruth& pose = *truth(step).pose;
             if (!pose.lit_halves) return {};
-            const HostImage image = read(images_.image(point_.shot, step.frame, 0));
             const HostImage highlights = difference(pose.direct, pose.diffuse);
-            const CompositedImages a{.specular = difference(image, sum(pose.lit_halves->a, highlights)),
-                                     .image = image},
-                b{.specular = difference(image, sum(pose.lit_halves->b, highlights)), .image = image};
+            const bool has_halves = images_.has_halves(point_.shot, step.frame);
+            const auto composited = [&](char which, const HostImage& lit) {
+                const HostImage image = read(has_halves ? images_.half(point_.shot, step.frame, which)
+                                                        : images_.image(point_.shot, step.frame, 0));
+                return CompositedImages{.specular = difference(image, sum(lit, highlights)), .image = image};
+            };
+            const CompositedImages a = composited('a', pose.lit_halves->a), b = composited('b', pose.lit_halves->b);
             const std::vector<Mask> masks = masks_of(truth(step), {}, point_.config);
             const std::string name = std::to_string(step.frame);
             if (pose.frame_reference && point_.shot.config.frames.size() > 1) noise.add_frame(pose, a, b, masks, name);

@@ -4,6 +4,7 @@ ssrlab as they were drawn. Downloads nothing: the engine is an echo.
 
 usage: adapters_test.py SSRLAB
 """
+import array
 import importlib.util
 import json
 import os
@@ -123,7 +124,20 @@ def check_echo(ssrlab, folder):
     check(code == 2 and "holds images whose point is another" in said, said)
 
 
-def check_program(folder):
+def write_halves(folder, view):
+    """Halves of the light, of which A is all of it and B, what the echo of the whole light shows, brighter by 0.25."""
+    shutil.copytree(folder / "scene", folder / "halves")
+    scene = json.loads((folder / "scene/scene.json").read_text())
+    stem = folder / "halves" / view
+    shutil.copy(folder / f"out/{view}/f0.s0.exr", stem / "f0.half_b.exr")
+    brighter = array.array("f", [value + 0.25 for value in array.array("f", (stem / "f0.light.f32").read_bytes())])
+    (stem / "f0.half_b.f32").write_bytes(brighter.tobytes())
+    halves = {f"light_halves{raw}": [f"{view}/f0.light.{end}", f"{view}/f0.half_b.{end}"] for raw, end in (("", "exr"), ("_raw", "f32"))}
+    scene["views"][0]["frames"][0].update(halves)
+    (folder / "halves/scene.json").write_text(json.dumps(scene))
+
+
+def check_program(ssrlab, folder):
     """After check_echo, whose scene it uses: an engine that is a program, not a page."""
     def render(out, *options):
         return run("node", ENGINES / "shared/render.js", ECHO_PROGRAM, "scene", out, *options, folder=folder)
@@ -136,6 +150,16 @@ def check_program(folder):
     for seed, bias in ((0, 0.25), (1, 0.5)):
         from_page, from_program = folder / f"out/{view}/f0.s{seed}.exr", folder / f"of_program/{view}/f0.s{seed}.exr"
         check(from_page.read_bytes() == from_program.read_bytes(), f"page and program say the same of seed {seed}, {bias} too bright")
+    write_halves(folder, view)
+    for adapter, out in ((ECHO, "out_of_halves"), (ECHO_PROGRAM, "program_of_halves")):
+        code, said = run("node", ENGINES / "shared/render.js", adapter, "halves", out, "--set", "reflection=0.25", "--seeds", 2, folder=folder)
+        check(code == 0, said)
+        images = folder / out / view
+        kinds = ("half_a", "half_b", "off", "s0", "s1")
+        check(sorted(file.name for file in images.iterdir()) == [f"f0.{kind}.exr" for kind in kinds], sorted(images.iterdir()))
+        check((images / "f0.half_a.exr").read_bytes() == (images / "f0.s0.exr").read_bytes(), "half A is all of the light")
+        code, said = run(ssrlab, "compare", images / "f0.half_b.exr", images / "f0.s1.exr", "--metric", "mse", folder=folder)
+        check(re.search(r"^mse +([0-9.]+e-1[3-9]|0)$", said, re.M), f"half B and its reflection are each 0.25 brighter, but for rounding: {said}")
     for wrong, code_of, words in (("scene", 2, "error: this scene has too many echoes"), ("crash", 3, "the last words"),
                                   ("version", 2, "python3 is version 2; the adapter is for 1")):
         code, said = render("wrong_program", "--set", f"wrong={wrong}")
@@ -190,6 +214,8 @@ def check_study_script(ssrlab, folder):
     view, out = json.loads((folder / "scene/scene.json").read_text())["views"][0], str(folder / "out")
     check(render_study.has_images(out, view, 2), "all images are there")
     check(not render_study.has_images(out, view, 3), "a third seed is not")
+    view = json.loads((folder / "halves/scene.json").read_text())["views"][0]
+    check(render_study.has_images(str(folder / "out_of_halves"), view, 2) and not render_study.has_images(out, view, 2), "halves are images, too")
 
 
 def check_strangers(folder):
@@ -197,7 +223,8 @@ def check_strangers(folder):
     own = (folder / "scene/scene.json").read_text()
     (folder / "strange").mkdir()
     for change in (lambda s: s["views"][0].update(view="../../elsewhere"), lambda s: s.update(meshes="/etc/passwd"),
-                   lambda s: s["background"].update(image="../secret.exr"), lambda s: s["views"][0]["frames"][0].update(light="../../secret.exr")):
+                   lambda s: s["background"].update(image="../secret.exr"), lambda s: s["views"][0]["frames"][0].update(light="../../secret.exr"),
+                   lambda s: s["views"][0]["frames"][0].update(light_halves=["../../secret.exr"])):
         scene = json.loads(own)
         change(scene)
         (folder / "strange/scene.json").write_text(json.dumps(scene))
@@ -218,7 +245,7 @@ def main():
         sys.exit(SKIPPED)
     with tempfile.TemporaryDirectory(prefix="ssrlab_engines_") as folder:
         check_echo(Path(sys.argv[1]).resolve(), Path(folder))
-        check_program(Path(folder))
+        check_program(Path(sys.argv[1]).resolve(), Path(folder))
         check_study_script(Path(sys.argv[1]).resolve(), Path(folder))
         check_strangers(Path(folder))
         check_signals(Path(folder))

@@ -121,6 +121,7 @@ TEST_F(SceneForTest, LightIsThatOfAStudyAndItsProof) {
     ASSERT_EQ(scene["views"].size(), 1u);
     const std::string view = scene["views"][0]["view"];
     EXPECT_EQ(view, "mirror_pillars.main.96x54");
+    EXPECT_FALSE(scene["views"][0]["frames"][0].contains("light_halves")) << "it shines by itself, without noise";
     const HostImage light = read_exr_rgb(folder / "scene" / scene["views"][0]["frames"][0]["light"].get<std::string>());
     write_exr(folder / "frames" / view / "f0.off.exr", light);
     write_exr(folder / "frames" / view / "f0.s0.exr", light);
@@ -133,6 +134,42 @@ TEST_F(SceneForTest, LightIsThatOfAStudyAndItsProof) {
     EXPECT_NE(manifest.dump().find(" pixels of background and emission 0 differ from the truth\""), std::string::npos);
     EXPECT_EQ(write_scene_folder(settings("mirror_pillars")).cached, 1u);
     for (const auto& row : read_rows<ResultRow>(out / "results.csv")) EXPECT_GT(row.value.value(), 0.0);
+}
+
+/// A program that adds the same everywhere reflects no noise; one that reflects half of it has a quarter of the squared
+/// error that all of it would make, which is what an image without halves is held to have.
+TEST_F(SceneForTest, HalvesOfTheLightShowWhatItsNoiseDoesToReflections) {
+    write_scene_folder(settings("normal_mapped"));
+    const nlohmann::json view = read_json(folder / "scene/scene.json")["views"][0], &frame = view["frames"][0];
+    ASSERT_TRUE(frame.contains("light_halves"));
+    const auto of_scene = [&](const nlohmann::json& file) {
+        return read_exr_rgb(folder / "scene" / file.get<std::string>());
+    };
+    const HostImage light = of_scene(frame["light"]), a = of_scene(frame["light_halves"][0]),
+                    b = of_scene(frame["light_halves"][1]);
+    for (size_t i = 0; i < light.values.size(); ++i)
+        ASSERT_NEAR(0.5f * (a.values[i] + b.values[i]), light.values[i], 1e-5f * light.values[i]);
+    const auto write = [&](const std::string& kind, const HostImage& lit, float added, float of_noise) {
+        HostImage image = lit;
+        for (size_t i = 0; i < image.values.size(); ++i)
+            image.values[i] += added + of_noise * (lit.values[i] - light.values[i]);
+        write_exr(folder / "frames" / view["view"].get<std::string>() / ("f0." + kind + ".exr"), image);
+    };
+    describe_frames(folder / "frames", R"(, "given_light": true)");
+    write_text(folder / "study.json",
+               R"({"shots": [{"scene": "normal_mapped", "resolution": [96, 54]}], "reference": {"samples": 64},
+            "variants": [{"external": "frames"}], "metrics": ["mse"], "targets": ["specular"], "masks": ["all"], "timing": {"frames": 0}})");
+    const auto lit_noise = [&](const std::string& out) {
+        const auto rows = read_rows<ResultRow>(run(read_config(folder / "study.json"), out) / "results.csv");
+        return rows.at(0).lit_noise.value();
+    };
+    write("off", light, 0, 0), write("s0", light, 0.1f, 0);
+    const double all = lit_noise("without_halves");
+    EXPECT_GT(all, 0);
+    write("half_a", a, 0.1f, 0), write("half_b", b, 0.1f, 0);
+    EXPECT_NEAR(lit_noise("none_reflected"), 0, 1e-6 * all);  // float32
+    write("half_a", a, 0.1f, 0.5f), write("half_b", b, 0.1f, 0.5f);
+    EXPECT_NEAR(lit_noise("half_reflected"), 0.25 * all, 1e-4 * all);
 }
 
 /// What ssrlab's own scenes lack: transforms of textures, their samplers, masks, strengths, lights, orthographic
