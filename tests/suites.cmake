@@ -3,8 +3,9 @@
 # for the driver, the validation layer, the compiling of shaders and tables: 0.2 s and more, most of what a small test
 # costs. One test alone: PROGRAM --gtest_filter=SUITE.TEST, with SSRLAB_VALIDATE=1.
 function(add_suites program folder)
-  set(slow_suites StudyTest TracersTest StabilityTest ExactTracers SeedDependence AmdDenoiserCorrections FrostbiteTruth
-    FrostbiteResolve FrostbiteEstimators amd_denoiser/AmdDenoiserForms FourModeTest DiligentVariant Needs)
+  set(slow_suites StudyTest CommandLine NoiseCoverage TracersTest StabilityTest ExactTracers SeedDependence CompiledShaders
+    estimator EstimatesOfSamples FrostbiteEstimators FourModeTest FrostbiteTruth ShaderWorkTest Faults ExternalImagesTest
+    GpuEstimates Registry DiligentVariant Needs)
   get_filename_component(name ${program} NAME)
   if(NOT EXISTS ${program})
     add_test(${name}_NOT_BUILT ${name}_NOT_BUILT)
