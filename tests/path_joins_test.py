@@ -18,7 +18,6 @@ CHECKED = "of a scene.json that experiments/engines/shared/scene_folder.js has l
 SCENE = "scenes have a rule of their own: file_below() (core/reading_limits.h)"
 
 ALLOWED = {
-    ("core/gpu/pipelines/shader.cpp", "root / name"): PROGRAM,
     ("core/path_inside.cpp", "path /= part"): "the one way",
     ("core/reading_limits.cpp", "folder / name"): SCENE,
     ("core/scene/load_scene.cpp", "folder / name"): SCENE,

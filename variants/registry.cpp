@@ -1,6 +1,7 @@
 #include "variants/registry.h"
 
 #include "core/error.h"
+#include "core/gpu/pipelines/shader_files.h"
 #include "core/json.h"
 #include "core/near_miss.h"
 #include "variants/resolves/resolves.h"
@@ -16,12 +17,15 @@ VariantEntry simple_ssr_entry();
 VariantEntry four_mode_ssr_entry();
 VariantEntry composed_ssr_entry();
 
+/// Of variants/declared.
+VariantEntry declared_entry(const std::filesystem::path& folder);
+
 namespace {
 
-std::vector<VariantEntry> entries_with_tuned_presets() {
-    std::vector<VariantEntry> entries = {none_entry(),          mcguire_dda_entry(),    amd_sssr_entry(),
-                                         diligent_ssr_entry(),  frostbite_sssr_entry(), simple_ssr_entry(),
-                                         four_mode_ssr_entry(), composed_ssr_entry()};
+std::deque<VariantEntry> entries_with_tuned_presets() {
+    std::deque<VariantEntry> entries = {none_entry(),          mcguire_dda_entry(),    amd_sssr_entry(),
+                                        diligent_ssr_entry(),  frostbite_sssr_entry(), simple_ssr_entry(),
+                                        four_mode_ssr_entry(), composed_ssr_entry()};
     for (VariantEntry& entry : entries) {
         const auto file = std::filesystem::path(SSRLAB_SOURCE_DIR) / "variants" / entry.name / "tuned_presets.json";
         if (std::filesystem::exists(file)) add_tuned_presets(entry, file);
@@ -29,11 +33,37 @@ std::vector<VariantEntry> entries_with_tuned_presets() {
     return entries;
 }
 
+std::deque<VariantEntry>& growing_table() {
+    static std::deque<VariantEntry> table = entries_with_tuned_presets();
+    return table;
+}
+
 }  // namespace
 
-std::span<const VariantEntry> variant_table() {
-    static const std::vector<VariantEntry> table = entries_with_tuned_presets();
-    return table;
+const std::deque<VariantEntry>& variant_table() { return growing_table(); }
+
+const VariantEntry& add_technique_folder(const std::filesystem::path& folder) {
+    VariantEntry entry = declared_entry(folder);
+    const auto known = std::ranges::find(growing_table(), entry.name, &VariantEntry::name);
+    const bool is_new = known == growing_table().end();
+    if (!is_new && !known->folder)
+        fail(folder.string(), ": '", entry.name, "' is one of ssrlab's own techniques; give the folder another name");
+    if (!is_new && known->folder->path != entry.folder->path)
+        fail(folder.string(), ": ", known->folder->path.string(), " is called '", entry.name,
+             "', too; give one of them another name");
+    set_shader_folder(entry.name, entry.folder->files);
+    return is_new ? growing_table().emplace_back(std::move(entry)) : *known = std::move(entry);
+}
+
+std::string technique_name(const std::string& text, const std::filesystem::path& base) {
+    if (text.find('/') == std::string::npos) return text;
+    return add_technique_folder(base / text).name;
+}
+
+std::string technique_point_name(const std::string& text) {
+    const size_t slash = text.rfind('/'), colon = slash == std::string::npos ? slash : text.find(':', slash);
+    if (colon == std::string::npos) return technique_name(text);
+    return technique_name(text.substr(0, colon)) + text.substr(colon);
 }
 
 void add_tuned_presets(VariantEntry& entry, const std::filesystem::path& file) {
@@ -53,10 +83,10 @@ void add_tuned_presets(VariantEntry& entry, const std::filesystem::path& file) {
 
 namespace {
 
-template <class T>
-const T& find_named(std::span<const T> entries, const std::string& name, const std::string& what) {
+template <class Entries>
+const auto& find_named(const Entries& entries, const std::string& name, const std::string& what) {
     std::vector<std::string> names;
-    for (const T& entry : entries) {
+    for (const auto& entry : entries) {
         if (entry.name == name) return entry;
         names.push_back(entry.name);
     }
@@ -72,9 +102,7 @@ bool are_lifted(const VariantLimits& limits, const nlohmann::json& parameters) {
 
 }  // namespace
 
-const VariantEntry& find_variant(const std::string& name) {
-    return find_named<VariantEntry>(variant_table(), name, "variant");
-}
+const VariantEntry& find_variant(const std::string& name) { return find_named(variant_table(), name, "variant"); }
 
 bool is_read(const ParameterSet& params, const std::string& name) {
     return is_of_chosen_tracer(params, name) && is_of_chosen_resolve(params, name);
@@ -93,8 +121,7 @@ std::unique_ptr<Variant> make_variant(const std::string& name, const nlohmann::j
     const VariantEntry& entry = find_variant(name);
     std::unique_ptr<Variant> variant = entry.create();
     if (!preset.empty())
-        variant->params.assign(
-            find_named<Preset>(entry.presets, preset, "preset of variant '" + name + "':").parameters);
+        variant->params.assign(find_named(entry.presets, preset, "preset of variant '" + name + "':").parameters);
     try {
         if (!parameters.is_null()) variant->params.assign(parameters);
     } catch (const Error& error) {

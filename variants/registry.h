@@ -1,12 +1,25 @@
 #pragma once
 #include "variants/common/variant_entry.h"
 
+#include <deque>
 #include <filesystem>
-#include <span>
 
-/// All techniques, the baseline first, with the presets of their entries and those that `ssrlab tune` found. Adding one
-/// takes a declaration and a line in registry.cpp, and an entry in its own folder.
-std::span<const VariantEntry> variant_table();
+/// All techniques, the baseline first, with the presets of their entries and those that `ssrlab tune` found; after them
+/// those of add_technique_folder(). Adding one to ssrlab takes a declaration and a line in registry.cpp, and an entry
+/// in its own folder.
+const std::deque<VariantEntry>& variant_table();
+
+/// Adds the technique that `folder`/technique.json declares (variants/declared), under the folder's name; of a folder
+/// that is there already it reads the files again and replaces the entry, to which references stay valid. Not to be
+/// called while another thread uses the table. Fails with Error, which names file and place, on what is wrong in it,
+/// and if another technique has the name.
+const VariantEntry& add_technique_folder(const std::filesystem::path& folder);
+
+/// The name of the technique that a config or a command line calls `text`: what has a '/' is a folder, from `base`, and
+/// is added.
+std::string technique_name(const std::string& text, const std::filesystem::path& base = {});
+/// The same of NAME:REST, as command lines choose points.
+std::string technique_point_name(const std::string& text);
 
 /// Adds presets that `ssrlab tune` found, from the presets.json that it wrote; the table has those of
 /// variants/<name>/tuned_presets.json. An Error names the place of what is wrong in the file: presets of another

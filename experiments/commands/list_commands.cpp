@@ -143,7 +143,9 @@ void list_presets() {
 
 }  // namespace
 
-void describe_command(const DescribeOptions& options) {
+void describe_command(const DescribeOptions& asked) {
+    DescribeOptions options = asked;
+    options.variant = technique_name(asked.variant);
     if (options.as_schema) {
         std::cout << config_schema(options.variant).dump(2) << '\n';
         return;

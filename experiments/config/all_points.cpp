@@ -6,7 +6,7 @@
 #include "variants/tracers/tracers.h"
 
 VariantConfig single_point(const std::string& variant, const std::string& preset, const nlohmann::json& parameters) {
-    return {.variant = variant,
+    return {.variant = technique_name(variant),
             .preset = preset,
             .parameters = parameters,
             .point = point_name(preset, parameters),
@@ -20,9 +20,11 @@ std::vector<std::string> names_of_point(const VariantConfig& point) {
 }
 
 std::vector<VariantConfig> all_points(const std::vector<std::string>& names) {
+    std::vector<std::string> wanted;
+    for (const std::string& name : names) wanted.push_back(technique_point_name(name));
     std::vector<VariantConfig> points;
     for (const VariantEntry& entry : variant_table()) {
-        if (entry.presets.empty() || entry.name == "mcguire_dda" || entry.name == "composed_ssr")
+        if (entry.presets.empty() || entry.folder || entry.name == "mcguire_dda" || entry.name == "composed_ssr")
             points.push_back(single_point(entry.name));
         for (const Preset& preset : entry.presets) points.push_back(single_point(entry.name, preset.name));
         if (entry.name != "mcguire_dda") continue;
@@ -30,5 +32,5 @@ std::vector<VariantConfig> all_points(const std::vector<std::string>& names) {
             if (tracer.name != "exact_scene" && tracer.name != "dda")
                 points.push_back(single_point(entry.name, "", {{"tracer", tracer.name}}));
     }
-    return chosen(points, names, "technique", names_of_point);
+    return chosen(points, wanted, "technique", names_of_point);
 }

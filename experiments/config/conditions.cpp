@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/near_miss.h"
+#include "core/value_condition.h"
 #include "experiments/config/external_images.h"
 #include "experiments/config/read_shots.h"
 
@@ -39,53 +40,6 @@ json values_of(const Shot& shot) {
     return values;
 }
 
-/// Numbers are compared as float32 holds them: 0.1 of a config is the 0.1 of a parameter.
-bool is_equal(const json& a, const json& b) {
-    if (a.is_number() && b.is_number()) return a.get<float>() == b.get<float>();
-    return a == b;
-}
-
-bool holds(const json& test, const json& value) {
-    if (test.is_array()) return std::ranges::any_of(test, [&](const json& one) { return is_equal(one, value); });
-    if (!test.is_object()) return is_equal(test, value);
-    return std::ranges::all_of(test.items(), [&](const auto& part) {
-        const std::string& how = part.key();
-        if (how == "not") return !holds(part.value(), value);
-        const float number = value.get<float>(), limit = part.value().template get<float>();
-        return how == "at_least"  ? number >= limit
-               : how == "at_most" ? number <= limit
-               : how == "above"   ? number > limit
-                                  : number < limit;
-    });
-}
-
-/// Whether `test` can be put to values like `sample`.
-void check_test(const json& test, const json& sample, const std::string& where) {
-    const auto check_value = [&](const json& value) {
-        if (value.type() != sample.type() && !(value.is_number() && sample.is_number()))
-            fail(where, " is compared with ", shown(value), ", but its values are like ", shown(sample));
-    };
-    if (test.is_array()) {
-        if (test.empty()) fail(where, " is compared with no value");
-        for (const json& value : test) check_value(value);
-    } else if (test.is_object()) {
-        const std::vector<std::string> known = {"at_least", "at_most", "above", "below", "not"};
-        if (test.empty()) fail(where, " has no condition", suggestion("", known));
-        for (const auto& [how, limit] : test.items()) {
-            if (std::ranges::find(known, how) == known.end())
-                fail(where, ": unknown key '", shortened(how), "'", suggestion(how, known));
-            if (how == "not" && !limit.is_object()) {
-                check_test(limit, sample, where);
-            } else {
-                if (how == "not" || !limit.is_number() || !sample.is_number())
-                    fail(where, ": '", how, "' = ", shown(limit), " does not fit; its values are like ", shown(sample));
-            }
-        }
-    } else {
-        check_value(test);
-    }
-}
-
 std::string text_of(const PointCondition& condition) {
     return (condition.skips ? "skip_if " : "only_if ") + condition.tests.dump();
 }
@@ -112,7 +66,7 @@ std::vector<PointCondition> read_conditions(ConfigObject& entry, const Parameter
             if (!samples.contains(name))
                 fail(tests.at(name), ": '", shortened(name), "' is no parameter and nothing of a shot",
                      suggestion(name, known));
-            check_test(test, samples[name], tests.at(name) + ": '" + name + "'");
+            check_condition(test, samples[name], tests.at(name) + ": '" + name + "'");
         }
         conditions.push_back({.skips = key == std::string("skip_if"), .tests = entry[key]});
     }

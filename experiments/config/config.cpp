@@ -331,6 +331,9 @@ json config_schema(const std::string& variant) {
         json variants = json::array();
         for (const VariantEntry& entry : variant_table()) variants.push_back(variant_schema(entry));
         variants.push_back(schema_of(external_keys()));
+        variants.push_back({{"type", "object"},  // a technique's own folder, whose parameters are not known here
+                            {"required", {"variant"}},
+                            {"properties", {{"variant", {{"type", "string"}, {"pattern", "/"}}}}}});
         schema = schema_of(study_keys({{"anyOf", variants}}));
         schema["anyOf"] = {{{"required", {"shots", "variants"}}}, {{"required", {"extends"}}}};
     } else {

@@ -50,10 +50,23 @@ JsonDocument merged(JsonDocument base, JsonDocument patch) {
     return base;
 }
 
+/// Whether an entry's `variant` is a technique's folder, not the name of one of ssrlab's own.
+bool names_folder(const json& variant) {
+    return variant.is_string() && variant.get_ref<const std::string&>().find('/') != std::string::npos;
+}
+
 std::string place_of(const JsonDocument& document, const fs::path& file) {
     const auto found = document.places.find("");
     if (found == document.places.end()) return file.string();
     return found->second.file + ":" + std::to_string(found->second.line) + ":" + std::to_string(found->second.column);
+}
+
+/// A technique's name, or its folder however it is written.
+bool is_same_variant(const json& a, const json& b) {
+    const json of_a = a.value("variant", json("")), of_b = b.value("variant", json(""));
+    if (!of_a.is_string() || !of_b.is_string()) return of_a == of_b;
+    const auto plain = [](const json& name) { return fs::path(name.get<std::string>()).lexically_normal(); };
+    return plain(of_a) == plain(of_b) && names_folder(of_a) == names_folder(of_b);
 }
 
 /// The entries that a patch of this variant, preset and label means: without a label any, with one those that have it,
@@ -63,7 +76,7 @@ std::vector<size_t> entries_for(const json& patch, const std::vector<JsonDocumen
     for (size_t i = 0; i < entries.size(); ++i) {
         const json& entry = entries[i].value;
         const auto same = [&](const char* key) { return entry.value(key, json("")) == patch.value(key, json("")); };
-        if (!entry.is_object() || !same("variant") || !same("external") || !same("preset")) continue;
+        if (!entry.is_object() || !is_same_variant(entry, patch) || !same("external") || !same("preset")) continue;
         all.push_back(i);
         if (same("label")) same_label.push_back(i);
         if (!entry.contains("label")) unlabelled.push_back(i);
@@ -107,7 +120,8 @@ JsonDocument merged_variants(const JsonDocument& base, const JsonDocument& patch
     return all;
 }
 
-/// Paths of captures and of external images are relative to the folder of the file that names them.
+/// Paths of captures, of external images and of techniques' folders are relative to the folder of the file that names
+/// them.
 void move_paths(json& config, const fs::path& from, const fs::path& to) {
     const auto move_in = [&](const char* list, const char* needed, const char* key) {
         if (!config.is_object() || !config.value(list, json()).is_array()) return;
@@ -120,6 +134,13 @@ void move_paths(json& config, const fs::path& from, const fs::path& to) {
     move_in("shots", "gbuffer", "gbuffer");
     move_in("shots", "gbuffer", "reference");
     move_in("variants", "external", "external");
+    if (!config.is_object() || !config.value("variants", json()).is_array()) return;
+    for (json& entry : config["variants"])
+        if (entry.is_object() && names_folder(entry.value("variant", json()))) {
+            const fs::path folder = entry["variant"].get<std::string>();
+            if (folder.is_relative())
+                entry["variant"] = "./" + fs::proximate(from / folder, to.empty() ? "." : to).string();
+        }
 }
 
 /// `chain`: the files that lead here.

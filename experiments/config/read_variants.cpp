@@ -119,15 +119,27 @@ void refuse_unread(std::span<const VariantConfig> points, const std::string& whe
 std::shared_ptr<const Keys> kept_keys(const std::string& name, const Variant& plain) {
     static std::mutex mutex;
     static std::map<std::string, std::shared_ptr<const Keys>> kept;
+    const VariantEntry& entry = find_variant(name);
     const std::lock_guard lock(mutex);
-    std::shared_ptr<const Keys>& keys = kept[name];
+    std::shared_ptr<const Keys>& keys = kept[name + (entry.folder ? entry.folder->content_hash : "")];
     if (!keys) keys = std::make_shared<const Keys>(variant_keys(plain));
     return keys;
 }
 
+/// The name of the technique that an entry names; where that is a folder, from the config's, it is added to the table.
+std::string read_technique_name(JsonObject& entry, const std::filesystem::path& folder) {
+    const std::string named = entry.text("variant");
+    try {
+        return technique_name(named, folder);
+    } catch (const Error& error) {
+        fail(entry.at("variant"), ": ", error.what());
+    }
+}
+
+/// `folder`: of the config.
 void read_entry(JsonObject entry, const std::optional<std::vector<unsigned>>& study_seeds,
-                std::vector<VariantConfig>& variants) {
-    const std::string name = entry.text("variant");
+                const std::filesystem::path& folder, std::vector<VariantConfig>& variants) {
+    const std::string name = read_technique_name(entry, folder);
     const auto plain = make_checked(entry.at("variant"), name);
     ConfigObject object(std::move(entry), kept_keys(name, *plain));
     if (object.has("remove")) fail(object.at("remove"), ": 'remove' is for a config that 'extends' another");
@@ -213,7 +225,10 @@ void refuse_repetition(const std::vector<VariantConfig>& variants, const std::st
 Keys variant_keys(const Variant& variant) {
     const Values parameters = {variant.params.schema(), "an object of parameter values", {}, {{"type", "object"}}};
     const Keys keys = {
-        {"variant", any_text(), required, "a name from `ssrlab list variants`"},
+        {"variant", any_text(), required,
+         "a name from `ssrlab list variants`, or with a `/` in it the folder of a technique of your own, from the "
+         "config's: "
+         "`./my_ssr`"},
         {"preset", some_of(any_text()), Default("", "none"),
          "what its points start from: names from `ssrlab list presets`"},
         {"parameters", parameters, none,
@@ -257,7 +272,7 @@ std::vector<VariantConfig> read_variants(ConfigObject& study, const std::filesys
         if (entry.has("external"))
             read_external_entry(std::move(entry), folder, variants);
         else
-            read_entry(std::move(entry), seeds, variants);
+            read_entry(std::move(entry), seeds, folder, variants);
     refuse_repetition(variants, study.where());
     return variants;
 }

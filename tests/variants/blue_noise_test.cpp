@@ -1,7 +1,7 @@
 #include "tests/variants/blue_noise_fixture.h"
 #include "tests/variants/blue_noise_spectrum.h"
 #include "variants/common/blue_noise_generator.h"
-#include "variants/four_mode_ssr/blue_noise_texture.h"
+#include "variants/common/blue_noise_texture.h"
 
 #include <cmath>
 #include <complex>

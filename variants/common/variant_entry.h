@@ -1,7 +1,9 @@
 #pragma once
 #include "core/variant.h"
 
+#include <filesystem>
 #include <functional>
+#include <map>
 
 /// Named values of some parameters of a variant.
 struct Preset {
@@ -16,12 +18,21 @@ struct VariantLimits {
     nlohmann::json lifted_by = nlohmann::json::object();
 };
 
+/// The folder of a technique that its technique.json declares (variants/declared), as it was read.
+struct TechniqueFolder {
+    std::filesystem::path path;
+    std::map<std::string, std::string> files;  ///< content of those that take part, by their paths in the folder
+    std::vector<std::string> sources;  ///< ssrlab's own shaders that it names or includes, by their paths from the root
+    std::string content_hash;          ///< of what can change a pixel: neither of texts for readers nor of presets
+};
+
 /// One row of the table of techniques.
 struct VariantEntry {
     std::string name, title, source, description;
     std::vector<Preset> presets;
     VariantLimits limits{};
     std::function<std::unique_ptr<Variant>()> create;
+    std::shared_ptr<const TechniqueFolder> folder{};  ///< of one that a folder declares; else none
 };
 
 /// Parameter values with others changed or added: for presets that begin with another.

@@ -1,6 +1,6 @@
 #include "variants/common/blue_noise.h"
 #include "variants/common/variant_entry.h"
-#include "variants/four_mode_ssr/blue_noise_texture.h"
+#include "variants/common/blue_noise_texture.h"
 #include "variants/tracers/tracing_variant.h"
 
 /// The four-mode reflection pass of an engine: its documentation of 2026-01-14 is "the document". Parameters have its

@@ -139,6 +139,7 @@ bool is_of_chosen_tracer(const ParameterSet& params, const std::string& name) {
 Tracers::Tracers(ParameterSet& params, std::vector<TracerSlot> slots, const std::string& source,
                  const nlohmann::json& defaults)
     : params_(params), slots_(std::move(slots)) {
+    if (slots_.empty()) return;
     for (const TracerSlot& slot : slots_)
         Choice(params, slot.name, slot.initial, tracer_names(), {"", slot.doc, source});
     for (const TracerEntry& entry : tracer_table()) tracers_.push_back(created(entry, params));
@@ -159,7 +160,7 @@ TracerNeeds Tracers::needs(const std::string& slot) const {
 }
 
 bool Tracers::asks_for_some(const std::vector<std::string>& slots) const {
-    if (!asked_rays_->are_any()) return false;
+    if (!asked_rays_ || !asked_rays_->are_any()) return false;
     for (const std::string& slot : slots) {
         if (tracer_of(slot).needs().exact_hits)
             fail("exact_rays lets the scene answer some rays, ", slot, " = ", chosen(slot).name,

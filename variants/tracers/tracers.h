@@ -34,7 +34,7 @@ struct TracerSlot {
 /// The tracers that a technique can use, their parameters, and the choice among them.
 class Tracers {
 public:
-    /// Declares a choice for each slot, then the parameters of all tracers. `defaults`: where they are the technique's
+    /// Declares a choice for each slot, then the parameters of all tracers; nothing if there is no slot. `defaults`: where they are the technique's
     /// own, as of ParameterSet::change_defaults(). `source`: of the slots' initial tracers.
     Tracers(ParameterSet& params, std::vector<TracerSlot> slots, const std::string& source,
             const nlohmann::json& defaults = nlohmann::json::object());

@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/gpu/pipelines/double_shader.h"
 #include "core/gpu/pipelines/shader_error.h"
+#include "core/gpu/pipelines/shader_files.h"
 #include "core/gpu/pipelines/spirv_module.h"
 #include "core/parameters.h"
 
@@ -10,7 +11,6 @@
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
 #include <algorithm>
-#include <fstream>
 #include <spirv-tools/optimizer.hpp>
 #include <sstream>
 
@@ -33,19 +33,11 @@ const char* const webgl2_preamble =
     "precision highp usampler2D;\n"
     "#define push_constant std140\n";
 
-/// `asked_for_by`: ", which FILE:LINE includes", or nothing; for the message if there is no such file.
-std::string read_shader(const std::string& name, const std::string& asked_for_by = {}) {
-    for (const auto& root : shader_roots())
-        if (std::ifstream in(root / name); std::filesystem::is_regular_file(root / name) && in)
-            return {std::istreambuf_iterator<char>(in), {}};
-    fail("no shader file ", name, asked_for_by,
-         ", under variants/, core/shaders/, tests/shaders/ or the project's root");
-}
-
 struct SourceFile {
     std::string name;
-    size_t includer = 0;  ///< index of the file that includes it
-    int line = 0;         ///< there; 0: none
+    size_t includer = 0;    ///< index of the file that includes it
+    int line = 0;           ///< there; 0: none
+    std::string text = {};  ///< once it was read
 };
 
 /// Whether `files[file]` is that of `name`, or is included by it.
@@ -64,18 +56,19 @@ std::string expand_includes(const std::string& text, size_t file, const ShaderIn
     int number = 0;
     for (std::string line; std::getline(in, line);) {
         ++number;
-        if (!line.starts_with("#include \"")) {
+        const std::string asked = included_by(line);
+        if (asked.empty()) {
             out << line << '\n';
             continue;
         }
-        const std::string name = line.substr(10, line.rfind('"') - 10);
-        if (is_within(name, file, files)) fail(name, " includes itself, at ", files[file].name, ":", number);
-        files.push_back({name, file, number});
-        const size_t included = files.size() - 1;
         const std::string place = files[file].name + ":" + std::to_string(number);
-        const auto decided = includes.find(name);
-        const std::string content =
-            decided != includes.end() ? decided->second : read_shader(name, ", which " + place + " includes");
+        const auto decided = includes.find(asked);
+        const auto [name, content] = decided != includes.end()
+                                         ? ShaderFile{asked, decided->second}
+                                         : read_shader(asked, files[file].name, ", which " + place + " includes");
+        if (is_within(name, file, files)) fail(name, " includes itself, at ", place);
+        files.push_back({name, file, number, content});
+        const size_t included = files.size() - 1;
         out << "#line 1 " << included << '\n'
             << expand_includes(content, included, includes, files) << "#line " << number + 1 << ' ' << file << '\n';
     }
@@ -90,15 +83,17 @@ const char* const main_for_cpu =
 /// The shader `files[index]` behind the prelude, which is file 0, with its includes, which are added to `files`.
 std::string complete_source(const std::string& prelude, size_t index, const ShaderIncludes& includes,
                             std::vector<SourceFile>& files, bool is_for_cpu = false) {
+    files[index].text = read_shader(files[index].name).text;
+    const std::string text = files[index].text;  // files grows
     const std::string begin = files[index].name.ends_with(".comp") ? "#define COMPUTE_SHADER\n#line 1 0\n" : "";
     return begin + expand_includes(prelude, 0, includes, files) + (is_for_cpu ? before_main_for_cpu : "") + "#line 1 " +
-           std::to_string(index) + "\n" + expand_includes(read_shader(files[index].name), index, includes, files) +
+           std::to_string(index) + "\n" + expand_includes(text, index, includes, files) +
            (is_for_cpu ? main_for_cpu : "");
 }
 
 std::string with_changes(std::string source, const ShaderChanges& changes) {
     if (!changes.image_formats.empty()) source = with_image_formats(source, changes.image_formats);
-    if (changes.is_double) source = in_double(source, read_shader("precision/double_functions.glsl"));
+    if (changes.is_double) source = in_double(source, read_shader("precision/double_functions.glsl").text);
     return changes.is_counted ? with_counters(source) : source;
 }
 
@@ -116,7 +111,18 @@ std::string includers(size_t file, const std::vector<SourceFile>& files) {
     return text.empty() ? "" : text + ")";
 }
 
-/// glslang writes "ERROR: 3:17: ..." for line 17 of file 3, and after the first error some about "", which say nothing.
+/// Line `number`, from 1, without the blanks around it; "" if there is none.
+std::string line_of(const std::string& text, int number) {
+    std::istringstream lines(text);
+    std::string line;
+    for (int i = 0; i < number; ++i)
+        if (!std::getline(lines, line)) return {};
+    const size_t first = line.find_first_not_of(" \t\r");
+    return first == std::string::npos ? "" : line.substr(first, line.find_last_not_of(" \t\r") + 1 - first);
+}
+
+/// What glslang says, with names of files, and below each message the line that it is about. glslang writes
+/// "ERROR: 3:17: ..." for line 17 of file 3, and after the first error some about "", which say nothing.
 std::string with_file_names(const std::string& log, const std::vector<SourceFile>& files) {
     std::istringstream in(log);
     std::ostringstream out;
@@ -126,7 +132,10 @@ std::string with_file_names(const std::string& log, const std::vector<SourceFile
         int consumed = 0;
         if (std::sscanf(line.c_str(), "ERROR: %u:%n", &file, &consumed) == 1 && consumed && file < files.size()) {
             if (!is_first && line.find(": '' :") != std::string::npos) continue;
+            const int number = std::atoi(line.c_str() + consumed);
             line = files[file].name + ":" + line.substr(size_t(consumed)) + (is_first ? includers(file, files) : "");
+            if (const std::string written = line_of(files[file].text, number); !written.empty())
+                line += "\n    " + written;
             is_first = false;
         }
         if (!line.empty()) out << line << '\n';
@@ -176,13 +185,6 @@ void reflect(const glslang::TProgram& program, bool is_vertex, ShaderInterface& 
 }
 
 }  // namespace
-
-const std::vector<std::filesystem::path>& shader_roots() {
-    static const std::filesystem::path root = SSRLAB_SOURCE_DIR;
-    static const std::vector<std::filesystem::path> roots = {root / "variants", root / "core/shaders",
-                                                             root / "tests/shaders", root};
-    return roots;
-}
 
 const std::vector<SceneConstant>& scene_constants() {
     static const std::vector<SceneConstant> constants = {

@@ -23,7 +23,7 @@ namespace {
 
 /// A point as cells are named by it.
 struct PointIdentity {
-    std::string parameters;  ///< all values
+    std::string parameters;  ///< all values, and the content of its folder if it is declared by one
     std::vector<std::string>
         sources;  ///< the folders of its technique and of the tracers and the resolve that it has chosen
 };
@@ -34,7 +34,15 @@ PointIdentity identity_of(const VariantConfig& config) {
                 .sources = {"experiments/run/shots/external_frames.cpp"}};
     const std::unique_ptr<Variant> variant = variant_of(config);
     const nlohmann::json values = variant->params.values();
-    PointIdentity identity{.parameters = values.dump(), .sources = {"variants/" + config.variant + "/"}};
+    const auto& folder = find_variant(config.variant).folder;
+    PointIdentity identity{.parameters = values.dump(), .sources = {}};
+    if (folder) {
+        identity.parameters += folder->content_hash;
+        identity.sources = folder->sources;
+        identity.sources.push_back("variants/declared/");
+    } else {
+        identity.sources.push_back("variants/" + config.variant + "/");
+    }
     if (variant->uses_scene_data()) identity.sources.push_back("variants/tracers/exact_scene/");
     for (const auto& [name, value] : values.items())
         for (const TracerEntry& tracer : tracer_table())

@@ -1,0 +1,13 @@
+#pragma once
+#include <nlohmann/json.hpp>
+#include <string>
+
+// What a value has to be, written in JSON: a value, an array of values, or an object of `at_least`, `at_most`, `above`,
+// `below` and `not`.
+
+/// Fails with Error unless `condition` can be put to values like `sample`. `where` begins the message.
+void check_condition(const nlohmann::json& condition, const nlohmann::json& sample, const std::string& where);
+
+/// Whether the value passes a condition that check_condition() let through. Numbers are compared as float32 holds them:
+/// 0.1 of a condition is the 0.1 of a parameter.
+bool holds(const nlohmann::json& condition, const nlohmann::json& value);

@@ -1,0 +1,142 @@
+#include "variants/declared/check_frames.h"
+
+#include "core/error.h"
+#include "core/gpu/format.h"
+#include "core/near_miss.h"
+#include "variants/declared/frame_values.h"
+#include "variants/declared/provided_images.h"
+
+#include <algorithm>
+#include <set>
+
+namespace {
+
+const std::string previous = "previous_";
+
+using Uses = std::vector<const DeclaredUse*>;
+
+/// One frame, of the passes and images that its values leave.
+class FrameCheck {
+public:
+    FrameCheck(const Technique& technique, const FrameValues& values) : technique_(technique), values_(values) {}
+
+    void run() {
+        for (const DeclaredImage* image : in_use(technique_.images, &DeclaredImage::name, values_.known()))
+            images_.emplace(image->name, image);
+        for (const DeclaredBuffer* buffer : in_use(technique_.buffers, &DeclaredBuffer::name, values_.known()))
+            buffers_.insert(buffer->name);
+        for (const DeclaredPass& pass : technique_.passes)
+            if (holds(pass.when)) check(pass);
+        for (const auto& [name, place] : read_of_last_frame_)
+            if (!written_.contains(name))
+                fail_here(place, "reads '" + previous + name + "', but no pass writes '" + name + "'");
+        check_results();
+    }
+    const std::set<std::string>& written() const { return written_; }
+
+private:
+    bool holds(const Condition& condition) const { return condition.holds(values_.known()); }
+
+    [[noreturn]] void fail_here(const std::string& place, const std::string& what) const {
+        fail(place, ": ", what, values_.text());
+    }
+
+    /// Of this frame; fails with a near miss if it is not there.
+    const DeclaredImage& image(const std::string& name, const std::string& place) const {
+        if (const auto found = images_.find(name); found != images_.end()) return *found->second;
+        std::vector<std::string> names = ProvidedImages::names();
+        for (const DeclaredImage& known : technique_.images) {
+            if (known.name == name) fail_here(place, "there is no image '" + name + "'");
+            names.push_back(known.name);
+            if (known.has_history) names.push_back(previous + known.name);
+        }
+        fail(place, ": there is no image '", shortened(name), "'", suggestion(name, names));
+    }
+
+    void check(const DeclaredPass& pass) {
+        if (!pass.cleared.empty()) {
+            if (!buffers_.contains(pass.cleared)) written_.insert(image(pass.cleared, pass.place).name);
+            return;
+        }
+        const Uses reads = in_use(pass.reads, &DeclaredUse::as, values_.known()),
+                   writes = in_use(pass.writes, &DeclaredUse::as, values_.known());
+        for (const DeclaredUse* read : reads) check_read(*read, writes);
+        for (const DeclaredUse* write : writes) check_write(*write);
+        for (const std::string& buffer : pass.buffers)
+            if (!buffers_.contains(buffer)) fail_here(pass.place, "there is no buffer '" + buffer + "'");
+        if (writes.empty() && pass.buffers.empty()) fail_here(pass.place, "the pass writes nothing");
+        if (!pass.over.empty()) image(pass.over, pass.place);
+        for (const DeclaredUse* write : writes) written_.insert(write->image);
+    }
+
+    void check_read(const DeclaredUse& read, const Uses& writes) {
+        for (const DeclaredUse* write : writes)
+            if (write->as == read.as)
+                fail_here(read.place, "the pass reads and writes an image of the name '" + read.as +
+                                          "'; \"as\" gives one of them another name in the shader");
+        const std::string of = read.image.starts_with(previous) ? read.image.substr(previous.size()) : "";
+        if (const auto found = images_.find(of); found != images_.end() && found->second->has_history) {
+            read_of_last_frame_[of] = read.place;
+            return;
+        }
+        if (!images_.contains(read.image) && ProvidedImages::has(read.image)) {
+            if (read.mip) fail_here(read.place, "'mip' is for images of the technique, not for '" + read.image + "'");
+            return;
+        }
+        check_mip(image(read.image, read.place), read);
+        for (const DeclaredUse* write : writes)
+            if (write->image == read.image && (!write->mip || !read.mip || *write->mip == *read.mip))
+                fail_here(read.place, "the pass reads '" + read.image + "' and writes it, too; write another image");
+        if (!written_.contains(read.image))
+            fail_here(read.place, "the pass reads '" + read.image +
+                                      "', which no pass before it writes; what the frame before wrote is 'previous_" +
+                                      read.image + "' of an image with \"history\": true");
+    }
+
+    void check_write(const DeclaredUse& write) {
+        if (!images_.contains(write.image) && ProvidedImages::has(write.image))
+            fail_here(write.place, "no pass can write '" + write.image + "', which all techniques read");
+        check_mip(image(write.image, write.place), write);
+    }
+
+    void check_mip(const DeclaredImage& image, const DeclaredUse& use) const {
+        if (use.mip && *use.mip >= image.mips)
+            fail_here(use.place, "'mip' = " + std::to_string(*use.mip) + " is not there: '" + image.name + "' has " +
+                                     std::to_string(image.mips) + ", counted from 0");
+    }
+
+    void check_results() const {
+        const auto found =
+            std::ranges::find_if(technique_.results, [&](const DeclaredResult& r) { return holds(r.when); });
+        if (found == technique_.results.end()) fail_here(technique_.results.front().place, "there is no result");
+        for (const std::string& name : {found->radiance, found->confidence}) {
+            const DeclaredImage& shown = image(name, found->place);
+            if (!written_.contains(name)) fail_here(found->place, "no pass writes the result '" + name + "'");
+            if (shown.divisor > 1 || shown.size.x > 0 || shown.mips > 1)
+                fail_here(found->place, "the result '" + name + "' must be of the screen's size, without mips");
+        }
+        const FormatFacts& confidence = facts_of(image(found->confidence, found->place).format);
+        if (found->channel >= confidence.channels)
+            fail_here(found->place, "'channel' of the confidence: '" + found->confidence + "' is " + confidence.name +
+                                        ", which lacks it");
+    }
+
+    const Technique& technique_;
+    const FrameValues& values_;
+    std::map<std::string, const DeclaredImage*> images_;  // that there are, by name
+    std::set<std::string> buffers_, written_;
+    std::map<std::string, std::string> read_of_last_frame_;  // names, and who reads them
+};
+
+}  // namespace
+
+void check_frames(const Technique& technique, const ParameterSet& params) {
+    std::set<std::string> written;
+    for (const FrameValues& values : representative_frames(technique, params)) {
+        FrameCheck frame(technique, values);
+        frame.run();
+        written.insert(frame.written().begin(), frame.written().end());
+    }
+    for (const DeclaredImage& image : technique.images)
+        if (!written.contains(image.name)) fail(image.place, ": no pass writes the image '", image.name, "'");
+}
