@@ -19,6 +19,8 @@ SCENE = "scenes have a rule of their own: file_below() (core/reading_limits.h)"
 
 ALLOWED = {
     ("core/path_inside.cpp", "path /= part"): "the one way",
+    ("variants/registry.cpp", "base / text"): REQUEST,
+    ("variants/declared/technique_files.cpp", "fs::path(SSRLAB_SOURCE_DIR) / folder"): PROGRAM,
     ("core/reading_limits.cpp", "folder / name"): SCENE,
     ("core/scene/load_scene.cpp", "folder / name"): SCENE,
     ("core/scene/scene_family.cpp", "beside / scene"): PROGRAM,

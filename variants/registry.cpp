@@ -4,6 +4,7 @@
 #include "core/gpu/pipelines/shader_files.h"
 #include "core/json.h"
 #include "core/near_miss.h"
+#include "core/path_inside.h"
 #include "variants/resolves/resolves.h"
 #include "variants/tracers/tracers.h"
 
@@ -51,6 +52,8 @@ const VariantEntry& add_technique_folder(const std::filesystem::path& folder) {
     if (!is_new && known->folder->path != entry.folder->path)
         fail(folder.string(), ": ", known->folder->path.string(), " is called '", entry.name,
              "', too; give one of them another name");
+    if (const auto tuned = path_inside(entry.folder->path, "tuned_presets.json"); std::filesystem::exists(tuned))
+        add_tuned_presets(entry, tuned);
     set_shader_folder(entry.name, entry.folder->files);
     return is_new ? growing_table().emplace_back(std::move(entry)) : *known = std::move(entry);
 }

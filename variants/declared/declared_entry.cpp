@@ -5,6 +5,7 @@
 #include "core/near_miss.h"
 #include "core/path_inside.h"
 #include "variants/declared/check_frames.h"
+#include "variants/declared/names.h"
 #include "variants/declared/read_parameters.h"
 #include "variants/declared/read_passes.h"
 #include "variants/declared/technique_files.h"
@@ -71,6 +72,8 @@ VariantEntry declared_entry(const fs::path& named) {
     const nlohmann::json as_written = document.value;
     write_out_short_forms(document.value);
     JsonObject root(document, file.string());
+    know_keys(root, {"title", "source", "description", "parameters", "tracers", "images", "buffers", "passes", "result",
+                     "random", "reflects", "presets"});
 
     auto technique = std::make_shared<Technique>();
     technique->name = declared_name(folder);

@@ -5,6 +5,10 @@
 
 #include <cctype>
 
+void know_keys(JsonObject& object, std::initializer_list<const char*> keys) {
+    for (const char* key : keys) object.has(key);
+}
+
 std::string variable_name(JsonObject& object, const std::string& key) {
     std::string name = object.text(key);
     const auto fits = [](unsigned char c) { return std::isalnum(c) || c == '_'; };

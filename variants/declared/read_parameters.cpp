@@ -44,6 +44,7 @@ void read_choices(JsonObject& object, Parameter& parameter) {
 }
 
 Parameter read_parameter(JsonObject object) {
+    know_keys(object, {"name", "type", "unit", "meaning", "source", "default", "range", "choices", "compiled_in"});
     Parameter parameter;
     parameter.name = variable_name(object, "name");
     object.any("type");
@@ -71,10 +72,17 @@ Parameter read_parameter(JsonObject object) {
     return parameter;
 }
 
+/// "linear_trace" of the slot "linear_tracer".
+std::string function_of(const std::string& slot) {
+    return slot.ends_with("tracer") ? slot.substr(0, slot.size() - 1) : slot + "_trace";
+}
+
 void read_tracers(JsonObject object, Technique& technique) {
+    know_keys(object, {"slots", "source", "defaults"});
     for (JsonObject& of_slot : object.objects("slots")) {
+        know_keys(of_slot, {"name", "function", "default", "meaning"});
         TracerSlot slot{.name = variable_name(of_slot, "name"), .function = "", .initial = "", .doc = ""};
-        slot.function = variable_name(of_slot, "function", slot.name == "tracer" ? "trace" : slot.name + "_trace");
+        slot.function = variable_name(of_slot, "function", function_of(slot.name));
         std::vector<std::string> names;
         for (const TracerEntry& tracer : tracer_table()) names.push_back(tracer.name);
         of_slot.any("default");

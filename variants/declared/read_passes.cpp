@@ -25,6 +25,7 @@ Format read_format(JsonObject& object) {
 }
 
 DeclaredImage read_image(JsonObject object, const KnownValues& known) {
+    know_keys(object, {"name", "format", "divisor", "size", "mips", "history", "when"});
     DeclaredImage image;
     image.place = object.at("name");
     image.name = variable_name(object, "name");
@@ -53,6 +54,7 @@ DeclaredImage read_image(JsonObject object, const KnownValues& known) {
 }
 
 DeclaredBuffer read_buffer(JsonObject object, const KnownValues& known) {
+    know_keys(object, {"name", "bytes", "bytes_per_pixel", "when"});
     DeclaredBuffer buffer;
     buffer.place = object.at("name");
     buffer.name = variable_name(object, "name");
@@ -79,6 +81,8 @@ Condition read_linear(JsonObject& object, const KnownValues& known) {
 }
 
 DeclaredUse read_use(JsonObject object, bool is_read, const KnownValues& known) {
+    know_keys(object, {"image", "as", "mip", "when"});
+    if (is_read) know_keys(object, {"linear", "wrap_u", "wrap_v"});
     DeclaredUse use;
     use.place = object.at("image");
     use.image = object.text("image");
@@ -140,6 +144,7 @@ std::map<std::string, Condition> read_scene_constants(JsonObject object, const K
 
 /// An image or a buffer that is filled with a value, without a shader.
 void read_clear(JsonObject& object, DeclaredPass& pass) {
+    know_keys(object, {"value", "when"});
     pass.cleared = object.text("clear");
     pass.stage = "clear";
     pass.set["value"] =
@@ -147,6 +152,8 @@ void read_clear(JsonObject& object, DeclaredPass& pass) {
 }
 
 void read_shader(JsonObject& object, const Technique& technique, const KnownValues& known, DeclaredPass& pass) {
+    know_keys(object, {"shader", "stage", "reads", "writes", "buffers", "tracers", "rays", "over", "set", "environment",
+                       "scene_constants", "when"});
     pass.shader = object.text("shader");
     pass.is_compute = pass.shader.ends_with(".comp");
     if (!pass.is_compute && !pass.shader.ends_with(".frag"))
@@ -197,6 +204,7 @@ DeclaredPass read_pass(JsonObject object, const Technique& technique, const Know
 }
 
 DeclaredResult read_result(JsonObject object, const KnownValues& known) {
+    know_keys(object, {"radiance", "confidence", "channel", "when"});
     DeclaredResult result;
     result.place = object.where();
     result.radiance = object.text("radiance");

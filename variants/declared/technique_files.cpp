@@ -83,7 +83,7 @@ private:
                 fail(where, ": the pass does not name the tracer; write \"tracers\": \"", name, "\"");
         std::vector<std::string> names;
         add_names(read_.path, names);
-        for (const fs::path& root : shader_roots()) add_names(root, names);
+        for (const char* folder : {"variants", "core/shaders"}) add_names(fs::path(SSRLAB_SOURCE_DIR) / folder, names);
         const std::string near = nearest_name(name, names);
         fail(where, ": there is no such shader in ", read_.path.string(),
              ", and none of ssrlab under variants/ or core/", near.empty() ? "" : "; did you mean '" + near + "'?");
@@ -103,8 +103,8 @@ void read_shaders(Technique& technique, TechniqueFolder& read) {
         if (pass.shader.empty()) continue;
         const bool is_of_folder = Reader(technique, pass, read).read_shader();
         if (is_of_folder) pass.shader = technique.name + "/" + pass.shader;
-        pass.stage =
-            pass.stage.empty() ? pass.shader.substr(0, pass.shader.rfind('.')) : technique.name + "/" + pass.stage;
+        const std::string stem = pass.shader.substr(0, pass.shader.rfind('.'));
+        pass.stage = pass.stage.empty() ? stem : stem.substr(0, stem.rfind('/') + 1) + pass.stage;
     }
     std::ranges::sort(read.sources);
     read.sources.erase(std::ranges::unique(read.sources).begin(), read.sources.end());

@@ -1,6 +1,7 @@
 #include "core/gpu/pipelines/pipeline.h"
 
 #include "core/error.h"
+#include "core/gpu/pipelines/shader_files.h"
 
 namespace {
 
@@ -143,13 +144,19 @@ std::map<uint32_t, uint32_t> constants_of(const Shader& shader, const ParameterS
 
 }  // namespace
 
+namespace {
+
+std::string name_of_version(const std::string& file) { return file + '#' + std::to_string(shader_version(file)); }
+
+}  // namespace
+
 const Shader& PipelineCache::shader(const std::string& file, const std::string& vertex_file, const ParameterSet& params,
                                     const ShaderIncludes& includes, const ShaderChanges& asked) {
     ShaderChanges changes = asked;
     changes.is_for_cpu = gpu_.info.is_cpu() && !changes.is_double && !changes.is_counted && !changes.is_for_gpu;
     const std::string prelude = changes.is_for_cpu ? shader_prelude_for_cpu(params) : shader_prelude(params);
-    const auto [entry, is_new] =
-        shaders_.try_emplace(file + '\n' + vertex_file + '\n' + key_of(changes) + key_of(includes) + prelude);
+    const auto [entry, is_new] = shaders_.try_emplace(name_of_version(file) + '\n' + vertex_file + '\n' +
+                                                      key_of(changes) + key_of(includes) + prelude);
     if (is_new) try {
             entry->second = compile(file, vertex_file, prelude, includes, ShaderLanguage::vulkan, changes);
         } catch (...) {
@@ -184,8 +191,9 @@ Pipeline& PipelineCache::pipeline(const std::string& file, const std::string& ve
     const Shader& shader = this->shader(file, vertex_file, params, includes, changes);
     // Only the constants that this shader uses take part in the key: a new value of another one costs it no new
     // pipeline.
-    std::string key = file + '\n' + vertex_file + '\n' + key_of(changes) + key_of(includes) + params.glsl() + '\n' +
-                      std::to_string(int(state.stencil)) + ' ' + std::to_string(state.stencil_value);
+    std::string key = name_of_version(file) + '\n' + vertex_file + '\n' + key_of(changes) + key_of(includes) +
+                      params.glsl() + '\n' + std::to_string(int(state.stencil)) + ' ' +
+                      std::to_string(state.stencil_value);
     for (const auto& [id, value] : constants_of(shader, params, constants)) key += ' ' + std::to_string(value);
     key += '\n';
     for (const Format format : state.attachments) key += ' ' + std::to_string(int(format));

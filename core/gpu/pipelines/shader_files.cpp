@@ -15,26 +15,40 @@ class GivenFolders {
 public:
     void set(const std::string& folder, ShaderTexts texts) {
         const std::lock_guard lock(mutex_);
-        folders_[folder] = std::move(texts);
+        Folder& given = folders_[folder];
+        if (given.version > 0 && given.texts == texts) return;
+        given.texts = std::move(texts);
+        ++given.version;
+    }
+    unsigned version(const std::string& folder) {
+        const std::lock_guard lock(mutex_);
+        const auto found = folders_.find(folder);
+        return found == folders_.end() ? 0 : found->second.version;
     }
     std::optional<ShaderFile> find(const std::string& folder, const std::string& name) {
         const std::lock_guard lock(mutex_);
         const auto found = folders_.find(folder);
         if (found == folders_.end()) return {};
-        const auto text = found->second.find(name);
-        if (text == found->second.end()) return {};
+        const auto text = found->second.texts.find(name);
+        if (text == found->second.texts.end()) return {};
         return ShaderFile{folder + "/" + name, text->second};
     }
 
 private:
+    struct Folder {
+        ShaderTexts texts;
+        unsigned version = 0;
+    };
     std::mutex mutex_;
-    std::map<std::string, ShaderTexts> folders_;
+    std::map<std::string, Folder> folders_;
 };
 
 GivenFolders& given_folders() {
     static GivenFolders folders;
     return folders;
 }
+
+std::string folder_of(const std::string& name) { return name.substr(0, name.find('/')); }
 
 }  // namespace
 
@@ -47,11 +61,12 @@ const std::vector<std::filesystem::path>& shader_roots() {
 
 void set_shader_folder(const std::string& folder, ShaderTexts texts) { given_folders().set(folder, std::move(texts)); }
 
+unsigned shader_version(const std::string& name) { return given_folders().version(folder_of(name)); }
+
 ShaderFile read_shader(const std::string& name, const std::string& includer, const std::string& asked_for_by) {
-    const std::string beside = includer.substr(0, includer.find('/'));
-    if (const auto file = given_folders().find(beside, name)) return *file;
-    if (const size_t slash = name.find('/'); slash != std::string::npos)
-        if (const auto file = given_folders().find(name.substr(0, slash), name.substr(slash + 1))) return *file;
+    if (const auto file = given_folders().find(folder_of(includer), name)) return *file;
+    if (const std::string folder = folder_of(name); folder.size() < name.size())
+        if (const auto file = given_folders().find(folder, name.substr(folder.size() + 1))) return *file;
     for (const auto& root : shader_roots()) {
         const std::filesystem::path file = path_inside(root, name, "the shader '" + name + "'" + asked_for_by);
         if (std::ifstream in(file); std::filesystem::is_regular_file(file) && in)

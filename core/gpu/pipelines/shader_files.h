@@ -17,6 +17,10 @@ using ShaderTexts = std::map<std::string, std::string>;
 /// meanwhile.
 void set_shader_folder(const std::string& folder, ShaderTexts texts);
 
+/// How often the texts of a shader's folder have changed: what was compiled before holds for an earlier number. 0 of
+/// shaders under shader_roots(), which are read once in a process.
+unsigned shader_version(const std::string& name);
+
 struct ShaderFile {
     std::string name;  ///< within shader_roots(), or with the folder of set_shader_folder()
     std::string text;

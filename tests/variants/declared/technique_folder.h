@@ -1,0 +1,33 @@
+#pragma once
+#include "core/files.h"
+#include "variants/registry.h"
+
+#include <unistd.h>
+
+namespace fs = std::filesystem;
+
+/// A technique's folder in a temporary one, which goes with this.
+struct TemporaryTechnique {
+    explicit TemporaryTechnique(const std::string& name)
+        : parent(fs::temp_directory_path() / ("ssrlab_technique_" + name + "_" + std::to_string(getpid()))),
+          folder(parent / name) {
+        fs::remove_all(parent);
+        fs::create_directories(folder);
+    }
+    ~TemporaryTechnique() { fs::remove_all(parent); }
+    TemporaryTechnique(const TemporaryTechnique&) = delete;
+    TemporaryTechnique& operator=(const TemporaryTechnique&) = delete;
+
+    void write(const std::string& file, const std::string& text) const { write_text(folder / file, text); }
+    const VariantEntry& add() const { return add_technique_folder(folder); }
+
+    fs::path parent, folder;
+};
+
+/// One of experiments/examples under another name: that of ssrlab's own technique is taken.
+inline std::string add_example(const std::string& technique) {
+    const TemporaryTechnique copy("declared_" + technique);
+    const fs::path example = fs::path(SSRLAB_SOURCE_DIR) / "experiments/examples" / technique;
+    fs::copy(example, copy.folder, fs::copy_options::recursive);
+    return copy.add().name;
+}
