@@ -503,7 +503,8 @@ int parse_and_run(int argc, char** argv) {
         ->type_name("N");
     needs_command_
         .add_option("--variants", needs.variants,
-                    "Techniques, or single presets as NAME:PRESET; default: all presets of all, and all tracers")
+                    "Techniques, or their folders, or single presets as NAME:PRESET; default: all presets of all, and "
+                    "all tracers")
         ->delimiter(',')
         ->type_name("NAME");
     needs_command_.add_flag("--measure", needs.is_measured,
@@ -521,7 +522,8 @@ int parse_and_run(int argc, char** argv) {
     shaders.chips.assign(default_chips.begin(), default_chips.end());
     CLI::App& shaders_command_ = *app.add_subcommand(
         "shaders", "Show what compilers of GPUs make of a technique's passes: registers, occupancy, instructions");
-    shaders_command_.add_option("variant", shaders.variant, "A technique (see: ssrlab list variants)")
+    shaders_command_
+        .add_option("variant", shaders.variant, "A technique (see: ssrlab list variants), or its folder, with a /")
         ->required()
         ->type_name("NAME");
     add_values(shaders_command_, shaders.preset, shaders.parameters);
@@ -583,8 +585,9 @@ int parse_and_run(int argc, char** argv) {
         ->required()
         ->type_name("SCENE");
     record_command_
-        .add_option("--variant", record.variant,
-                    "A technique of fragment passes alone (see: ssrlab list variants); others are refused")
+        .add_option(
+            "--variant", record.variant,
+            "A technique of fragment passes alone (see: ssrlab list variants), or its folder; others are refused")
         ->required()
         ->type_name("NAME");
     add_values(record_command_, record.preset, record.parameters);
@@ -616,7 +619,8 @@ int parse_and_run(int argc, char** argv) {
         *app.add_subcommand("stability", "Test techniques with extreme inputs: non-finite values and amplification");
     stability_command_
         .add_option("--variants", stability.variants,
-                    "Techniques, or single presets as NAME:PRESET; default: all presets of all, and all tracers")
+                    "Techniques, or their folders, or single presets as NAME:PRESET; default: all presets of all, and "
+                    "all tracers")
         ->delimiter(',')
         ->type_name("NAME");
     stability_command_.add_option("--cases", stability.cases, "Cases or groups of the table; default: all")
@@ -645,11 +649,25 @@ int parse_and_run(int argc, char** argv) {
             stability.is_of_precision ? precision_command(stability, common) : stability_command(stability, common);
     });
 
+    NewOptions new_technique;
+    CLI::App& new_command_ = *app.add_subcommand(
+        "new", "Write a technique of one's own as a folder, which needs no compiler, and a first study of it");
+    new_command_.add_option("folder", new_technique.folder, "The folder to make; its name is the technique's")
+        ->required()
+        ->type_name("FOLDER");
+    new_command_
+        .add_option("--from", new_technique.from,
+                    "What it begins as: mcguire_dda, simple_ssr or four_mode_ssr, or a technique's folder; default: "
+                    "mcguire_dda")
+        ->type_name("TECHNIQUE");
+    new_command_.callback([&] { new_command(new_technique); });
+
     DescribeOptions describe;
     CLI::App& describe_command_ =
         *app.add_subcommand("describe", "Print every parameter: default, range, unit, meaning, source");
     describe_command_
-        .add_option("variant", describe.variant, "A variant, a tracer or a resolve; default: all variants")
+        .add_option("variant", describe.variant,
+                    "A variant or its folder, a tracer or a resolve; default: all variants")
         ->type_name("NAME");
     describe_command_.add_flag("--schema", describe.as_schema,
                                "Print a JSON Schema for configs, so that editors complete them");

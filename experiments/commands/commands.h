@@ -49,6 +49,13 @@ struct MergeOptions {
 };
 int merge_command(const MergeOptions& options, const CommonOptions& common);  ///< 1 if cells are missing, else 0
 
+struct NewOptions {
+    std::filesystem::path folder;      ///< that is to be made
+    std::string from = "mcguire_dda";  ///< a technique's name, or its folder
+};
+/// Writes a technique's folder and a first study of it, and says how to run that.
+void new_command(const NewOptions& options);
+
 /// Writes a folder's report.html again and says where it is.
 void report_command(const std::filesystem::path& folder, bool links_images);
 
@@ -163,7 +170,7 @@ void rays_command(const RaysOptions& options, const CommonOptions& common);
 
 struct RecordOptions {
     ShotOptions shot{.scene = {}, .camera = {}, .size = {192, 108}};  ///< its frame is not looked at
-    std::string variant, preset, frames = "0-7";  ///< a frame, or a range with both ends
+    std::string variant, preset, frames = "0-7";                      ///< a frame, or a range with both ends
     nlohmann::json parameters = nlohmann::json::object();
     unsigned samples = 256;
     bool is_packed = false, has_results = false, has_passes = false;

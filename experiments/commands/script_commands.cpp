@@ -11,6 +11,7 @@
 #include "experiments/evaluation/tradeoff/tradeoff.h"
 #include "experiments/store/host_info.h"
 #include "metrics/estimators.h"
+#include "variants/registry.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -95,6 +96,16 @@ int tradeoff_command(const TradeoffOptions& options) {
     return run_script("tradeoff/tradeoff.py", {(out / "asked.json").string()});
 }
 
+namespace {
+
+/// The technique's name, or else its folder, wherever the config lies.
+std::string named_in_configs(const VariantConfig& point) {
+    const auto found = std::ranges::find(variant_table(), point.variant, &VariantEntry::name);
+    return found != variant_table().end() && found->folder ? found->folder->path.string() : point.variant;
+}
+
+}  // namespace
+
 int tune_command(const TuneOptions& options, const std::vector<std::string>& run_options) {
     using nlohmann::json;
     const Config config = read_config(options.config);
@@ -106,7 +117,7 @@ int tune_command(const TuneOptions& options, const std::vector<std::string>& run
     if (rules["is_estimated"]) find_chip(rules["time"]);  // or says why it cannot be asked
     json points = json::array();
     for (const VariantConfig& v : config.variants)
-        points.push_back({{"variant", v.variant},
+        points.push_back({{"variant", named_in_configs(v)},
                           {"preset", v.preset},
                           {"parameters", v.parameters},
                           {"swept", v.swept},

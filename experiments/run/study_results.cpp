@@ -9,6 +9,7 @@
 #include "experiments/store/provenance.h"
 #include "experiments/store/stale_files.h"
 #include "experiments/store/study_rows.h"
+#include "experiments/store/technique_copies.h"
 
 #include <sys/resource.h>
 #include <set>
@@ -85,6 +86,7 @@ StudyAnswers write_results(StudySession& study, bool is_complete, const nlohmann
         const StudyRows rows = rows_of(study.finished);
         write_tables(study.settings.out, rows);
         write_parameters(study.settings.out, study.config.variants);
+        write_technique_copies(study.settings.out, study.config.variants);
         write_evaluation(study.settings.out, rows, manifest, study.config.variants, study.config.primary);
     }
     StudyAnswers answers;

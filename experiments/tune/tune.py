@@ -57,7 +57,7 @@ class Tuning:
         else:
             start = next(i for i, p in enumerate(self.given) if p["point"] == self.rules["start"])
             self.start_entry, self.start = self.given[start], self.names[start]
-            self.searched, self.declared = self.start_entry["variant"], asked["parameters"]
+            self.searched, self.declared = os.path.basename(self.start_entry["variant"]), asked["parameters"]  # of a technique's folder its name
         self.studies = Studies(asked, out, command, self.baseline)
         self.out = out
         self.most_runs, self.most_minutes, self.budgets = (self.rules[key] for key in ("most_runs", "most_minutes", "budgets"))

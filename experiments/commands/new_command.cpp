@@ -1,0 +1,89 @@
+// ssrlab new: a technique of one's own, as a folder, from one that is there.
+#include "core/error.h"
+#include "core/files.h"
+#include "core/near_miss.h"
+#include "core/path_inside.h"
+#include "core/shown_text.h"
+#include "experiments/commands/commands.h"
+#include "variants/declared/declared_entry.h"
+#include "variants/registry.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path examples = fs::path(SSRLAB_SOURCE_DIR) / "experiments/examples";
+
+/// Techniques of ssrlab that are also written as folders.
+std::vector<std::string> declared_names() {
+    std::vector<std::string> names;
+    for (const VariantEntry& entry : variant_table())
+        if (fs::exists(path_inside(examples, entry.name + "/technique.json"))) names.push_back(entry.name);
+    return names;
+}
+
+/// The folder that `from` names: one of the examples, or one of the user's own.
+fs::path folder_of(const std::string& from) {
+    if (from.find('/') != std::string::npos) return from;
+    const std::vector<std::string> names = declared_names();
+    if (std::ranges::count(names, from)) return path_inside(examples, from);
+    const std::string& name = find_variant(from).name;  // or says that there is none of that name
+    std::string list;
+    for (const std::string& known : names) list += (list.empty() ? "" : ", ") + known;
+    fail("'", name, "' has no declared form: its C++ decides what a list of passes cannot say; these have one: ", list);
+}
+
+std::string with_names(std::string text, const std::map<std::string, std::string>& new_names) {
+    for (const auto& [before, after] : new_names)
+        for (size_t at = 0; (at = text.find("\"" + before + "\"", at)) != std::string::npos; ++at)
+            text.replace(at, before.size() + 2, "\"" + after + "\"");
+    return text;
+}
+
+/// Content by file of the technique, with the shaders that it has of ssrlab's technique of its own name beside it.
+std::map<std::string, std::string> files_of(const VariantEntry& technique) {
+    std::map<std::string, std::string> files = technique.folder->files, new_names;
+    const std::string shared = "variants/", own = shared + technique.name + "/";
+    for (const std::string& source : technique.folder->sources) {
+        if (!source.starts_with(own)) continue;
+        const std::string name = source.substr(own.size());
+        files[name] = read_text(path_inside(SSRLAB_SOURCE_DIR, source));
+        new_names[source.substr(shared.size())] = name;
+    }
+    for (auto& [name, text] : files) text = with_names(std::move(text), new_names);
+    return files;
+}
+
+/// A first study of it, beside what it was made from.
+std::string study_of(const std::string& name, const std::string& from) {
+    const nlohmann::json of_origin = from.find('/') == std::string::npos
+                                         ? nlohmann::json({{"variant", from}})
+                                         : nlohmann::json({{"variant", fs::absolute(from).lexically_normal()}});
+    const nlohmann::json study = {{"title", name},
+                                  {"shots", {{{"scene", "fence"}, {"resolution", {240, 135}}, {"warm_up", 4}}}},
+                                  {"lit", "direct"},
+                                  {"reference", {{"samples", 64}}},
+                                  {"variants", {{{"variant", "none"}}, of_origin, {{"variant", "./"}}}}};
+    return study.dump(2) + "\n";
+}
+
+}  // namespace
+
+void new_command(const NewOptions& options) {
+    const std::string name = declared_name(options.folder);
+    std::error_code error;
+    if (fs::exists(fs::symlink_status(options.folder, error)))
+        fail(options.folder.string(), " is there already; choose another name, or remove it");
+    if (std::ranges::count(variant_table(), name, &VariantEntry::name))
+        fail("'", name, "' is one of ssrlab's own techniques; give the folder another name");
+    const VariantEntry technique = declared_entry(folder_of(options.from));
+    for (const auto& [file, text] : files_of(technique)) write_text(path_inside(options.folder, file), text);
+    write_text(path_inside(options.folder, name + ".json"), study_of(name, options.from));
+    add_technique_folder(options.folder);  // or says what is wrong with it
+    std::printf("%s: technique.json and its shaders. A first study: ssrlab run %s\n",
+                shown_text(options.folder.string()).c_str(),
+                shown_text((options.folder / (name + ".json")).string()).c_str());
+}
