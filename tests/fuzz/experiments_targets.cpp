@@ -1,4 +1,5 @@
-// The readers of studies, tables of cases, and results.
+// The readers of studies, techniques' folders, tables of cases, and results.
+#include "core/files.h"
 #include "core/json.h"
 #include "experiments/config/config.h"
 #include "experiments/evaluation/study_tables.h"
@@ -6,6 +7,7 @@
 #include "experiments/stability/stability_case.h"
 #include "experiments/tables/columns.h"
 #include "tests/fuzz/targets.h"
+#include "variants/declared/declared_entry.h"
 
 namespace fs = std::filesystem;
 
@@ -16,7 +18,15 @@ void copy_tables(const fs::path& folder) {
     fs::copy(fs::path(SSRLAB_SOURCE_DIR) / "tests/data/fuzz/results_folder", folder);
 }
 
+/// The shaders beside a technique.json.
+void write_shaders(const fs::path& folder) {
+    write_text(folder / "my_ssr/shade.comp", "#include \"own.glsl\"\n#include \"common/halton.h\"\nvoid main() {}\n");
+    write_text(folder / "my_ssr/own.glsl", "");
+}
+
 const FuzzTarget targets[] = {
+    {"technique", "my_ssr/technique.json", [](const fs::path& file) { declared_entry(file.parent_path()); },
+     write_shaders},
     {"config", "study.json", [](const fs::path& file) { read_config(file); }},
     {"cases", "cases.json", [](const fs::path& file) { read_stability_cases(file); }},
     {"cell", "cell.json", [](const fs::path& file) { read_cell(read_json(file), file.string()); }},

@@ -35,6 +35,7 @@ std::vector<json> sides_of(const std::vector<double>& numbers, const json& initi
     const bool is_whole = parameter && parameter->glsl_type != "float";
     for (const double number : numbers)
         for (const int side : {-1, 0, 1}) {
+            if (std::abs(number) > 1e15) continue;  // beyond what a parameter holds
             const double step = is_whole ? 1.0 : std::max(1e-4 * std::abs(number), 1e-4);
             const json value = is_whole ? json(int64_t(number) + side) : json_number(float(number + side * step));
             const bool fits = parameter ? value >= parameter->min && value <= parameter->max : value >= 0 && value <= 1;
