@@ -81,9 +81,9 @@ void new_command(const NewOptions& options) {
         fail("'", name, "' is one of ssrlab's own techniques; give the folder another name");
     const VariantEntry technique = declared_entry(folder_of(options.from));
     for (const auto& [file, text] : files_of(technique)) write_text(path_inside(options.folder, file), text);
-    write_text(path_inside(options.folder, name + ".json"), study_of(name, options.from));
+    const fs::path study = path_inside(options.folder, name + ".json");
+    write_text(study, study_of(name, options.from));
     add_technique_folder(options.folder);  // or says what is wrong with it
     std::printf("%s: technique.json and its shaders. A first study: ssrlab run %s\n",
-                shown_text(options.folder.string()).c_str(),
-                shown_text((options.folder / (name + ".json")).string()).c_str());
+                shown_text(options.folder.string()).c_str(), shown_text(study.string()).c_str());
 }

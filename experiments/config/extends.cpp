@@ -137,9 +137,9 @@ void move_paths(json& config, const fs::path& from, const fs::path& to) {
     if (!config.is_object() || !config.value("variants", json()).is_array()) return;
     for (json& entry : config["variants"])
         if (entry.is_object() && names_folder(entry.value("variant", json()))) {
-            const fs::path folder = entry["variant"].get<std::string>();
-            if (folder.is_relative())
-                entry["variant"] = "./" + fs::proximate(from / folder, to.empty() ? "." : to).string();
+            const fs::path path = entry["variant"].get<std::string>();
+            if (path.is_relative())
+                entry["variant"] = "./" + fs::proximate(from / path, to.empty() ? "." : to).string();
         }
 }
 
