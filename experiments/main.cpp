@@ -102,6 +102,17 @@ nlohmann::json parameters_of(const std::vector<std::string>& values) {
     return parameters;
 }
 
+/// As the command line of `ssrlab run` takes them, for studies that `command` makes.
+std::vector<std::string> run_options(const CLI::App& command, const CommonOptions& common) {
+    std::vector<std::string> options;
+    if (command.count("--max-memory")) options.push_back("--max-memory=" + std::to_string(reading_limits().memory));
+    if (reading_limits().allows_outside) options.push_back("--allow-outside");
+    if (!common.device.empty()) options.push_back("--device=" + common.device);
+    if (!common.cache.empty()) options.push_back("--cache=" + common.cache.string());
+    for (const std::filesystem::path& folder : common.scene_path) options.push_back("--scene-path=" + folder.string());
+    return options;
+}
+
 /// A technique's values: those of a preset, or its defaults, with others in their place.
 void add_values(CLI::App& command, std::string& preset, nlohmann::json& parameters) {
     command.add_option("--preset", preset, "One of its presets; default: its defaults")->type_name("NAME");
@@ -160,6 +171,8 @@ int parse_and_run(int argc, char** argv) {
                           "Take times on this machine again; by default those of another machine are kept");
     run_command_.add_flag("--times-again", run.takes_times_again,
                           "Take times again that other programs disturbed; the less disturbed are kept");
+    run_command_.add_flag("--no-report", run.has_no_report,
+                          "Write tables and images alone; `ssrlab report` makes the report of them later");
     run_command_
         .add_option("--report-after", run.report_after,
                     "Seconds of a running study until it writes tables and report of what is done; it goes on to do so "
@@ -372,17 +385,7 @@ int parse_and_run(int argc, char** argv) {
     tune_command_.add_option("--out", tune.out, "Default: results/<name of the config>")->type_name("DIR");
     add_device(tune_command_, common), add_scene_path(tune_command_, common), add_cache(tune_command_, common);
     add_reading(tune_command_);
-    tune_command_.callback([&] {
-        std::vector<std::string> options;
-        if (tune_command_.count("--max-memory"))
-            options.push_back("--max-memory=" + std::to_string(reading_limits().memory));
-        if (reading_limits().allows_outside) options.push_back("--allow-outside");
-        if (!common.device.empty()) options.push_back("--device=" + common.device);
-        if (!common.cache.empty()) options.push_back("--cache=" + common.cache.string());
-        for (const std::filesystem::path& folder : common.scene_path)
-            options.push_back("--scene-path=" + folder.string());
-        status = tune_command(tune, options);
-    });
+    tune_command_.callback([&] { status = tune_command(tune, run_options(tune_command_, common)); });
 
     CompareCommandOptions compare;
     CLI::App& compare_command_ = *app.add_subcommand("compare", "Compare two images (EXR or PNG): one number per line");
@@ -613,6 +616,54 @@ int parse_and_run(int argc, char** argv) {
     add_device(record_command_, common), add_scene_path(record_command_, common), add_cache(record_command_, common);
     add_reading(record_command_);
     record_command_.callback([&] { record_command(record, common); });
+
+    WatchOptions watch;
+    CLI::App& watch_command_ = *app.add_subcommand(
+        "watch", "Render and judge a technique's folder whenever it is saved, and show it on a page of this machine");
+    watch_command_.add_option("folder", watch.folder, "With technique.json and shaders (ssrlab new makes one)")
+        ->required()
+        ->type_name("FOLDER");
+    watch_command_
+        .add_option("--scene", watch.scenes,
+                    "One or more, by name (see: ssrlab list scenes) or path; the first is shown first")
+        ->required()
+        ->type_name("SCENE...");
+    watch_command_
+        .add_option("--against", watch.against,
+                    "Also compare with this technique, NAME or NAME:PRESET, or another folder; best: what errs least in "
+                    "the included studies")
+        ->type_name("NAME");
+    watch_command_.add_option("--preset", watch.preset, "One of the technique's presets; default: its defaults")
+        ->type_name("NAME");
+    watch_command_.add_option("--camera", watch.camera, "Default: each scene's first")->type_name("NAME");
+    watch_command_.add_option("--size", watch.size, "Width and height in pixels; default: 480 270")
+        ->expected(2)
+        ->type_name("W H")
+        ->check(CLI::Range(1, 16384));
+    watch_command_
+        .add_option("--frames", watch.frames,
+                    "Frames of the camera's path and of the animation, for histories; the last is measured")
+        ->capture_default_str()
+        ->type_name("A-B");
+    watch_command_.add_option("--samples", watch.samples, "Of the truth, per pixel")
+        ->check(CLI::Range(32, 1 << 20))
+        ->capture_default_str()
+        ->type_name("N");
+    watch_command_.add_option("--seeds", watch.seeds, "Of techniques that draw random numbers; default: 8")
+        ->check(CLI::Range(1, 1000))
+        ->type_name("N");
+    watch_command_
+        .add_option("--patience", watch.patience,
+                    "Seconds without a sign of life after which rendering is ended, as of a loop without end")
+        ->check(real_in(1, 1e6, "a number from 1 to 1000000"))
+        ->capture_default_str()
+        ->type_name("SECONDS");
+    watch_command_
+        .add_option("--out", watch.out, "Folder of kept versions and of what is rendered; default: results/watch/<name>")
+        ->type_name("DIR");
+    add_device(watch_command_, common), add_scene_path(watch_command_, common), add_cache(watch_command_, common);
+    add_reading(watch_command_);
+    watch_command_.callback([&] { watch_command(watch, run_options(watch_command_, common)); });
 
     StabilityOptions stability;
     CLI::App& stability_command_ =

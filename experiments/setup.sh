@@ -7,6 +7,7 @@ build_packages=(
     libembree-dev libtbb-dev libopenexr-dev libpng-dev libturbojpeg0-dev libglm-dev libtinygltf-dev
     libboost-dev  # Sobol's sequence, for designs of studies; distribution functions
     libre2-dev  # regular expressions of scene files, in linear time
+    libcpp-httplib-dev  # the page of `ssrlab watch`
     libvalijson-dev  # JSON Schema: glTF files are checked by one
     nlohmann-json3-dev libcli11-dev libkainjow-mustache-dev libxxhash-dev zlib1g-dev libbenchmark-dev libgtest-dev
     python3 python3-numpy python3-matplotlib python3-pil

@@ -29,6 +29,7 @@ std::filesystem::path default_results(const std::filesystem::path& config);
 struct RunOptions {
     std::filesystem::path config, out;
     bool keep_all = false, replaces = false, prunes = false, takes_times_here = false, takes_times_again = false;
+    bool has_no_report = false;
     double report_after = RunSettings{}.report_after;
     std::vector<std::string> cells;  ///< as CellSelection takes them; empty: all
 };
@@ -178,6 +179,17 @@ struct RecordOptions {
 };
 /// Writes a page that does a technique's passes again in WebGL 2 (experiments/record/record.h).
 void record_command(const RecordOptions& options, const CommonOptions& common);
+
+struct WatchOptions {
+    std::filesystem::path folder, out;
+    std::vector<std::string> scenes;
+    std::string against, camera, preset, frames = "0";  ///< a frame, or a range with both ends
+    std::vector<unsigned> size{480, 270};
+    unsigned samples = 256, seeds = 0;  ///< seeds 0: as studies have them
+    double patience = 30;
+};
+/// Until Ctrl-C. `run_options`: as of tune_command().
+void watch_command(const WatchOptions& options, const std::vector<std::string>& run_options);
 
 struct StabilityOptions {
     std::vector<std::string> variants, cases;  ///< empty: all

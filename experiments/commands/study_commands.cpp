@@ -38,6 +38,7 @@ void run_study_command(const RunOptions& options, const CommonOptions& common) {
                .takes_times_here = options.takes_times_here,
                .takes_times_again = options.takes_times_again,
                .report_after = options.report_after,
+               .has_report = !options.has_no_report,
                .cells = options.cells});
 }
 

@@ -12,11 +12,11 @@ namespace {
 
 /// By shot: the effect over its frames if there is one.
 std::map<std::string, const EffectRow*> rows_of_shots(std::span<const EffectRow> effects,
-                                                      const PrimaryComparisons& primary, const std::string& point,
-                                                      const std::string& against_point) {
+                                                      const PrimaryComparisons& primary, const PointName& point,
+                                                      const PointName& against) {
     std::map<std::string, const EffectRow*> rows;
     for (const EffectRow& r : effects) {
-        if (r.point != point || r.against_point != against_point || r.variant != r.against_variant ||
+        if (PointName(r.variant, r.point) != point || PointName(r.against_variant, r.against_point) != against ||
             r.metric != primary.metric || r.mask != primary.mask || r.target != primary.target)
             continue;
         const EffectRow*& kept = rows[r.shot];
@@ -42,9 +42,9 @@ std::string verdict_at(double p_holm, double ratio) {
 
 }  // namespace
 
-Judgement judge_effects(std::span<const EffectRow> effects, const PrimaryComparisons& primary, const std::string& point,
-                        const std::string& against_point) {
-    const auto rows = rows_of_shots(effects, primary, point, against_point);
+Judgement judge_effects(std::span<const EffectRow> effects, const PrimaryComparisons& primary, const PointName& point,
+                        const PointName& against) {
+    const auto rows = rows_of_shots(effects, primary, point, against);
     if (rows.empty()) fail("no view has an error of both: ", primary.metric, " of ", primary.mask, " pixels");
     std::vector<double> p;
     for (const auto& [shot, row] : rows) {
@@ -70,4 +70,17 @@ Judgement judge_effects(std::span<const EffectRow> effects, const PrimaryCompari
             judged.verdict = verdict;
     }
     return judged;
+}
+
+bool measure_alike(std::span<const ResultRow> rows, const PointName& point, const PointName& against) {
+    using Place = std::tuple<std::string, std::string, unsigned, std::string, std::string, std::string>;
+    std::map<Place, std::optional<double>> own, other;
+    bool has_value = false;
+    for (const ResultRow& r : rows) {
+        const PointName name(r.variant, r.point);
+        if (name != point && name != against) continue;
+        (name == point ? own : other)[{r.shot, r.frame, r.seed, r.target, r.metric, r.mask}] = r.value;
+        has_value = has_value || r.value;
+    }
+    return has_value && own == other;
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include "experiments/evaluation/effects.h"
+#include "experiments/evaluation/over_scenes.h"
 
 #include <span>
 #include <string>
@@ -29,8 +30,12 @@ struct Judgement {
     std::string verdict;  ///< worse if a view is, else better if one is, else not distinguishable
 };
 
-/// By the primary error of `point` over `against_point` of the same technique, of each shot its mean over frames or its
-/// only frame, Holm-adjusted over the shots. Fails with Error where that of a shot is not known with all that is random
-/// in it, and says why.
-Judgement judge_effects(std::span<const EffectRow> effects, const PrimaryComparisons& primary, const std::string& point,
-                        const std::string& against_point);
+/// By the primary error of `point` over that of `against`, of each shot its mean over frames or its only frame,
+/// Holm-adjusted over the shots. Fails with Error where that of a shot is not known with all that is random in it, and
+/// says why.
+Judgement judge_effects(std::span<const EffectRow> effects, const PrimaryComparisons& primary, const PointName& point,
+                        const PointName& against);
+
+/// Whether both points have the same values, to the last digit, of every seed, shot, frame, target, metric and mask
+/// that is measured of either: their frames are taken for identical then.
+bool measure_alike(std::span<const ResultRow> rows, const PointName& point, const PointName& against);

@@ -170,6 +170,7 @@ JudgedFrames judge_frames(const JudgeSettings& settings) {
         judged.against = Judgement{.views = {}, .verdict = judgement::identical};
     else
         judged.against =
-            judge_effects(read_rows<EffectRow>(run.out / "effects.csv"), study.primary, judged_point, before_point);
+            judge_effects(read_rows<EffectRow>(run.out / "effects.csv"), study.primary, {images->name, judged_point},
+                          {images->name, before_point});
     return judged;
 }

@@ -58,6 +58,7 @@ std::string report_file(const StudySession& study) {
 
 void say_end(StudySession& study, const std::vector<std::string>& lines) {
     for (const std::string& line : lines) study.progress.say(line);
+    if (!study.settings.has_report) return;
     study.progress.say("");
     study.progress.say("Report: " + report_file(study));
 }
@@ -66,6 +67,7 @@ void say_end(StudySession& study, const std::vector<std::string>& lines) {
 std::string key_of_run(const StudySession& study) {
     ContentHash hash;
     hash.add(study.maker.dump()), hash.add(study.config.source.dump()), hash.add(int(study.settings.keep_all));
+    hash.add(int(study.settings.has_report));
     for (const PlannedShot& shot : study.plan.shots)
         for (const PlannedCell& cell : shot.cells) hash.add(cell.name);
     return hash.hex();
@@ -131,7 +133,7 @@ private:
 
     void write_meanwhile() {
         write(false);
-        if (!std::exchange(has_said_where_, true))
+        if (study_.settings.has_report && !std::exchange(has_said_where_, true))
             study_.progress.say("The report so far: " + report_file(study_) + " (it fills while the study runs)");
     }
 

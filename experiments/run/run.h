@@ -16,6 +16,7 @@ struct RunSettings {
     bool takes_times_here = false;   ///< in place of times that another machine took
     bool takes_times_again = false;  ///< that other programs disturbed; the less disturbed are kept
     double report_after = 10;  ///< seconds until the first tables and report of a study that runs, and between them
+    bool has_report = true;    ///< else tables alone are made, for programs that read them
     std::vector<std::string> cells;  ///< which are done, as CellSelection takes them; empty: all
 };
 

@@ -90,7 +90,7 @@ StudyAnswers write_results(StudySession& study, bool is_complete, const nlohmann
         write_evaluation(study.settings.out, rows, manifest, study.config.variants, study.config.primary);
     }
     StudyAnswers answers;
-    {
+    if (study.settings.has_report) {
         const SpentTime::Span span(study.spent, "report");
         answers = write_report(study.settings.out);
     }

@@ -18,6 +18,7 @@
 #include <chrono>
 #include <limits>
 #include <map>
+#include <set>
 
 namespace {
 
@@ -288,12 +289,25 @@ std::unique_ptr<OpenShot> opened(StudySession& study, const PlannedShot& shot) {
     return open;
 }
 
-/// Compiles all that the study renders, so that a mistake in a shader is told before hours of work. Once in a process.
+/// The points of which some cell is not there.
+std::vector<VariantConfig> points_to_do(const StudySession& study) {
+    std::set<const VariantConfig*> missing;
+    for (const PlannedShot& shot : study.plan.shots)
+        for (const PlannedCell& cell : shot.cells)
+            if (cell.variant && !std::filesystem::exists(study.cells.file(cell.name))) missing.insert(cell.variant);
+    std::vector<VariantConfig> points;
+    for (const VariantConfig& point : study.config.variants)
+        if (missing.contains(&point)) points.push_back(point);
+    return points;
+}
+
+/// Compiles all that the study has yet to render, so that a mistake in a shader is told before hours of work. Once in a
+/// process.
 void rehearse_once(StudySession& study) {
     if (study.is_rehearsed) return;
     const SpentTime::Span span(study.spent, compiling);
     const auto start = std::chrono::steady_clock::now();
-    rehearse(study.device, study.config.variants);
+    rehearse(study.device, points_to_do(study));
     study.work.add_overhead(seconds_since(start));
     study.is_rehearsed = true;
 }

@@ -63,7 +63,9 @@ EffectRow effect(const std::string& shot, double ratio, double p, const std::str
     return row;
 }
 
-Judgement judged(const std::vector<EffectRow>& effects) { return judge_effects(effects, {}, "frames", "before"); }
+Judgement judged(const std::vector<EffectRow>& effects) {
+    return judge_effects(effects, {}, {"v", "frames"}, {"v", "before"});
+}
 
 }  // namespace
 
@@ -137,4 +139,19 @@ TEST_F(JudgeTest, NeverPassesWhatItCouldNotCompare) {
     EXPECT_TRUE(says(refusal("nowhere"), "external.json"));
     write_text(folder / "before/external.json", R"({"name": "other", "engine": "another", "version": "1"})");
     EXPECT_TRUE(says(refusal("frames", "before"), "of the same renderer"));
+}
+
+TEST(Judgement, TakesForIdenticalWhatMeasuresAlikeToTheLastDigit) {
+    const auto row = [](const std::string& variant, unsigned seed, std::optional<double> value) {
+        ResultRow r{.shot = "a", .frame = "0", .variant = variant, .point = "default", .seed = seed};
+        r.target = "specular", r.metric = "mse", r.mask = "all", r.value = value;
+        return r;
+    };
+    const PointName a = {"a", "default"}, b = {"b", "default"};
+    const auto alike = [&](const std::vector<ResultRow>& rows) { return measure_alike(rows, a, b); };
+    EXPECT_TRUE(alike({row("a", 0, 1.0), row("b", 0, 1.0), row("c", 0, 2.0)}));
+    EXPECT_FALSE(alike({row("a", 0, 1.0), row("b", 0, std::nextafter(1.0, 2.0))}));
+    EXPECT_FALSE(alike({row("a", 0, 1.0), row("a", 1, 1.0), row("b", 0, 1.0)})) << "of other seeds";
+    EXPECT_FALSE(alike({row("a", 0, {}), row("b", 0, {})})) << "nothing is known of either";
+    EXPECT_FALSE(alike({}));
 }

@@ -53,7 +53,7 @@ public:
         take(point, frames, "frames", chosen), take("as_is", before, "before", chosen);
         std::vector<EffectRow> effects = paired_effects(chosen.results, variants, {}, chosen.reference_noise);
         set_verdicts(effects, {});
-        return judge_effects(effects, {}, "frames", "before").verdict;
+        return judge_effects(effects, {}, {"three_ssr", "frames"}, {"three_ssr", "before"}).verdict;
     }
 
     /// Standard deviation of one frame's error over the mean of all.

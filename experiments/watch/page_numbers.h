@@ -1,0 +1,19 @@
+#pragma once
+#include "experiments/watch/page_images.h"
+#include "experiments/watch/watch_study.h"
+
+/// What the page shows of a results folder that numbers_study() filled: {"shots": [{"shot", "seeds", "pixels",
+/// "non_finite", "error": {"value", "low", "high", "interval"}, "images": {"truth", "now", "none", label of a point:
+/// {target: PageImages::add()}}}], "verdicts": [{"label", "verdict", "why", "views": [JudgedView]}]}.
+///
+/// Verdicts are judge_effects()'s, of `point` against each of `against` and against no reflections; where it cannot
+/// decide, "verdict" is "" and "why" its sentence.
+nlohmann::json page_numbers(const std::filesystem::path& results, const WatchedPoint& point,
+                            const std::vector<WatchedPoint>& against, PageImages& images);
+
+/// What the page shows of a folder that why_study() filled: {"times": [{"stage", "median", "low", "high"}],
+/// "time_effects": [{"label", "ratio", "low", "high", "verdict"}], "estimates": [{"stage", "product", "microseconds",
+/// "low", "high", "bound", "refusal"}], "causes": [{"cause", "share"}], "rays": [{"stage", "verdict", "share"}],
+/// "hits": {stage: PageImages::add()}}; a list is empty where there is nothing of it.
+nlohmann::json page_why(const std::filesystem::path& results, const WatchedPoint& point,
+                        const std::vector<WatchedPoint>& against, PageImages& images);
