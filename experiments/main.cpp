@@ -629,9 +629,10 @@ int parse_and_run(int argc, char** argv) {
         ->required()
         ->type_name("SCENE...");
     watch_command_
-        .add_option("--against", watch.against,
-                    "Also compare with this technique, NAME or NAME:PRESET, or another folder; best: what errs least in "
-                    "the included studies")
+        .add_option(
+            "--against", watch.against,
+            "Also compare with this technique, NAME or NAME:PRESET, or another folder; best: what errs least in "
+            "the included studies")
         ->type_name("NAME");
     watch_command_.add_option("--preset", watch.preset, "One of the technique's presets; default: its defaults")
         ->type_name("NAME");
@@ -659,7 +660,8 @@ int parse_and_run(int argc, char** argv) {
         ->capture_default_str()
         ->type_name("SECONDS");
     watch_command_
-        .add_option("--out", watch.out, "Folder of kept versions and of what is rendered; default: results/watch/<name>")
+        .add_option("--out", watch.out,
+                    "Folder of kept versions and of what is rendered; default: results/watch/<name>")
         ->type_name("DIR");
     add_device(watch_command_, common), add_scene_path(watch_command_, common), add_cache(watch_command_, common);
     add_reading(watch_command_);

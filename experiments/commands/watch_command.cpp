@@ -37,19 +37,19 @@ void watch_command(const WatchOptions& options, const std::vector<std::string>& 
     const std::filesystem::path folder =
         std::filesystem::weakly_canonical(std::filesystem::absolute(options.folder));  // "my_ssr/", ".", a link
     const EndingSignals signals;
-    WatchSession session({.folder = folder,
-                          .preset = options.preset,
-                          .scenes = options.scenes,
-                          .camera = options.camera,
-                          .extent = {options.size[0], options.size[1]},
-                          .frames = frame_numbers({&options.frames, 1}, most_frames, "a watch"),
-                          .against = options.against,
-                          .samples = options.samples,
-                          .seeds = options.seeds,
-                          .patience = options.patience,
-                          .out = options.out.empty() ? std::filesystem::path("results/watch") / folder.filename()
-                                                     : options.out,
-                          .run_options = run_options});
+    WatchSession session(
+        {.folder = folder,
+         .preset = options.preset,
+         .scenes = options.scenes,
+         .camera = options.camera,
+         .extent = {options.size[0], options.size[1]},
+         .frames = frame_numbers({&options.frames, 1}, most_frames, "a watch"),
+         .against = options.against,
+         .samples = options.samples,
+         .seeds = options.seeds,
+         .patience = options.patience,
+         .out = options.out.empty() ? std::filesystem::path("results/watch") / folder.filename() : options.out,
+         .run_options = run_options});
     session.run([] { return is_ended != 0; },
                 [](const std::string& text) {
                     std::printf("%s\n", shown_text(text).c_str());

@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
-#include "core/gpu/pipelines/shader.h"
+#include "core/gpu/pipelines/shader_files.h"
 
 #include <re2/re2.h>
 #include <algorithm>

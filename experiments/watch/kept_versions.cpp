@@ -13,9 +13,7 @@ namespace {
 using nlohmann::json;
 
 /// Named by its place, which no file may change: a name in versions.json would be a path.
-std::string name_of(const std::string& technique, size_t place) {
-    return technique + "_" + std::to_string(place + 1);
-}
+std::string name_of(const std::string& technique, size_t place) { return technique + "_" + std::to_string(place + 1); }
 
 }  // namespace
 

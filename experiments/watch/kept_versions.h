@@ -19,8 +19,7 @@ public:
 
     /// Copies the technique in technique/ as the next version, and its results in `now`, so that `ssrlab diff` can
     /// compare two versions of one name.
-    const KeptVersion& keep(const std::string& preset, const nlohmann::json& parameters,
-                            const nlohmann::json& numbers);
+    const KeptVersion& keep(const std::string& preset, const nlohmann::json& parameters, const nlohmann::json& numbers);
 
     const std::vector<KeptVersion>& all() const { return versions_; }
 

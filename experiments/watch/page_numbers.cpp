@@ -25,8 +25,7 @@ PointName name_of(const Row& row) {
     return {row.variant, row.point};
 }
 
-json verdict_on(const StudyTables& tables, const PointName& point, const PointName& against,
-                const std::string& label) {
+json verdict_on(const StudyTables& tables, const PointName& point, const PointName& against, const std::string& label) {
     json said = {{"label", label}, {"verdict", ""}, {"why", ""}, {"views", json::array()}};
     if (measure_alike(tables.seeds, point, against)) {
         said["verdict"] = judgement::identical;
@@ -64,8 +63,7 @@ json images_of(const fs::path& results, const json& manifest, const std::string&
                 known != labels.end())
                 label = known->second;
         if (label.empty()) continue;
-        found[label][target] =
-            images.add(image_path(results, entry.value("exr", "")), entry.value("exr_hash", ""));
+        found[label][target] = images.add(image_path(results, entry.value("exr", "")), entry.value("exr_hash", ""));
     }
     return found;
 }

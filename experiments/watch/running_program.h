@@ -8,8 +8,8 @@
 /// goes, and when the thread that made it ends.
 class RunningProgram {
 public:
-    /// `arguments`: the first its path. What it prints goes into `output`, its errors into `errors`; both files are made
-    /// anew. Fails with MachineError if a file cannot be made or the program cannot be started.
+    /// `arguments`: the first its path. What it prints goes into `output`, its errors into `errors`; both files are
+    /// made anew. Fails with MachineError if a file cannot be made or the program cannot be started.
     RunningProgram(const std::vector<std::string>& arguments, const std::filesystem::path& output,
                    const std::filesystem::path& errors);
     ~RunningProgram();

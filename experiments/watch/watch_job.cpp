@@ -28,30 +28,34 @@ std::string name_of(JobKind kind) {
 }
 
 /// With its config written.
-std::vector<std::string> arguments_of(JobKind kind, const WatchSettings& settings, const nlohmann::json& study) {
+std::vector<std::string> arguments_of(JobKind kind, const WatchSettings& settings, const nlohmann::json& study,
+                                      bool prunes) {
     const fs::path config = settings.out / (name_of(kind) + ".json");
     write_text(config, study.dump(1) + "\n");
     std::vector<std::string> arguments = {this_program().string(), "run", config.string(), "--replace"};
     arguments.push_back("--out=" + (settings.out / name_of(kind)).string());
     if (kind == JobKind::truth) arguments.push_back("--cells=references");
     if (kind != JobKind::truth && kind != JobKind::kept) arguments.push_back("--no-report");
+    if (prunes) arguments.push_back("--prune");
     arguments.insert(arguments.end(), settings.run_options.begin(), settings.run_options.end());
     return arguments;
 }
 
 double patience_with(JobKind kind, double seconds) {
-    return kind == JobKind::truth ? std::numeric_limits<double>::infinity() : kind == JobKind::why ? 4 * seconds : seconds;
+    return kind == JobKind::truth ? std::numeric_limits<double>::infinity()
+           : kind == JobKind::why ? 4 * seconds
+                                  : seconds;
 }
 
 }  // namespace
 
-WatchJob::WatchJob(JobKind kind, const WatchSettings& settings, const nlohmann::json& study)
+WatchJob::WatchJob(JobKind kind, const WatchSettings& settings, const nlohmann::json& study, bool prunes)
     : kind(kind),
       results(settings.out / name_of(kind)),
       output_(settings.out / (name_of(kind) + ".out")),
       errors_(settings.out / (name_of(kind) + ".err")),
       patience_(patience_with(kind, settings.patience)),
-      program_(arguments_of(kind, settings, study), output_, errors_) {}
+      program_(arguments_of(kind, settings, study, prunes), output_, errors_) {}
 
 uintmax_t WatchJob::said() const {
     std::error_code error;

@@ -11,8 +11,9 @@ enum class JobKind { truth, coarse, now, why, kept };
 /// when this object goes.
 class WatchJob {
 public:
-    /// Writes the study's config and starts it. Its results are added to those that the folder has.
-    WatchJob(JobKind kind, const WatchSettings& settings, const nlohmann::json& study);
+    /// Writes the study's config and starts it. Its results are added to those that the folder has, in place of those
+    /// of other studies if it `prunes`.
+    WatchJob(JobKind kind, const WatchSettings& settings, const nlohmann::json& study, bool prunes = false);
 
     enum class State { running, done, failed, hanging };
     /// `hanging`: it has said nothing for WatchSettings::patience seconds, four times that of a job `why`, which waits

@@ -122,14 +122,14 @@ struct WatchServer::Parts {
         const std::string refusal =
             value.is_discarded() ? "the page sent what is no JSON" : pages.take(name_in(request), value);
         const nlohmann::json answer = {{"refusal", refusal}};
-        response.set_content(answer.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace),
-                             "application/json");
+        response.set_content(answer.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), "application/json");
     }
 
     /// At once if there are other news than `known`, else as soon as there are, or after a while those that are known.
     WatchAnswer news_after(const std::string& known) {
         std::unique_lock lock(mutex);
-        changed.wait_for(lock, longest_wait, [&] { return is_ending || std::to_string(number) != known; });
+        changed.wait_for(lock, longest_wait,
+                         [&] { return is_ending || (number > 0 && std::to_string(number) != known); });
         return {.type = "application/json", .body = news};
     }
 
@@ -140,7 +140,7 @@ struct WatchServer::Parts {
     std::thread listening;
     std::mutex mutex;
     std::condition_variable changed;
-    size_t number = 0;         ///< of the news
+    size_t number = 0;  ///< of the news
     std::string news = "{}";
     bool is_ending = false;
 };

@@ -19,8 +19,9 @@ namespace {
 using nlohmann::json;
 using namespace std::chrono_literals;
 
-constexpr auto turn = 30ms;             // between looks at files, requests and jobs
-constexpr auto wait_for_truth = 3000ms;  // in the beginning: from the cache it is there by then
+constexpr auto turn = 30ms;                // between looks at files, requests and jobs
+constexpr auto pause_before_why = 1000ms;  // who goes on typing has no use for it
+constexpr auto wait_for_truth = 3000ms;    // in the beginning: from the cache it is there by then
 
 double seconds_between(std::chrono::system_clock::time_point a, std::chrono::system_clock::time_point b) {
     return std::chrono::duration<double>(b - a).count();
@@ -44,9 +45,17 @@ std::chrono::system_clock::time_point saved_at(const fs::path& folder) {
 }
 
 json described(const Parameter& p, const json& initial, bool is_read) {
-    return {{"name", p.name},   {"type", p.glsl_type}, {"unit", p.unit}, {"doc", p.doc},
-            {"value", p.value}, {"initial", initial},  {"min", p.min},   {"max", p.max},
+    return {{"name", p.name},       {"type", p.glsl_type}, {"unit", p.unit}, {"doc", p.doc},
+            {"value", p.value},     {"initial", initial},  {"min", p.min},   {"max", p.max},
             {"choices", p.choices}, {"is_read", is_read}};
+}
+
+std::string names_of_shaders(const fs::path& folder) {
+    std::string names;
+    for (const fs::path& file : technique_files(folder))
+        if (file.extension() == ".comp" || file.extension() == ".frag")
+            names += (names.empty() ? "" : ", ") + file.string();
+    return names;
 }
 
 WatchSettings with_absolute_paths(WatchSettings settings) {
@@ -57,7 +66,8 @@ WatchSettings with_absolute_paths(WatchSettings settings) {
              " --from mcguire_dda` makes one of a technique");
     const fs::path inside = settings.out.lexically_relative(settings.folder);
     if (!inside.empty() && *inside.begin() != "..")
-        fail("--out ", settings.out.string(), " lies in the folder that is watched: what is rendered there would be taken for a save");
+        fail("--out ", settings.out.string(),
+             " lies in the folder that is watched: what is rendered there would be taken for a save");
     return settings;
 }
 
@@ -134,7 +144,10 @@ std::string WatchSession::answer(const std::string& what, const json& value) {
 std::string WatchSession::keep() {
     if (result_.is_null() || result_["state"] != state_ || result_["is_coarse"].get<bool>())
         return "there is nothing to keep until this version is measured against the truth with all its samples";
-    versions_.keep(settings_.preset, values_, result_);
+    job_.reset();  // it writes where the numbers are copied from
+    json numbers = result_;
+    for (json& shot : numbers["shots"]) shot.erase("images");
+    versions_.keep(settings_.preset, values_, numbers);
     is_kept_done_ = false;
     begin(Clock::now());  // against this version from now on
     return "";
@@ -216,8 +229,8 @@ void WatchSession::follow_truth() {
         has_news_ = true;
     }
     if (truths_ < settings_.scenes.size())
-        truth_job_ = std::make_unique<WatchJob>(
-            JobKind::truth, settings_, numbers_study(settings_, {}, truths_ + 1, settings_.samples, false));
+        truth_job_ = std::make_unique<WatchJob>(JobKind::truth, settings_,
+                                                numbers_study(settings_, {}, truths_ + 1, settings_.samples, false));
 }
 
 void WatchSession::follow_job() {
@@ -227,9 +240,10 @@ void WatchSession::follow_job() {
             case WatchJob::State::running:
                 return;
             case WatchJob::State::hanging:
-                refuse(settings_.name() + ": rendering got no further for " +
+                refuse(settings_.folder.string() + ": rendering got no further for " +
                        std::to_string(std::lround(settings_.patience)) +
-                       " s and was ended: a loop in one of its shaders may have no end (--patience waits longer)");
+                       " s and was ended: a loop in one of its shaders (" + names_of_shaders(copy_) +
+                       ") may have no end; --patience waits longer");
                 is_valid_ = false;  // until the next save
                 break;
             case WatchJob::State::failed:
@@ -252,7 +266,7 @@ std::optional<JobKind> WatchSession::next_job() const {
         const bool is_due = Clock::now() - opened_ > wait_for_truth && !is_coarse_done_;
         return is_due ? std::optional(JobKind::coarse) : std::nullopt;
     }
-    if (!is_why_done_) return JobKind::why;
+    if (!is_why_done_ && Clock::now() - measured_ > pause_before_why) return JobKind::why;
     if (!is_kept_done_ && truths_ == settings_.scenes.size()) return JobKind::kept;
     return {};
 }
@@ -270,8 +284,10 @@ void WatchSession::start_job(JobKind kind) {
         if (against_) points.push_back(*against_);
         study = numbers_study(settings_, points, settings_.scenes.size(), settings_.samples, true);
     }
-    job_ = std::make_unique<WatchJob>(kind, settings_, study);
-    if (kind != JobKind::kept) seconds_[kind == JobKind::why ? "why began" : "began"] = seconds_between(since_, Clock::now());
+    // Without what earlier saves left: a day of saves would fill a disk.
+    const bool is_last = kind == JobKind::why || (kind == JobKind::now && scenes_ + 1 == settings_.scenes.size());
+    job_ = std::make_unique<WatchJob>(kind, settings_, study, is_last);
+    if (!seconds_.contains("began")) seconds_["began"] = seconds_between(since_, Clock::now());
     has_news_ = true;
 }
 
@@ -326,6 +342,7 @@ void WatchSession::finish_job() {
             if (kind == JobKind::coarse) is_coarse_done_ = true;
             if (kind == JobKind::now && scenes_++ == 0) seconds_["number"] = seconds_between(since_, Clock::now());
             problem_ = nullptr, has_picture_ = true;
+            measured_ = Clock::now();
         }
     } catch (const MachineError&) {
         throw;
@@ -356,7 +373,10 @@ json WatchSession::news() const {
     };
     json kept = json::array();
     for (const KeptVersion& v : versions_.all())
-        kept.push_back({{"name", v.name}, {"at", v.at}, {"parameters", v.parameters}, {"shots", v.numbers.value("shots", json::array())}});
+        kept.push_back({{"name", v.name},
+                        {"at", v.at},
+                        {"parameters", v.parameters},
+                        {"shots", v.numbers.value("shots", json::array())}});
     return {{"technique", settings_.name()},
             {"folder", settings_.folder.string()},
             {"out", settings_.out.string()},

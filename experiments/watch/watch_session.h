@@ -18,7 +18,8 @@ public:
     WatchSession(const WatchSession&) = delete;
     WatchSession& operator=(const WatchSession&) = delete;
 
-    /// Until `is_over` says so. `say` gets sentences for the user. Fails with Error where a scene cannot be path traced.
+    /// Until `is_over` says so. `say` gets sentences for the user. Fails with Error where a scene cannot be path
+    /// traced.
     void run(const std::function<bool()>& is_over, const std::function<void(const std::string&)>& say);
 
 private:
@@ -61,7 +62,7 @@ private:
 
     // How far the present state of the technique is.
     unsigned state_ = 0;  ///< its number, of saves and changes of values
-    Clock::time_point since_;
+    Clock::time_point since_, measured_;
     size_t scenes_ = 0;  ///< measured with the full truth
     bool is_coarse_done_ = false, is_why_done_ = false, is_kept_done_ = true, has_picture_ = false;
     std::unique_ptr<WatchJob> job_;

@@ -7,10 +7,10 @@
 
 /// What `ssrlab watch` was asked for.
 struct WatchSettings {
-    std::filesystem::path folder;          ///< of the technique
-    std::string preset;                    ///< "": its defaults
-    std::vector<std::string> scenes;       ///< as configs name them; the first is rendered first
-    std::string camera;                    ///< "": each scene's first
+    std::filesystem::path folder;     ///< of the technique
+    std::string preset;               ///< "": its defaults
+    std::vector<std::string> scenes;  ///< as configs name them; the first is rendered first
+    std::string camera;               ///< "": each scene's first
     glm::uvec2 extent{480, 270};
     std::vector<unsigned> frames{0};       ///< in a row; the last is measured
     std::string against;                   ///< NAME or NAME:PRESET, as configs name a variant; "": nothing

@@ -20,8 +20,8 @@ WatchedPoint point_against(const std::string& asked);
 /// rendered; versions/NAME_1, ..., copies that were kept; each study's config, and the results folder beside it.
 namespace watch_folder {
 inline constexpr const char *technique = "technique", *versions = "versions", *kept_numbers = "numbers";
-/// `kept` is a results folder of all kept versions; `now` one of what is shown, `coarse` of what is shown until the truth
-/// has all its samples, `why` of times, costs and where rays end.
+/// `kept` is a results folder of all kept versions; `now` one of what is shown, `coarse` of what is shown until the
+/// truth has all its samples, `why` of times, costs and where rays end.
 inline constexpr const char *now = "now", *coarse = "coarse", *why = "why", *kept = "kept", *truth = "truth";
 }  // namespace watch_folder
 

@@ -2,7 +2,6 @@
 
 #include "core/error.h"
 #include "core/files.h"
-#include "core/gpu/pipelines/shader.h"
 
 #include <algorithm>
 

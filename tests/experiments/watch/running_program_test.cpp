@@ -1,7 +1,7 @@
 // A program beside this one: its output, its end, and that of what it started.
+#include "experiments/watch/running_program.h"
 #include "core/error.h"
 #include "core/files.h"
-#include "experiments/watch/running_program.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -61,12 +61,10 @@ class Watched:
         check(made.returncode == 0, f"ssrlab new failed:\n{made.stderr}")
         self.shader = os.path.join(self.folder, "shade.comp")
         text = read(self.shader)
-        stores = re.findall(r"imageStore\(radiance,[^\n]*", text)
-        check(len(stores) == 1, f"shade.comp stores its radiance in other ways: {stores}")
-        weighed = re.sub(r"vec4\((\w+),", r"vec4(weighed(\1),", stores[0])
-        check(weighed != stores[0], f"shade.comp stores no vec4 of a name: {stores[0]}")
+        weighed = text.replace("lit_at(found.xy)", "weighed(lit_at(found.xy))")
+        check(weighed != text, "shade.comp reads the light in another way")
         self.weigh("1.0")
-        write(self.shader, '#include "my_part.glsl"\n' + text.replace(stores[0], weighed))
+        write(self.shader, '#include "my_part.glsl"\n' + weighed)
 
     def file(self, name):
         return os.path.join(self.folder, name)
@@ -86,7 +84,7 @@ class Page:
     def until(self, what, script, *arguments):
         """What a script returns, once that is true."""
         try:
-            return WebDriverWait(self.browser, SECONDS, poll_frequency=0.05).until(
+            return WebDriverWait(self.browser, SECONDS, poll_frequency=0.15).until(
                 lambda b: b.execute_script("return " + script, *arguments)
             )
         except Exception:
@@ -204,12 +202,12 @@ def check_keeping(page, out):
 
 
 def check_a_slider(page, before):
-    page.browser.execute_script(MOVE_A_SLIDER, "max_roughness", 100)
+    page.browser.execute_script(MOVE_A_SLIDER, "dda.thickness", 0)
     news = page.until(
         "the error with another value",
-        "page.news.values.max_roughness !== undefined && page.news.result.state === page.news.state ? page.news : null",
+        "page.news.values['dda.thickness'] !== undefined && page.news.result.state === page.news.state ? page.news : null",
     )
-    check(abs(news["values"]["max_roughness"] - 0.1) < 1e-3, f"a tenth of the slider gave {news['values']}")
+    check(news["values"] == {"dda.thickness": 0}, f"the left end of the slider gave {news['values']}")
     check(error_of(news)["value"] != error_of(before)["value"], "the slider changes nothing")
     check(verdict_of(news, "my_ssr_1")["verdict"] in ("better", "worse"), f"{verdict_of(news, 'my_ssr_1')}")
     return news
@@ -229,6 +227,10 @@ def check_bad_files(page, watched):
 
 def check_kept_folder(page, out):
     page.until("the results of kept versions", "page.news.is_kept_done")
+    news = page.until("why pixels are off", "page.news.why?.state === page.news.state ? page.news : null")
+    causes = {c["cause"]: c["share"] for c in news["why"]["causes"]}
+    check(abs(sum(causes.values()) - 1) < 1e-6 and len(page.text("causes").splitlines()) >= len(causes), f"causes: {causes}")
+    check({t["stage"] for t in news["why"]["times"]} >= {"my_ssr/trace", "my_ssr/shade", "total"}, f"times: {news['why']['times']}")
     with open(os.path.join(out, "kept", "summary.csv"), newline="", encoding="utf-8") as file:
         variants = {row["variant"] for row in csv.DictReader(file)}
     check(variants == {"none", "my_ssr_1"}, f"kept versions have {variants}")

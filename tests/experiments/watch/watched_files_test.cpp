@@ -1,7 +1,7 @@
 // What a watch takes for a save, and what it copies.
+#include "experiments/watch/watched_files.h"
 #include "core/error.h"
 #include "core/files.h"
-#include "experiments/watch/watched_files.h"
 #include "tests/error_message.h"
 
 #include <gtest/gtest.h>
