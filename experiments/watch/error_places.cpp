@@ -3,9 +3,11 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/gpu/pipelines/shader_files.h"
+#include "core/path_inside.h"
 
 #include <re2/re2.h>
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -17,21 +19,34 @@ using nlohmann::json;
 
 constexpr size_t most_places = 8, lines_around = 2, longest_line = 240;
 
-/// Whether a file lies below a folder, wherever links lead.
-bool is_below(const fs::path& file, const fs::path& folder) {
-    std::error_code error;
-    const fs::path inside = fs::weakly_canonical(file, error).lexically_relative(fs::weakly_canonical(folder, error));
-    return !error && !inside.empty() && *inside.begin() != "..";
+/// A file that a message names, and as its author knows it.
+struct NamedFile {
+    fs::path file, shown;
+};
+
+/// Without what it begins with; none if it begins otherwise.
+std::optional<std::string> behind(const std::string& name, const std::string& beginning) {
+    return name.starts_with(beginning) ? std::optional(name.substr(beginning.size())) : std::nullopt;
 }
 
-/// The file that a message means; "" if there is none. A message may hold what a stranger's shader says: no other files
-/// than shaders and the technique's own are shown.
-fs::path file_named(const std::string& name, const fs::path& copy) {
-    std::vector<std::pair<fs::path, fs::path>> tried = {{copy / name, copy}, {copy.parent_path() / name, copy}};
-    for (const fs::path& root : shader_roots()) tried.emplace_back(root / name, root);
-    std::error_code error;
-    for (const auto& [file, root] : tried)
-        if (fs::is_regular_file(file, error) && is_below(file, root)) return file;
+/// A message may hold what a stranger's shader says: no other files are shown than shaders and the technique's own.
+std::optional<NamedFile> file_named(const std::string& name, const fs::path& copy, const fs::path& folder) {
+    const auto found = [](const fs::path& root, const std::string& inside, const fs::path& shown) {
+        std::error_code error;
+        std::optional<NamedFile> named;
+        try {
+            const fs::path file = path_inside(root, inside);
+            if (fs::is_regular_file(file, error)) named = NamedFile{file, path_inside(shown, inside)};
+        } catch (const Error&) {  // it leads elsewhere
+        }
+        return named;
+    };
+    for (const auto& own :
+         {behind(name, copy.string() + "/"), behind(name, copy.filename().string() + "/"), std::optional(name)})
+        if (own)
+            if (const auto named = found(copy, *own, folder)) return named;
+    for (const fs::path& root : shader_roots())
+        if (const auto named = found(root, name, root)) return named;
     return {};
 }
 
@@ -66,13 +81,11 @@ json error_with_places(std::string text, const fs::path& copy, const fs::path& f
     std::string name;
     size_t line = 0;
     while (places.size() < most_places && RE2::FindAndConsume(&rest, place, &name, &line)) {
-        const fs::path file = file_named(name, copy);
-        if (file.empty() || !known.insert({file.string(), line}).second) continue;
+        const auto named = file_named(name, copy, folder);
+        if (!named || !known.insert({named->file.string(), line}).second) continue;
         try {
-            if (json lines = lines_at(file, line); !lines.is_null()) {
-                const fs::path shown = is_below(file, copy) ? folder / file.lexically_relative(copy) : file;
-                places.push_back({{"file", shown.string()}, {"line", line}, {"lines", lines}});
-            }
+            if (json lines = lines_at(named->file, line); !lines.is_null())
+                places.push_back({{"file", named->shown.string()}, {"line", line}, {"lines", lines}});
         } catch (const Error&) {  // a file that cannot be read shows no line
         }
     }

@@ -99,34 +99,10 @@ json page_numbers(const fs::path& results, const WatchedPoint& point, const std:
     return {{"shots", shots}, {"verdicts", verdicts}};
 }
 
-json page_why(const fs::path& results, const WatchedPoint& point, const std::vector<WatchedPoint>& against,
-              PageImages& images) {
+json page_why(const fs::path& results, const WatchedPoint& point, PageImages& images) {
     const StudyTables tables = read_study_tables(results);
     const PointName name = point.name();
-    json why = {{"times", json::array()},  {"time_effects", json::array()}, {"estimates", json::array()},
-                {"causes", json::array()}, {"rays", json::array()},         {"hits", json::object()}};
-    for (const TimeSummary& t : tables.times)
-        if (name_of(t) == name)
-            why["times"].push_back({{"stage", t.stage}, {"median", t.median}, {"low", t.low}, {"high", t.high}});
-    for (const TimeEffectRow& t : tables.time_effects) {
-        if (name_of(t) != name || t.stage != "total") continue;
-        for (const WatchedPoint& other : against)
-            if (other.name() == PointName(t.against_variant, t.against_point))
-                why["time_effects"].push_back({{"label", other.label},
-                                               {"ratio", t.ratio},
-                                               {"low", t.low},
-                                               {"high", t.high},
-                                               {"verdict", t.verdict}});
-    }
-    for (const EstimateRow& e : tables.estimates)
-        if (name_of(e) == name)
-            why["estimates"].push_back({{"stage", e.stage},
-                                        {"product", e.product},
-                                        {"microseconds", column_json(e.microseconds)},
-                                        {"low", column_json(e.low)},
-                                        {"high", column_json(e.high)},
-                                        {"bound", e.bound},
-                                        {"refusal", e.refusal}});
+    json why = {{"causes", json::array()}, {"rays", json::array()}, {"hits", json::object()}};
     if (const fs::path hits = results / "hits.csv"; fs::exists(hits))
         for (const HitRow& h : read_rows<HitRow>(hits)) {
             if (name_of(h) != name || h.mask != primary.mask) continue;
@@ -142,4 +118,33 @@ json page_why(const fs::path& results, const WatchedPoint& point, const std::vec
             why["hits"][entry.value("target", "")] =
                 images.add(image_path(results, entry.value("exr", "")), entry.value("exr_hash", ""), true);
     return why;
+}
+
+json page_times(const fs::path& results, const WatchedPoint& point, const std::vector<WatchedPoint>& against) {
+    const StudyTables tables = read_study_tables(results);
+    const PointName name = point.name();
+    json times = {{"stages", json::array()}, {"effects", json::array()}, {"estimates", json::array()}};
+    for (const TimeSummary& t : tables.times)
+        if (name_of(t) == name)
+            times["stages"].push_back({{"stage", t.stage}, {"median", t.median}, {"low", t.low}, {"high", t.high}});
+    for (const TimeEffectRow& t : tables.time_effects) {
+        if (name_of(t) != name || t.stage != "total") continue;
+        for (const WatchedPoint& other : against)
+            if (other.name() == PointName(t.against_variant, t.against_point))
+                times["effects"].push_back({{"label", other.label},
+                                            {"ratio", t.ratio},
+                                            {"low", t.low},
+                                            {"high", t.high},
+                                            {"verdict", t.verdict}});
+    }
+    for (const EstimateRow& e : tables.estimates)
+        if (name_of(e) == name)
+            times["estimates"].push_back({{"stage", e.stage},
+                                          {"product", e.product},
+                                          {"microseconds", column_json(e.microseconds)},
+                                          {"low", column_json(e.low)},
+                                          {"high", column_json(e.high)},
+                                          {"bound", e.bound},
+                                          {"refusal", e.refusal}});
+    return times;
 }

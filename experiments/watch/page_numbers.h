@@ -11,9 +11,13 @@
 nlohmann::json page_numbers(const std::filesystem::path& results, const WatchedPoint& point,
                             const std::vector<WatchedPoint>& against, PageImages& images);
 
-/// What the page shows of a folder that why_study() filled: {"times": [{"stage", "median", "low", "high"}],
-/// "time_effects": [{"label", "ratio", "low", "high", "verdict"}], "estimates": [{"stage", "product", "microseconds",
-/// "low", "high", "bound", "refusal"}], "causes": [{"cause", "share"}], "rays": [{"stage", "verdict", "share"}],
-/// "hits": {stage: PageImages::add()}}; a list is empty where there is nothing of it.
-nlohmann::json page_why(const std::filesystem::path& results, const WatchedPoint& point,
-                        const std::vector<WatchedPoint>& against, PageImages& images);
+/// What the page shows of a folder that why_study() filled: {"causes": [{"cause", "share"}], "rays": [{"stage",
+/// "verdict", "share"}], "hits": {stage: PageImages::add()}}; a list is empty where there is nothing of it.
+nlohmann::json page_why(const std::filesystem::path& results, const WatchedPoint& point, PageImages& images);
+
+/// What the page shows of a folder that times_study() filled: {"stages": [{"stage", "median", "low", "high"}],
+/// "effects":
+/// [{"label", "ratio", "low", "high", "verdict"}], "estimates": [{"stage", "product", "microseconds", "low", "high",
+/// "bound", "refusal"}]}.
+nlohmann::json page_times(const std::filesystem::path& results, const WatchedPoint& point,
+                          const std::vector<WatchedPoint>& against);

@@ -21,6 +21,8 @@ std::string name_of(JobKind kind) {
             return watch_folder::now;
         case JobKind::why:
             return watch_folder::why;
+        case JobKind::times:
+            return watch_folder::times;
         case JobKind::kept:
             return watch_folder::kept;
     }
@@ -42,9 +44,9 @@ std::vector<std::string> arguments_of(JobKind kind, const WatchSettings& setting
 }
 
 double patience_with(JobKind kind, double seconds) {
-    return kind == JobKind::truth ? std::numeric_limits<double>::infinity()
-           : kind == JobKind::why ? 4 * seconds
-                                  : seconds;
+    return kind == JobKind::truth   ? std::numeric_limits<double>::infinity()
+           : kind == JobKind::times ? 4 * seconds
+                                    : seconds;
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <chrono>
 
 /// What a run of a watch is for: watch_folder has their folders.
-enum class JobKind { truth, coarse, now, why, kept };
+enum class JobKind { truth, coarse, now, why, times, kept };
 
 /// `ssrlab run` of a study, beside this program: a shader that never ends takes that one with it, and no more. Ended
 /// when this object goes.
@@ -16,8 +16,8 @@ public:
     WatchJob(JobKind kind, const WatchSettings& settings, const nlohmann::json& study, bool prunes = false);
 
     enum class State { running, done, failed, hanging };
-    /// `hanging`: it has said nothing for WatchSettings::patience seconds, four times that of a job `why`, which waits
-    /// for other programs. Path tracing goes on as long as it takes.
+    /// `hanging`: it has said nothing for WatchSettings::patience seconds, four times that of a job `times`, which
+    /// waits for other programs. Path tracing goes on as long as it takes.
     State state();
     std::string error() const;  ///< what a failed one said; of several lines
 

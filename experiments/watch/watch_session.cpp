@@ -5,8 +5,10 @@
 #include "core/shown_text.h"
 #include "experiments/store/result_images.h"
 #include "experiments/watch/error_places.h"
+#include "experiments/watch/fresh_images.h"
 #include "experiments/watch/page_files.h"
 #include "experiments/watch/page_numbers.h"
+#include "experiments/watch/page_parameters.h"
 #include "variants/registry.h"
 
 #include <algorithm>
@@ -27,14 +29,6 @@ double seconds_between(std::chrono::system_clock::time_point a, std::chrono::sys
     return std::chrono::duration<double>(b - a).count();
 }
 
-/// Of a file that may go meanwhile.
-std::optional<std::chrono::system_clock::time_point> written_at(const fs::path& file) {
-    std::error_code error;
-    const fs::file_time_type time = fs::last_write_time(file, error);
-    if (error) return {};
-    return std::chrono::time_point_cast<std::chrono::system_clock::duration>(std::chrono::file_clock::to_sys(time));
-}
-
 /// When the folder was saved last; now, if it is gone.
 std::chrono::system_clock::time_point saved_at(const fs::path& folder) {
     std::optional<std::chrono::system_clock::time_point> newest;
@@ -42,12 +36,6 @@ std::chrono::system_clock::time_point saved_at(const fs::path& folder) {
         if (const auto time = written_at(folder / file); time && (!newest || *time > *newest)) newest = time;
     const auto now = std::chrono::system_clock::now();
     return newest && *newest < now && seconds_between(*newest, now) < 2 ? *newest : now;
-}
-
-json described(const Parameter& p, const json& initial, bool is_read) {
-    return {{"name", p.name},       {"type", p.glsl_type}, {"unit", p.unit}, {"doc", p.doc},
-            {"value", p.value},     {"initial", initial},  {"min", p.min},   {"max", p.max},
-            {"choices", p.choices}, {"is_read", is_read}};
 }
 
 std::string names_of_shaders(const fs::path& folder) {
@@ -167,34 +155,21 @@ void WatchSession::begin(Clock::time_point since) {
     job_.reset();
     ++state_;
     since_ = since;
-    scenes_ = 0, is_coarse_done_ = is_why_done_ = has_picture_ = false;
+    scenes_ = 0, is_coarse_done_ = is_why_done_ = are_times_done_ = has_picture_ = false;
     seconds_ = json::object();
     has_news_ = true;
     try {
         is_valid_ = false;
         since_ = std::min(since, saved_at(settings_.folder));
         copy_technique(settings_.folder, copy_);
-        read_technique();
+        add_technique_folder(copy_);
+        parameters_ = page_parameters(settings_.name(), settings_.preset, values_);
         is_valid_ = true;
     } catch (const MachineError&) {
         throw;
     } catch (const std::exception& e) {
         refuse(e.what());
     }
-}
-
-void WatchSession::read_technique() {
-    add_technique_folder(copy_);
-    const auto plain = make_variant(settings_.name(), json::object(), settings_.preset);
-    json known = json::object();  // what the technique does not declare any more has no value
-    for (const Parameter& p : plain->params)
-        if (values_.contains(p.name)) known[p.name] = values_[p.name];
-    values_ = known;
-    const auto variant = make_variant(settings_.name(), values_, settings_.preset);
-    parameters_ = json::array();
-    auto initial = plain->params.begin();
-    for (const Parameter& p : variant->params)
-        parameters_.push_back(described(p, (initial++)->value, is_read(variant->params, p.name)));
 }
 
 void WatchSession::refuse(const std::string& error) {
@@ -266,7 +241,9 @@ std::optional<JobKind> WatchSession::next_job() const {
         const bool is_due = Clock::now() - opened_ > wait_for_truth && !is_coarse_done_;
         return is_due ? std::optional(JobKind::coarse) : std::nullopt;
     }
-    if (!is_why_done_ && Clock::now() - measured_ > pause_before_why) return JobKind::why;
+    const bool is_quiet = Clock::now() - measured_ > pause_before_why;
+    if (!is_why_done_ && is_quiet) return JobKind::why;
+    if (!are_times_done_ && is_quiet) return JobKind::times;
     if (!is_kept_done_ && truths_ == settings_.scenes.size()) return JobKind::kept;
     return {};
 }
@@ -277,7 +254,8 @@ void WatchSession::start_job(JobKind kind) {
     json study;
     if (kind == JobKind::coarse) study = numbers_study(settings_, points, 1, coarse_samples, false);
     if (kind == JobKind::now) study = numbers_study(settings_, points, scenes_ + 1, settings_.samples, false);
-    if (kind == JobKind::why) study = why_study(settings_, points);
+    if (kind == JobKind::why) study = why_study(settings_, point());
+    if (kind == JobKind::times) study = times_study(settings_, points);
     if (kind == JobKind::kept) {
         points.clear();
         for (const KeptVersion& version : versions_.all()) points.push_back(version.point());
@@ -285,7 +263,8 @@ void WatchSession::start_job(JobKind kind) {
         study = numbers_study(settings_, points, settings_.scenes.size(), settings_.samples, true);
     }
     // Without what earlier saves left: a day of saves would fill a disk.
-    const bool is_last = kind == JobKind::why || (kind == JobKind::now && scenes_ + 1 == settings_.scenes.size());
+    const bool is_last = kind == JobKind::why || kind == JobKind::times ||
+                         (kind == JobKind::now && scenes_ + 1 == settings_.scenes.size());
     job_ = std::make_unique<WatchJob>(kind, settings_, study, is_last);
     if (!seconds_.contains("began")) seconds_["began"] = seconds_between(since_, Clock::now());
     has_news_ = true;
@@ -294,28 +273,12 @@ void WatchSession::start_job(JobKind kind) {
 /// The results of a seed lie there before its errors are measured.
 void WatchSession::look_for_picture() {
     if (has_picture_ || (job_->kind != JobKind::now && job_->kind != JobKind::coarse)) return;
-    std::error_code error;
-    json found = json::object();
-    const std::string own = settings_.name() + ".";
-    for (fs::recursive_directory_iterator file(job_->results / "images", error), end; !error && file != end;
-         file.increment(error)) {
-        const std::string name = file->path().filename().string();
-        if (!name.ends_with(".exr") || !(name.starts_with(own) || name.starts_with("reference."))) continue;
-        const auto time = written_at(file->path());
-        const bool is_result = name.find(".result.") != std::string::npos;
-        if (!time || (is_result && *time < job_->started) || (!is_result && name.starts_with(own))) continue;
-        for (const char* target : {"image", "specular"})
-            if (name.ends_with(std::string(".") + target + ".exr"))
-                found[is_result ? "now" : "truth"][target] = file->path().string();
-    }
-    if (!found["now"].contains("image") || !found["now"].contains("specular")) return;
+    auto found = fresh_images(job_->results, settings_.name(), job_->started);
+    if (found["now"].size() < 2) return;
     try {
         json images = json::object();
-        for (const auto& [label, targets] : found.items())
-            for (const auto& [target, path] : targets.items()) {
-                const std::string exr = path.get<std::string>();
-                images[label][target] = images_.add(exr, file_hash(exr));
-            }
+        for (const auto& [label, targets] : found)
+            for (const auto& [target, exr] : targets) images[label][target] = images_.add(exr, file_hash(exr));
         picture_ = {{"state", state_}, {"images", images}};
     } catch (const Error&) {
         return;  // it is being written; the next look finds it
@@ -332,9 +295,13 @@ void WatchSession::finish_job() {
         if (kind == JobKind::kept) {
             is_kept_done_ = true;
         } else if (kind == JobKind::why) {
-            why_ = page_why(job_->results, point(), compared(), images_);
+            why_ = page_why(job_->results, point(), images_);
             why_["state"] = state_;
             is_why_done_ = true;
+        } else if (kind == JobKind::times) {
+            times_ = page_times(job_->results, point(), compared());
+            times_["state"] = state_;
+            are_times_done_ = true;
         } else {
             result_ = page_numbers(job_->results, point(), compared(), images_);
             result_["state"] = state_, result_["is_coarse"] = kind == JobKind::coarse;
@@ -363,7 +330,9 @@ json WatchSession::news() const {
             case JobKind::now:
                 return "rendering " + settings_.scenes[std::min(scenes_, settings_.scenes.size() - 1)];
             case JobKind::why:
-                return "finding out why, and how long it takes";
+                return "finding out why pixels are off";
+            case JobKind::times:
+                return "timing, and estimating a GPU's time";
             case JobKind::kept:
                 return "measuring kept versions";
             case JobKind::truth:
@@ -389,6 +358,7 @@ json WatchSession::news() const {
             {"result", result_},
             {"picture", picture_},
             {"why", why_},
+            {"times", times_},
             {"parameters", parameters_},
             {"values", values_},
             {"kept", kept},

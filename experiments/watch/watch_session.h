@@ -33,7 +33,6 @@ private:
     std::string keep();
     std::string set_values(const nlohmann::json& values);
     void begin(Clock::time_point since);
-    void read_technique();
     void look_for_picture();
     void follow_truth();
     void follow_job();
@@ -64,7 +63,8 @@ private:
     unsigned state_ = 0;  ///< its number, of saves and changes of values
     Clock::time_point since_, measured_;
     size_t scenes_ = 0;  ///< measured with the full truth
-    bool is_coarse_done_ = false, is_why_done_ = false, is_kept_done_ = true, has_picture_ = false;
+    bool is_coarse_done_ = false, is_why_done_ = false, are_times_done_ = false, is_kept_done_ = true,
+         has_picture_ = false;
     std::unique_ptr<WatchJob> job_;
 
     std::unique_ptr<WatchJob> truth_job_;
@@ -72,7 +72,7 @@ private:
     Clock::time_point opened_;
 
     /// What the page shows.
-    nlohmann::json problem_, result_, picture_, why_, seconds_ = nlohmann::json::object();
+    nlohmann::json problem_, result_, picture_, why_, times_, seconds_ = nlohmann::json::object();
     bool has_news_ = true;
 
     struct Request {

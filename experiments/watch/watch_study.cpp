@@ -74,11 +74,18 @@ json numbers_study(const WatchSettings& settings, const std::vector<WatchedPoint
     return study;
 }
 
-json why_study(const WatchSettings& settings, const std::vector<WatchedPoint>& points) {
-    json study = numbers_study(settings, points, 1, settings.samples, false);
+json why_study(const WatchSettings& settings, const WatchedPoint& point) {
+    json study = numbers_study(settings, {point}, 1, settings.samples, false);
     study["variants"].erase(0);  // no reflections, of which nothing is asked
     study["seeds"] = 1;
     study["hits"] = json::object();
+    return study;
+}
+
+json times_study(const WatchSettings& settings, const std::vector<WatchedPoint>& points) {
+    json study = numbers_study(settings, points, 1, settings.samples, false);
+    study["variants"].erase(0);
+    study["seeds"] = 1;
     study["costs"] = true;
     study["gpu_compilers"] = {"navi21"};
     study["timing"] = {{"frames", 15}, {"most_share", 100}};

@@ -21,8 +21,9 @@ WatchedPoint point_against(const std::string& asked);
 namespace watch_folder {
 inline constexpr const char *technique = "technique", *versions = "versions", *kept_numbers = "numbers";
 /// `kept` is a results folder of all kept versions; `now` one of what is shown, `coarse` of what is shown until the
-/// truth has all its samples, `why` of times, costs and where rays end.
-inline constexpr const char *now = "now", *coarse = "coarse", *why = "why", *kept = "kept", *truth = "truth";
+/// truth has all its samples, `why` of where rays end, `times` of times and costs.
+inline constexpr const char *now = "now", *coarse = "coarse", *why = "why", *times = "times", *kept = "kept",
+                            *truth = "truth";
 }  // namespace watch_folder
 
 /// Of the truth until its full samples are there.
@@ -34,5 +35,8 @@ inline constexpr unsigned coarse_samples = 16;
 nlohmann::json numbers_study(const WatchSettings& settings, const std::vector<WatchedPoint>& points, size_t scenes,
                              unsigned samples, bool is_whole);
 
-/// A study of the first scene that tells why the points err, what their stages take, and what a GPU would.
-nlohmann::json why_study(const WatchSettings& settings, const std::vector<WatchedPoint>& points);
+/// A study of the first scene that tells why a point errs: where its rays end.
+nlohmann::json why_study(const WatchSettings& settings, const WatchedPoint& point);
+
+/// One that tells what stages of the points take, here and on a GPU.
+nlohmann::json times_study(const WatchSettings& settings, const std::vector<WatchedPoint>& points);

@@ -69,20 +69,19 @@ function writeWhy({why, state}) {
                        element("span", {class: "bar-room"}, bar), element("span", {}, `${kind}: ${text}`));
     }));
     at("causes").classList.toggle("is-old", Boolean(why) && why.state !== state);
-    at("times").classList.toggle("is-old", Boolean(why) && why.state !== state);
 }
 
-function writeTimes({why}) {
-    const estimates = new Map((why?.estimates ?? []).map(e => [e.stage, e]));
-    const [one] = estimates.values();
+function writeTimes({times, state}) {
+    const estimates = new Map((times?.estimates ?? []).map(e => [e.stage, e]));
+    const [one] = estimates.values(), refusal = [...estimates.values()].find(e => e.refusal)?.refusal;
     const estimate = e => !e ? "" : e.microseconds === null ? "–" : `${fourDigits(e.microseconds)}${ends(e)} (${e.bound})`;
     fillTable("times", ["stage", "here, ms", one ? `${one.product}, estimated µs` : "GPU"],
-              (why?.times ?? []).map(t => [t.stage, fourDigits(t.median) + ends(t), estimate(estimates.get(t.stage))]));
-    const refusal = [...estimates.values()].find(e => e.refusal)?.refusal;
-    at("time-note").textContent =
-        [...(why?.time_effects ?? []).map(
-             e => `${fourDigits(e.ratio)}${ends(e)} times the time of ${e.label}${e.verdict ? `: ${e.verdict}` : ""}`),
-         ...refusal ? [`No estimate of a GPU's time: ${refusal}`] : []].join("; ");
+              (times?.stages ?? []).map(t => [t.stage, fourDigits(t.median) + ends(t), estimate(estimates.get(t.stage))]));
+    const notes = (times?.effects ?? []).map(
+        e => `${fourDigits(e.ratio)}${ends(e)} times the time of ${e.label}${e.verdict ? `: ${e.verdict}` : ""}`);
+    if (refusal) notes.push(`No estimate of a GPU's time: ${refusal}`);
+    at("time-note").textContent = times ? notes.join("; ") : "Taken once the errors are there.";
+    at("times").classList.toggle("is-old", Boolean(times) && times.state !== state);
 }
 
 function writeSeconds({seconds, result, samples, truths, scenes}) {
