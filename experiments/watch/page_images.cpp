@@ -2,6 +2,7 @@
 
 #include "core/exr.h"
 #include "experiments/report/report_images.h"
+#include "experiments/store/result_images.h"
 
 namespace {
 
@@ -9,7 +10,8 @@ constexpr size_t most_images = 200;  // at 480x270 some 100 MB
 
 }  // namespace
 
-nlohmann::json PageImages::add(const std::filesystem::path& exr, const std::string& hash, bool is_of_verdicts) {
+nlohmann::json PageImages::add(const std::filesystem::path& exr, bool is_of_verdicts) {
+    const std::string hash = file_hash(exr);
     {
         const std::lock_guard lock(mutex_);
         if (const auto found = kept_.find(hash); found != kept_.end()) return found->second.description;

@@ -11,7 +11,7 @@ class PageImages {
 public:
     /// What the page is told of an image: {"name", "format", "width", "height"}, with which it asks for it.
     /// `is_of_verdicts`: of a map of rays' verdicts, whose colours are few. Fails with Error if it cannot be read.
-    nlohmann::json add(const std::filesystem::path& exr, const std::string& hash, bool is_of_verdicts = false);
+    nlohmann::json add(const std::filesystem::path& exr, bool is_of_verdicts = false);
 
     /// Of a name that add() gave; none of others, and of images that are long gone. Any thread may ask.
     std::optional<WatchAnswer> find(const std::string& name) const;

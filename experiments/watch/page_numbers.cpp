@@ -63,7 +63,7 @@ json images_of(const fs::path& results, const json& manifest, const std::string&
                 known != labels.end())
                 label = known->second;
         if (label.empty()) continue;
-        found[label][target] = images.add(image_path(results, entry.value("exr", "")), entry.value("exr_hash", ""));
+        found[label][target] = images.add(image_path(results, entry.value("exr", "")));
     }
     return found;
 }
@@ -115,8 +115,7 @@ json page_why(const fs::path& results, const WatchedPoint& point, PageImages& im
     for (const json& entry : tables.manifest.value("images", json::array()))
         if (entry.value("kind", "") == "hits" &&
             PointName(entry.value("variant", ""), entry.value("point", "")) == name)
-            why["hits"][entry.value("target", "")] =
-                images.add(image_path(results, entry.value("exr", "")), entry.value("exr_hash", ""), true);
+            why["hits"][entry.value("target", "")] = images.add(image_path(results, entry.value("exr", "")), true);
     return why;
 }
 

@@ -3,7 +3,6 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/shown_text.h"
-#include "experiments/store/result_images.h"
 #include "experiments/watch/error_places.h"
 #include "experiments/watch/fresh_images.h"
 #include "experiments/watch/page_files.h"
@@ -278,7 +277,7 @@ void WatchSession::look_for_picture() {
     try {
         json images = json::object();
         for (const auto& [label, targets] : found)
-            for (const auto& [target, exr] : targets) images[label][target] = images_.add(exr, file_hash(exr));
+            for (const auto& [target, exr] : targets) images[label][target] = images_.add(exr);
         picture_ = {{"state", state_}, {"images", images}};
     } catch (const Error&) {
         return;  // it is being written; the next look finds it
