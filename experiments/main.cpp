@@ -656,7 +656,7 @@ int parse_and_run(int argc, char** argv) {
     watch_command_
         .add_option("--patience", watch.patience,
                     "Seconds without a sign of life after which rendering is ended, as of a loop without end")
-        ->check(real_in(1, 1e6, "a number from 1 to 1000000"))
+        ->check(real_in(15, 1e6, "a number from 15, as there is a sign every ten seconds, to 1000000"))
         ->capture_default_str()
         ->type_name("SECONDS");
     watch_command_

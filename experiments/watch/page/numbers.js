@@ -39,6 +39,14 @@ const errorText = ({error, pixels, non_finite}) => {
     return fourDigits(error.value) + interval + (non_finite ? `, without ${non_finite} pixels that are NaN or infinite` : "");
 };
 
+/// What is not finite is in no error, so that a verdict on the rest says little.
+function writeNonFinite({result}) {
+    const texts = (result?.shots ?? []).filter(s => s.non_finite).map(s => `${s.non_finite} of ${s.non_finite + s.pixels} in ${s.shot}`);
+    at("non-finite").hidden = !texts.length;
+    at("non-finite").textContent =
+        `Reflective pixels are NaN or infinite: ${texts.join(", ")}. Errors and verdicts are of the others alone.`;
+}
+
 function writeShots({result}) {
     fillTable("shots", ["shot", "mse of reflective pixels", "seeds"],
               (result?.shots ?? []).map(s => [s.shot, errorText(s), String(s.seeds)]));

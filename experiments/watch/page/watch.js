@@ -81,7 +81,7 @@ function show(news) {
     const isOld = Boolean(news.result) && news.result.state !== news.state;
     for (const id of ["verdicts", "shots"]) at(id).classList.toggle("is-old", isOld);
     at("keep").disabled = !news.result || isOld || news.result.is_coarse;
-    for (const write of [writeProblem, writeVerdicts, writeShots, writeWhy, writeTimes, writeSeconds, writeKept, writeSliders, writeChoices])
+    for (const write of [writeProblem, writeVerdicts, writeNonFinite, writeShots, writeWhy, writeTimes, writeSeconds, writeKept, writeSliders, writeChoices])
         write(news);
     paint();
     document.documentElement.dataset.state = isOld ? "" : news.result?.is_coarse ? "coarse" : news.result?.state ?? "";
