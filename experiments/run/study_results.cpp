@@ -93,6 +93,9 @@ StudyAnswers write_results(StudySession& study, bool is_complete, const nlohmann
     if (study.settings.has_report) {
         const SpentTime::Span span(study.spent, "report");
         answers = write_report(study.settings.out);
+    } else {
+        std::error_code error;
+        std::filesystem::remove(study.settings.out / "report.html", error);  // of other numbers
     }
     manifest["run"] = run_entry(study);
     write_text(file, manifest.dump(1) + "\n");

@@ -176,6 +176,19 @@ void WatchSession::refuse(const std::string& error) {
     has_news_ = true;
 }
 
+/// What the job was for is not tried again before the next save; without numbers all that follows them has no meaning.
+void WatchSession::give_up(const std::string& error) {
+    refuse(error);
+    if (job_->kind == JobKind::why)
+        is_why_done_ = true;
+    else if (job_->kind == JobKind::times)
+        are_times_done_ = true;
+    else if (job_->kind == JobKind::kept)
+        is_kept_done_ = true;
+    else
+        is_valid_ = false;
+}
+
 WatchedPoint WatchSession::point() const {
     return {.variant = std::string("./") + watch_folder::technique + "/" + settings_.name(),
             .preset = settings_.preset,
@@ -214,15 +227,13 @@ void WatchSession::follow_job() {
             case WatchJob::State::running:
                 return;
             case WatchJob::State::hanging:
-                refuse(settings_.folder.string() + ": rendering got no further for " +
-                       std::to_string(std::lround(settings_.patience)) +
-                       " s and was ended: a loop in one of its shaders (" + names_of_shaders(copy_) +
-                       ") may have no end; --patience waits longer");
-                is_valid_ = false;  // until the next save
+                give_up(settings_.folder.string() + ": rendering got no further for " +
+                        std::to_string(std::lround(settings_.patience)) +
+                        " s and was ended: a loop in one of its shaders (" + names_of_shaders(copy_) +
+                        ") may have no end; --patience waits longer");
                 break;
             case WatchJob::State::failed:
-                refuse(job_->error());
-                is_valid_ = false;
+                give_up(job_->error());
                 break;
             case WatchJob::State::done:
                 finish_job();
@@ -313,8 +324,7 @@ void WatchSession::finish_job() {
     } catch (const MachineError&) {
         throw;
     } catch (const Error& e) {
-        refuse(e.what());
-        is_valid_ = false;
+        give_up(e.what());
     }
 }
 

@@ -40,6 +40,7 @@ private:
     std::optional<JobKind> next_job() const;
     void start_job(JobKind kind);
     void refuse(const std::string& error);
+    void give_up(const std::string& error);
 
     // What studies are made of.
     WatchedPoint point() const;
