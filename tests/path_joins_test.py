@@ -52,7 +52,6 @@ ALLOWED = {
     ("experiments/watch/kept_versions.cpp", "out_ / watch_folder::technique"): PROGRAM,
     ("experiments/watch/kept_versions.cpp", "out_ / watch_folder::versions"): PROGRAM,
     ("experiments/watch/watch_session.cpp", "folder / file"): LISTED,
-    ("experiments/watch/watch_session.cpp", "settings_.out / watch_folder::technique"): PROGRAM,
     ("experiments/watch/watched_files.cpp", "folder / file"): LISTED,
     ("experiments/watch/watched_files.cpp", "fs::path(SSRLAB_SOURCE_DIR) / root"): PROGRAM,
     ("experiments/watch/watched_files.cpp", "made / file"): LISTED,

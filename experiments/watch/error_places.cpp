@@ -24,11 +24,6 @@ struct NamedFile {
     fs::path file, shown;
 };
 
-/// Without what it begins with; none if it begins otherwise.
-std::optional<std::string> behind(const std::string& name, const std::string& beginning) {
-    return name.starts_with(beginning) ? std::optional(name.substr(beginning.size())) : std::nullopt;
-}
-
 /// A message may hold what a stranger's shader says: no other files are shown than shaders and the technique's own.
 std::optional<NamedFile> file_named(const std::string& name, const fs::path& copy, const fs::path& folder) {
     const auto found = [](const fs::path& root, const std::string& inside, const fs::path& shown) {
@@ -41,12 +36,11 @@ std::optional<NamedFile> file_named(const std::string& name, const fs::path& cop
         }
         return named;
     };
-    for (const auto& own :
-         {behind(name, copy.string() + "/"), behind(name, copy.filename().string() + "/"), std::optional(name)})
-        if (own)
-            if (const auto named = found(copy, *own, folder)) return named;
+    const fs::path path = name;
+    for (const fs::path& own : {path.lexically_relative(copy), path.lexically_relative(copy.filename()), path})
+        if (const auto found_own = found(copy, own.string(), folder)) return found_own;
     for (const fs::path& root : shader_roots())
-        if (const auto named = found(root, name, root)) return named;
+        if (const auto shared = found(root, name, root)) return shared;
     return {};
 }
 
