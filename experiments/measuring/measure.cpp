@@ -94,21 +94,38 @@ MetricReference target_reference(const std::string& target, const Reference& ref
     return metric_reference(std::move(mean), std::move(halves), metrics, settings);
 }
 
-/// One row per score. A mask that holds no pixel of this scene gives none; one whose pixels are all non-finite gives a
-/// row without a value.
+/// Of a mask's pixels, those that a result may leave undefined: were it more, the others would stand for them, and a
+/// technique that fails where it errs most would seem the best.
+constexpr double most_undefined = 0.01;
+
+/// Per mask, how many finite pixels an error under it needs.
+std::vector<size_t> needed_pixels(std::span<const Mask> masks, const MetricReference& reference) {
+    std::vector<size_t> needed;
+    for (const Mask& mask : masks)
+        needed.push_back(
+            size_t(std::ceil((1 - most_undefined) * double(intersection(mask, reference.finite).count()))));
+    return needed;
+}
+
+/// One row per score. A mask that holds no pixel of this scene gives none; one of whose pixels too many are not finite
+/// gives a row without a value.
 void add_rows(std::vector<ResultRow>& rows, const MetricReference& reference, const std::string& target,
               const HostImage& test, std::span<const Mask> masks, const ResultRow& shared,
               std::vector<NoiseTerms>* noise = nullptr) {
     PixelCounts counts;
     std::vector<NoiseTerms> terms;
     std::vector<Score> scores = score(reference, test, masks, &counts, noise ? &terms : nullptr);
+    const std::vector<size_t> needed = needed_pixels(masks, reference);
     for (size_t i = 0; i < scores.size(); ++i) {
         Score& s = scores[i];
         if (masks[i % masks.size()].count() == 0) continue;
         ResultRow r = shared;
         r.target = target, r.metric = s.metric->name, r.formula = s.formula, r.mask = s.mask;
-        r.value = if_finite(s.value), r.is_corrected = s.corrected, r.uncorrected = if_finite(s.uncorrected);
-        r.low = if_finite(s.low), r.high = if_finite(s.high), r.floor = if_finite(s.floor);
+        r.is_corrected = s.corrected, r.floor = if_finite(s.floor);
+        if (s.pixels >= needed[i % masks.size()]) {
+            r.value = if_finite(s.value), r.uncorrected = if_finite(s.uncorrected);
+            r.low = if_finite(s.low), r.high = if_finite(s.high);
+        }
         r.growth = std::move(s.growth), r.pixels = s.pixels, r.non_finite = counts.non_finite(),
         r.negative = counts.negative;
         rows.push_back(std::move(r));

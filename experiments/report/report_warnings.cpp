@@ -208,7 +208,8 @@ std::vector<std::string> pixel_warnings(std::span<const MetricSummary> errors) {
         if (counts.first)
             warnings.push_back(where + std::to_string(counts.first) +
                                (counts.first == 1 ? " pixel is" : " pixels are") +
-                               " NaN or infinite and left out of every mean.");
+                               " NaN or infinite and left out of every mean; where they are more than 1 % of a mask's "
+                               "pixels there is none.");
         if (counts.second)
             warnings.push_back(where + std::to_string(counts.second) +
                                (counts.second == 1 ? " pixel is" : " pixels are") + " negative.");

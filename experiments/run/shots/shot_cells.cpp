@@ -38,15 +38,20 @@ void say_result(StudySession& study, const Cell& cell) {
     std::map<std::string, std::vector<double>> values;  // by frame
     size_t non_finite = 0;                              // pixels, of the worst seed
     for (const ResultRow& r : cell.rows)
-        if (r.target == shown.target && r.metric == shown.metric && r.mask == shown.mask && r.value)
-            values[r.frame].push_back(*r.value), non_finite = std::max(non_finite, size_t(r.non_finite));
+        if (r.target == shown.target && r.metric == shown.metric && r.mask == shown.mask) {
+            non_finite = std::max(non_finite, size_t(r.non_finite));
+            if (r.value) values[r.frame].push_back(*r.value);
+        }
+    const auto name = [&] { return display_name(study.config, cell.rows.front().variant, cell.rows.front().point); };
+    if (values.empty() && non_finite > 0)
+        study.progress.say("  " + name() + ": no value, for " + std::to_string(non_finite) +
+                           (non_finite == 1 ? " pixel is" : " pixels are") + " NaN or infinite");
     if (values.empty()) return;
     const auto& [frame, seeds] = values.contains(over_frames) ? *values.find(over_frames) : *values.rbegin();
     double sum = 0;
     for (const double value : seeds) sum += value;
     char line[240];
-    std::snprintf(line, sizeof line, "  %-56s %s of %s pixels %.4g (%s, %zu seed%s)",
-                  display_name(study.config, cell.rows.front().variant, cell.rows.front().point).c_str(),
+    std::snprintf(line, sizeof line, "  %-56s %s of %s pixels %.4g (%s, %zu seed%s)", name().c_str(),
                   shown.metric.c_str(), shown.mask.c_str(), sum / double(seeds.size()),
                   frame == over_frames ? "over all frames" : ("frame " + frame).c_str(), seeds.size(),
                   seeds.size() == 1 ? "" : "s");

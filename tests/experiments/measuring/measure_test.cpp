@@ -63,6 +63,21 @@ TEST(Measure, ReportsAResultWithoutAnyFinitePixel) {
     }
 }
 
+/// The others would stand for the pixels that a technique leaves undefined: perfect ones for those where it fails.
+TEST(Measure, FewPixelsMayBeUndefinedWhereThereIsAValue) {
+    PoseTruth truth;
+    truth.targets.emplace("specular", metric_reference(HostImage({16, 16}, 3, 1.0f), {}, {"mse"}, {}));
+    const auto value = [&](size_t undefined) {
+        CompositedImages images{.specular = HostImage({16, 16}, 3, 1.0f),
+                                .incident = HostImage({16, 16}, 3),
+                                .confidence = HostImage({16, 16}, 1)};
+        for (size_t i = 0; i < undefined; ++i) images.specular.set_rgb(i, glm::vec3(NAN));
+        return measure_targets(truth, images, std::vector{full_mask({16, 16})}, {}).at(0).value;
+    };
+    EXPECT_EQ(value(2), 0.0);
+    EXPECT_FALSE(value(3)) << "more than a hundredth of 256";
+}
+
 /// The noise of two equal frames is one, and no mean of theirs has less.
 TEST(Measure, MeansOverFramesOfExtrapolatedErrorsHaveTheirInterval) {
     const glm::uvec2 extent(64, 32);
