@@ -142,10 +142,6 @@ std::map<uint32_t, uint32_t> constants_of(const Shader& shader, const ParameterS
     return values;
 }
 
-}  // namespace
-
-namespace {
-
 std::string name_of_version(const std::string& file) { return file + '#' + std::to_string(shader_version(file)); }
 
 }  // namespace
