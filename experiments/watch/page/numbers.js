@@ -73,7 +73,7 @@ function writeWhy({why, state}) {
         bar.style.width = `${Math.max(0, Math.min(100, 100 * share))}%`;
         bar.style.background = "var(--accent)";
         const [kind, text] = causeTexts[cause];
-        return element("li", {"data-cause": cause}, element("span", {class: "share"}, `${fourDigits(100 * share)} %`),
+        return element("li", {"data-cause": cause}, element("span", {class: "share"}, `${Math.round(100 * share)} %`),
                        element("span", {class: "bar-room"}, bar), element("span", {}, `${kind}: ${text}`));
     }));
     at("causes").classList.toggle("is-old", Boolean(why) && why.state !== state);
