@@ -13,7 +13,7 @@ const ends = ({low, high}) => low === null || high === null ? "" : ` [${fourDigi
 
 /// "no difference of less than 1.08 times would have been seen", of the view that says most.
 function verdictText({verdict, why, views}) {
-    if (verdict === "identical") return "every pixel gives the same numbers";
+    if (verdict === "identical") return "all errors are the same to the last digit";
     if (!verdict) return why;
     return views
         .map(v => `${views.length > 1 ? v.shot + ": " : ""}${fourDigits(v.ratio)}${ends(v)} times its error${
