@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/gpu/pipelines/double_shader.h"
+#include "core/gpu/pipelines/shader_cache.h"
 #include "core/gpu/pipelines/shader_error.h"
 #include "core/gpu/pipelines/shader_files.h"
 #include "core/gpu/pipelines/spirv_module.h"
@@ -233,8 +234,6 @@ Webgl2Sources webgl2_sources(const std::string& file, const std::string& prelude
 
 Shader compile(const std::string& file, const std::string& vertex_file, const std::string& prelude,
                const ShaderIncludes& includes, ShaderLanguage language, const ShaderChanges& changes) {
-    static const bool initialised = glslang::InitializeProcess();
-    (void)initialised;
     const bool webgl2 = language == ShaderLanguage::webgl2, is_compute = file.ends_with(".comp");
 
     std::vector<SourceFile> files = {{"prelude"}, {file}};
@@ -253,6 +252,13 @@ Shader compile(const std::string& file, const std::string& vertex_file, const st
                              ? webgl2_fragment(prelude, includes, files)
                              : with_changes(complete_source(prelude, 1, includes, files, changes.is_for_cpu), changes));
 
+    std::vector<std::string> compiled = {webgl2 ? "webgl2" : "vulkan", changes.is_counted ? "counted" : "as it is"};
+    for (const auto& [stage, text] : sources) compiled.push_back(std::to_string(stage) + '\n' + text);
+    const std::string key = ShaderCache::key_of(compiled);
+    if (std::optional<Shader> kept = ShaderCache::find(key)) return *std::move(kept);
+
+    static const bool initialised = glslang::InitializeProcess();
+    (void)initialised;
     Shader result;
     const auto rules = webgl2 ? EShMsgDefault : EShMessages(EShMsgSpvRules | EShMsgVulkanRules);
     for (const auto& [stage, text] : sources) {
@@ -281,7 +287,7 @@ Shader compile(const std::string& file, const std::string& vertex_file, const st
         if (!program.link(rules) || (!webgl2 && !program.mapIO()))
             throw ShaderError("cannot link " + (is_vertex ? vertex_file : file) + ":\n" +
                               with_file_names(program.getInfoLog(), files));
-        if (webgl2) return {};
+        if (webgl2) break;
         program.buildReflection(EShReflectionAllBlockVariables | EShReflectionIntermediateIO |
                                 EShReflectionSeparateBuffers);
         reflect(program, is_vertex, result.interface);
@@ -294,5 +300,6 @@ Shader compile(const std::string& file, const std::string& vertex_file, const st
         if (changes.is_counted && !is_vertex) result.counters = count_in(spirv);
         find_constants(spirv, result.interface.constants);
     }
+    ShaderCache::keep(key, result);
     return result;
 }

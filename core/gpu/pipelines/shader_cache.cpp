@@ -1,0 +1,137 @@
+#include "core/gpu/pipelines/shader_cache.h"
+
+#include "core/cache_folder.h"
+#include "core/error.h"
+#include "core/files.h"
+
+#include <glslang/Public/ShaderLang.h>
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <spirv-tools/libspirv.hpp>
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+fs::path folder() {
+    const char* const own = std::getenv("SSRLAB_SHADER_CACHE");
+    return own && *own ? fs::path(own) : default_cache_folder() / "shaders";
+}
+
+json::binary_t bytes_of(const std::vector<unsigned>& words) {
+    std::vector<uint8_t> bytes(words.size() * sizeof(unsigned));
+    std::memcpy(bytes.data(), words.data(), bytes.size());
+    return json::binary_t(std::move(bytes));
+}
+
+std::vector<unsigned> words_of(const json::binary_t& bytes) {
+    std::vector<unsigned> words(bytes.size() / sizeof(unsigned));
+    std::memcpy(words.data(), bytes.data(), words.size() * sizeof(unsigned));
+    return words;
+}
+
+json json_of(const Shader& shader) {
+    const ShaderInterface& interface = shader.interface;
+    json modules = json::array(), resources = json::array(), counters = json::array();
+    for (const auto& module : shader.spirv) modules.push_back(json::binary(bytes_of(module)));
+    for (const auto& r : interface.resources) resources.push_back({r.name, r.binding, r.kind, r.is_vertex});
+    for (const ShaderCounter& counter : shader.counters) counters.push_back({counter.what, counter.resource});
+    return {{"spirv", modules},
+            {"resources", resources},
+            {"formatted_images", interface.formatted_images},
+            {"push_offsets", interface.push_offsets},
+            {"push_size", interface.push_size},
+            {"outputs", interface.outputs},
+            {"constants", interface.constants},
+            {"local_size", interface.local_size},
+            {"counters", counters}};
+}
+
+Shader shader_of(const json& j) {
+    Shader shader;
+    ShaderInterface& interface = shader.interface;
+    for (const json& module : j.at("spirv")) shader.spirv.push_back(words_of(module.get_binary()));
+    for (const json& r : j.at("resources"))
+        interface.resources.push_back({r.at(0), r.at(1), r.at(2).get<ShaderInterface::Kind>(), r.at(3)});
+    j.at("formatted_images").get_to(interface.formatted_images);
+    j.at("push_offsets").get_to(interface.push_offsets);
+    j.at("push_size").get_to(interface.push_size);
+    j.at("outputs").get_to(interface.outputs);
+    j.at("constants").get_to(interface.constants);
+    j.at("local_size").get_to(interface.local_size);
+    for (const json& counter : j.at("counters"))
+        shader.counters.push_back({counter.at(0).get<decltype(ShaderCounter::what)>(), counter.at(1)});
+    return shader;
+}
+
+std::string hash_of(std::string_view bytes) {
+    ContentHash hash;
+    hash.add(bytes);
+    return hash.hex();
+}
+
+}  // namespace
+
+std::string ShaderCache::key_of(const std::vector<std::string>& sources) {
+    const glslang::Version glslang = glslang::GetVersion();
+    ContentHash hash;
+    hash.add(SSRLAB_SHADER_CODE);
+    for (const int part : {glslang.major, glslang.minor, glslang.patch}) hash.add(part);
+    hash.add(spvSoftwareVersionDetailsString());
+    for (const std::string& source : sources) hash.add(source);
+    return hash.hex();
+}
+
+std::optional<Shader> ShaderCache::find(const std::string& key) {
+    const fs::path file = folder() / key;
+    if (std::error_code none; !fs::is_regular_file(file, none)) return {};
+    try {
+        const std::string text = read_text(file);
+        const size_t hash_digits = hash_of("").size();
+        if (text.size() < hash_digits) return {};
+        const std::string_view content = std::string_view(text).substr(hash_digits);
+        if (!text.starts_with(hash_of(content))) return {};
+        return shader_of(json::from_cbor(content));
+    } catch (const std::exception&) {  // of another layout, or deleted meanwhile
+        return {};
+    }
+}
+
+void ShaderCache::keep(const std::string& key, const Shader& shader) {
+    std::string content;
+    json::to_cbor(json_of(shader), content);
+    try {
+        static const bool is_first = (make_room(), true);
+        (void)is_first;
+        write_text(folder() / key, hash_of(content) + content);
+    } catch (const MachineError&) {  // read-only, or full
+    }
+}
+
+void ShaderCache::make_room() {
+    struct Kept {
+        fs::file_time_type written;
+        uintmax_t bytes;
+        fs::path file;
+    };
+    std::vector<Kept> all;
+    uintmax_t bytes = 0;
+    std::error_code none;  // another process may delete, too
+    for (const auto& entry : fs::directory_iterator(folder(), none)) {
+        const uintmax_t size = entry.file_size(none);
+        if (none) continue;
+        all.push_back({entry.last_write_time(none), size, entry.path()});
+        bytes += size;
+    }
+    if (bytes <= most_bytes) return;
+    std::ranges::sort(all, {}, &Kept::written);
+    for (const Kept& kept : all) {
+        if (bytes <= most_bytes / 2) return;
+        fs::remove(kept.file, none);
+        bytes -= kept.bytes;
+    }
+}
