@@ -1,33 +1,19 @@
-#include "variants/common/lit_history.h"
 #include "variants/common/variant_entry.h"
-#include "variants/frostbite_sssr/horizon_image.h"
-#include "variants/resolves/resolves.h"
-#include "variants/tracers/tracing_variant.h"
+#include "variants/resolves/ray_inputs.h"
 
 /// Any march and any resolve (variants/resolves), behind Frostbite's draw of directions: what a technique is made of,
 /// so that its parts can be compared one by one. Its defaults are a technique of our own.
 class ComposedSsr final : public TracingVariant {
 public:
-    bool depends_on_seed() const override;
-    std::string not_repeatable() const override;
+    bool depends_on_seed() const override { return rays_.depends_on_seed(resolves_) || tracers_.needs().random; }
+    std::string not_repeatable() const override { return rays_.not_repeatable(tracers_, resolves_); }
 
 private:
     Reflections render_passes(PassGraph& graph, const GBuffer& gbuffer) override;
     Needless find_needless(const SceneFacts& facts) override;
     const Tracers& chosen_tracers() const override { return tracers_; }
 
-    RayDrawParameters draw_{params};
-    // clang-format off
-    Switch draw_directions_{params, "draw_directions", true,
-        {"", "draws each ray's direction from the lobe; otherwise it is the mirror's", "ssrlab, to measure the stage"}};
-    Choice misses_{params, "misses", "probe", {"weight", "fallback", "probe"},
-        {"", "what a ray without a hit contributes. weight: only less confidence; fallback: the environment in its "
-         "direction; probe: what the screen says of the surroundings there (variants/common/screen_probe), for scenes "
-         "without reflection probes", "ssrlab"}};
-    Switch previous_frame_{params, "previous_frame", false,
-        {"", "hits take their colour from the previous frame's lit image, where they were then; otherwise from this frame's",
-         "ssrlab"}};
-    // clang-format on
+    RayInputs rays_{params};
     Tracers tracers_{params,
                      {{"tracer", "trace", "dda", "the march that finds what a ray meets"}},
                      "ssrlab",
@@ -38,57 +24,22 @@ private:
                       {"cells.relative_thickness", 0.01},
                       {"cells.thickness", 0.0}}};
     mutable Resolves resolves_{params, "ratio_accumulation"};
-
-    LitHistory lit_;
-    FrostbiteHorizonImage horizon_;
 };
 
 Reflections ComposedSsr::render_passes(PassGraph& graph, const GBuffer& gbuffer) {
-    const glm::uvec2 screen = graph.extent(), extent = draw_.half_resolution ? (screen + 1u) / 2u : screen;
-    const size_t bytes = size_t(extent.x) * extent.y * draw_.max_rays * 16;
-    const ResolvedRays rays{
-        .traced = {.directions = graph.buffer("directions", bytes), .hits = graph.buffer("hits", bytes)},
-        .color = previous_frame_ ? lit_.previous(graph, gbuffer.lit) : gbuffer.lit,
-        .below_horizon = horizon_.on(graph, draw_),
-        .draw = draw_,
-        .probe = misses_.is("probe") ? std::optional(screen_probe(graph, gbuffer)) : std::nullopt,
-        .misses_are_known = !misses_.is("weight"),
-        .previous_frame = previous_frame_};
+    const ResolvedRays rays = rays_.make(graph, gbuffer);
     PassGraph::Pass pass = graph.compute("composed_ssr/trace.comp");
     pass.read(rays.below_horizon).use(rays.traced.directions).use(rays.traced.hits);
-    tracers_.run(graph, pass, {"tracer"}, tracers_.images(graph, gbuffer.depth), ray_probe, draw_.max_rays,
-                 [&](PassGraph::Pass& tracing) { tracing.run(extent); });
-    return resolves_.run(graph, gbuffer, rays, draw_directions_);
+    tracers_.run(graph, pass, {"tracer"}, tracers_.images(graph, gbuffer.depth), ray_probe, rays_.max_rays(),
+                 [&](PassGraph::Pass& tracing) { tracing.run(rays_.traced_extent(graph.extent())); });
+    return rays_.show(graph, gbuffer, rays, resolves_);
 }
 
 TracingVariant::Needless ComposedSsr::find_needless(const SceneFacts& facts) {
-    Needless needless{.such_a_surface = "as smooth as max_roughness", .stages = {"composed_ssr/trace"}};
-    const bool answers_rough = misses_.is("probe") && resolves_.chosen().answers_rough_surfaces();
-    needless.rays = !facts.has_reflective || (facts.min_roughness > draw_.max_roughness && !answers_rough);
+    Needless needless{.stages = {"composed_ssr/trace"}, .specular_readers = {"composed_ssr/trace"}};
     if (tracers_.needs_pyramid()) needless.stages.insert(needless.stages.begin(), "common/depth_pyramid");
-    if (previous_frame_) needless.stages.insert(needless.stages.begin(), "common/keep_lit");
-    if (misses_.is("probe"))
-        for (const std::string& stage : screen_probe_stages()) needless.stages.push_back(stage);
-    const std::vector<std::string> of_resolve = resolves_.chosen().stages();
-    needless.stages.insert(needless.stages.end(), of_resolve.begin(), of_resolve.end());
-    const StageReads reads = resolves_.chosen().reads();
-    needless.specular_readers = reads.specular;
-    needless.specular_readers.insert(needless.specular_readers.begin(), "composed_ssr/trace");
-    needless.motion_readers = reads.motion;
-    if (previous_frame_ && !std::ranges::count(reads.motion, reads.rays)) needless.motion_readers.push_back(reads.rays);
-    if (!misses_.is("weight")) needless.environment_readers = {reads.rays};
-    if (misses_.is("probe")) needless.environment_readers.push_back(screen_probe_stages().front());
+    rays_.add_needless(needless, facts, resolves_);
     return needless;
-}
-
-bool ComposedSsr::depends_on_seed() const {
-    const bool has_turns = draw_.half_resolution;  // of pixels, in an order of the seed's
-    return draw_directions_ || has_turns || tracers_.needs().random || resolves_.chosen().draws_random_numbers();
-}
-
-std::string ComposedSsr::not_repeatable() const {
-    const std::string of_rays = tracers_.not_repeatable(), of_resolve = resolves_.chosen().not_repeatable();
-    return of_rays + (of_rays.empty() || of_resolve.empty() ? "" : "; ") + of_resolve;
 }
 
 namespace {

@@ -25,12 +25,16 @@ public:
             images_.emplace(image->name, image);
         for (const DeclaredBuffer* buffer : in_use(technique_.buffers, &DeclaredBuffer::name, values_.known()))
             buffers_.insert(buffer->name);
+        if (technique_.resolve) buffers_.insert(ray_buffers.begin(), ray_buffers.end());
         for (const DeclaredPass& pass : technique_.passes)
             if (holds(pass.when)) check(pass);
         for (const auto& [name, place] : read_of_last_frame_)
             if (!written_.contains(name))
                 fail_here(place, "reads '" + previous + name + "', but no pass writes '" + name + "'");
-        check_results();
+        if (technique_.resolve)
+            check_rays(*technique_.resolve);
+        else
+            check_results();
     }
     const std::set<std::string>& written() const { return written_; }
 
@@ -65,8 +69,9 @@ private:
         for (const std::string& buffer : pass.buffers)
             if (!buffers_.contains(buffer)) fail_here(pass.place, "there is no buffer '" + buffer + "'");
         if (writes.empty() && pass.buffers.empty()) fail_here(pass.place, "the pass writes nothing");
-        if (!pass.over.empty()) image(pass.over, pass.place);
+        if (!pass.over.empty() && !(technique_.resolve && pass.over == traced_pixels)) image(pass.over, pass.place);
         for (const DeclaredUse* write : writes) written_.insert(write->image);
+        used_buffers_.insert(pass.buffers.begin(), pass.buffers.end());
     }
 
     void check_read(const DeclaredUse& read, const Uses& writes) {
@@ -79,7 +84,9 @@ private:
             read_of_last_frame_[of] = read.place;
             return;
         }
-        if (!images_.contains(read.image) && ProvidedImages::has(read.image)) {
+        const bool is_provided =
+            ProvidedImages::has(read.image) || (technique_.resolve && read.image == below_horizon_image);
+        if (!images_.contains(read.image) && is_provided) {
             if (read.mip) fail_here(read.place, "'mip' is for images of the technique, not for '" + read.image + "'");
             return;
         }
@@ -105,6 +112,13 @@ private:
                                      std::to_string(image.mips) + ", counted from 0");
     }
 
+    void check_rays(const DeclaredResolve& resolve) const {
+        for (const std::string& buffer : ray_buffers)
+            if (!used_buffers_.contains(buffer))
+                fail_here(resolve.place,
+                          "no pass has '" + buffer + "' among its 'buffers', for rays that the resolve reads");
+    }
+
     void check_results() const {
         const auto found =
             std::ranges::find_if(technique_.results, [&](const DeclaredResult& r) { return holds(r.when); });
@@ -124,13 +138,22 @@ private:
     const Technique& technique_;
     const FrameValues& values_;
     std::map<std::string, const DeclaredImage*> images_;  // that there are, by name
-    std::set<std::string> buffers_, written_;
+    std::set<std::string> buffers_, used_buffers_, written_;
     std::map<std::string, std::string> read_of_last_frame_;  // names, and who reads them
 };
 
 }  // namespace
 
 void check_frames(const Technique& technique, const ParameterSet& params) {
+    if (technique.resolve) {
+        for (const DeclaredBuffer& buffer : technique.buffers)
+            if (std::ranges::count(ray_buffers, buffer.name))
+                fail(buffer.place, ": a technique with a resolve has a buffer '", buffer.name,
+                     "' already; call yours otherwise");
+        for (const DeclaredImage& image : technique.images)
+            if (image.name == below_horizon_image || image.name == traced_pixels)
+                fail(image.place, ": a technique with a resolve has '", image.name, "' already; call yours otherwise");
+    }
     std::set<std::string> written;
     for (const FrameValues& values : representative_frames(technique, params)) {
         FrameCheck frame(technique, values);

@@ -72,8 +72,8 @@ VariantEntry declared_entry(const fs::path& named) {
     const nlohmann::json as_written = document.value;
     write_out_short_forms(document.value);
     JsonObject root(document, file.string());
-    know_keys(root, {"title", "source", "description", "parameters", "tracers", "images", "buffers", "passes", "result",
-                     "random", "reflects", "presets"});
+    know_keys(root, {"title", "source", "description", "parameters", "tracers", "resolve", "images", "buffers",
+                     "passes", "result", "random", "reflects", "presets"});
 
     auto technique = std::make_shared<Technique>();
     technique->name = declared_name(folder);

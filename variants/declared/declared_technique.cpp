@@ -2,7 +2,7 @@
 #include "core/gbuffer/environment_images.h"
 #include "variants/declared/provided_images.h"
 #include "variants/declared/technique.h"
-#include "variants/tracers/tracing_variant.h"
+#include "variants/resolves/ray_inputs.h"
 
 #include <algorithm>
 
@@ -16,19 +16,28 @@ struct Frame {
     std::map<std::string, Image> images;
     std::map<std::string, Buffer> buffers;
     std::optional<Tracers::Images> pyramids;  ///< of its tracers, made where the first pass traces
+    std::optional<ResolvedRays> rays;         ///< where it has a resolve
 };
 
 /// The technique that a technique.json declares.
 class DeclaredTechnique final : public TracingVariant {
 public:
     explicit DeclaredTechnique(std::shared_ptr<const Technique> technique)
-        : technique_(std::move(technique)), tracers_(own_parameters()) {}
+        : technique_(std::move(technique)),
+          inputs_(technique_->resolve ? std::make_unique<RayInputs>(params) : nullptr),
+          tracers_(own_parameters()),
+          resolves_(technique_->resolve ? std::make_unique<Resolves>(params, technique_->resolve->initial) : nullptr) {
+        if (technique_->resolve) params.change_defaults(technique_->resolve->defaults);
+    }
 
     bool depends_on_seed() const override {
         const KnownValues known(params);
-        return technique_->draws_random_numbers.holds(known) || tracers_.needs(slots_in_use(known)).random;
+        return technique_->draws_random_numbers.holds(known) || tracers_.needs(slots_in_use(known)).random ||
+               (inputs_ && inputs_->depends_on_seed(*resolves_));
     }
-    std::string not_repeatable() const override { return tracers_.not_repeatable(); }
+    std::string not_repeatable() const override {
+        return inputs_ ? inputs_->not_repeatable(tracers_, *resolves_) : tracers_.not_repeatable();
+    }
     bool needs_depth_layers() const override;
 
 private:
@@ -44,13 +53,16 @@ private:
     std::vector<std::string> slots_in_use(const KnownValues& known) const;
 
     void make_images(Frame& frame) const;
+    void make_rays(Frame& frame);
     Image image_of(Frame& frame, const DeclaredUse& use);
     void run(Frame& frame, const DeclaredPass& declared);
     void run_with_tracers(Frame& frame, const DeclaredPass& declared, const PassGraph::Pass& pass);
     unsigned rays_of(const DeclaredPass& pass) const;
 
     std::shared_ptr<const Technique> technique_;
+    std::unique_ptr<RayInputs> inputs_;  ///< none without a resolve
     Tracers tracers_;
+    std::unique_ptr<Resolves> resolves_;
     ProvidedImages provided_;
     std::optional<SceneFacts> facts_;  ///< once they are known
 };
@@ -85,10 +97,13 @@ Reflections DeclaredTechnique::render_passes(PassGraph& graph, const GBuffer& gb
                 .known = facts_ ? KnownValues(params, *facts_) : KnownValues(params),
                 .images = {},
                 .buffers = {},
-                .pyramids = {}};
+                .pyramids = {},
+                .rays = {}};
     provided_.begin_frame();
     make_images(frame);
+    if (inputs_) make_rays(frame);
     for (const DeclaredPass* pass : passes_in_use(frame.known)) run(frame, *pass);
+    if (inputs_) return inputs_->show(graph, gbuffer, *frame.rays, *resolves_);
     for (const DeclaredResult& result : technique_->results)
         if (result.when.holds(frame.known))
             return {frame.images.at(result.radiance), frame.images.at(result.confidence), result.channel};
@@ -109,6 +124,13 @@ void DeclaredTechnique::make_images(Frame& frame) const {
     for (const DeclaredBuffer* buffer : in_use(technique_->buffers, &DeclaredBuffer::name, frame.known))
         frame.buffers[buffer->name] =
             frame.graph.buffer(buffer->name, buffer->bytes + pixels * buffer->bytes_per_pixel);
+}
+
+void DeclaredTechnique::make_rays(Frame& frame) {
+    const ResolvedRays& rays = frame.rays.emplace(inputs_->make(frame.graph, frame.gbuffer));
+    frame.buffers[ray_buffers[0]] = rays.traced.directions;
+    frame.buffers[ray_buffers[1]] = rays.traced.hits;
+    frame.images[below_horizon_image] = rays.below_horizon;
 }
 
 Image DeclaredTechnique::image_of(Frame& frame, const DeclaredUse& use) {
@@ -148,6 +170,7 @@ void DeclaredTechnique::run_with_tracers(Frame& frame, const DeclaredPass& decla
     const auto run = [&](PassGraph::Pass& once) {
         const bool has_extent = declared.is_compute && (!declared.over.empty() || declared.writes.empty());
         if (!has_extent) return once.run();
+        if (inputs_ && declared.over == traced_pixels) return once.run(inputs_->traced_extent(frame.graph.extent()));
         once.run(declared.over.empty() ? frame.graph.extent() : frame.images.at(declared.over).extent);
     };
     if (declared.tracers.empty()) {
@@ -198,6 +221,7 @@ TracingVariant::Needless DeclaredTechnique::find_needless(const SceneFacts& fact
         if (looks_at("scene_is_still")) needless.motion_readers.push_back(pass->stage);
         if (looks_at("scene_has_environment")) needless.environment_readers.push_back(pass->stage);
     }
+    if (inputs_) inputs_->add_needless(needless, facts, *resolves_);
     return needless;
 }
 

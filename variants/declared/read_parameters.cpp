@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/near_miss.h"
 #include "variants/declared/names.h"
+#include "variants/resolves/resolves.h"
 
 #include <algorithm>
 
@@ -103,6 +104,22 @@ void read_tracers(JsonObject object, Technique& technique) {
     }
 }
 
+void read_resolve(JsonObject object, Technique& technique) {
+    know_keys(object, {"default", "defaults"});
+    std::vector<std::string> names;
+    for (const ResolveEntry& resolve : resolve_table()) names.push_back(resolve.name);
+    object.any("default");
+    DeclaredResolve resolve{.initial = object.choice("default", names, ""), .place = object.where()};
+    if (object.has("defaults")) resolve.defaults = object.any("defaults");
+    object.finish();
+    technique.resolve = std::move(resolve);
+    try {
+        make_declared(std::make_shared<Technique>(technique));
+    } catch (const Error& error) {
+        fail(object.at("defaults"), ": ", error.what());
+    }
+}
+
 /// Fails if two of the parameters that shaders see have one name.
 void refuse_repetition(const std::vector<JsonObject>& objects, const Technique& technique) {
     const std::unique_ptr<Variant> variant = make_declared(std::make_shared<Technique>(technique));
@@ -114,8 +131,14 @@ void refuse_repetition(const std::vector<JsonObject>& objects, const Technique& 
             fail(objects[i].at("name"), ": the parameter '", name, "' is declared twice");
         if (std::ranges::count(technique.parameters, name, &Parameter::name) == 1)
             fail(objects[i].at("name"), ": the parameter '", name,
-                 "' is one that every such technique, or its tracers, have already; call yours otherwise");
+                 "' is one that every such technique, its tracers or its resolve have already; call yours otherwise");
     }
+    for (const JsonObject& object : objects)
+        if (const std::string& name = technique.parameters[size_t(&object - objects.data())].name;
+            name == "resolve" && !technique.resolve)
+            fail(object.at("name"),
+                 ": the parameter 'resolve' chooses one of ssrlab's resolves, which a technique with "
+                 "\"resolve\": {...} has; call yours otherwise");
 }
 
 }  // namespace
@@ -124,5 +147,6 @@ void read_parameters(JsonObject& root, Technique& technique) {
     std::vector<JsonObject> objects = root.objects("parameters");
     for (const JsonObject& object : objects) technique.parameters.push_back(read_parameter(object));
     if (root.has("tracers")) read_tracers(root.object("tracers"), technique);
+    if (root.has("resolve")) read_resolve(root.object("resolve"), technique);
     refuse_repetition(objects, technique);
 }

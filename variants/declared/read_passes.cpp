@@ -123,6 +123,7 @@ void read_rays(JsonObject& object, const Technique& technique, DeclaredPass& pas
     for (const Parameter& p : technique.parameters)
         if (p.choices.empty() && (p.glsl_type == "uint" || p.glsl_type == "int") && p.min >= 1 && p.max <= 64)
             counts.push_back(p.name);
+    if (technique.resolve) counts.push_back("max_rays");
     pass.rays_parameter = object.text("rays");
     if (!std::ranges::count(counts, pass.rays_parameter))
         fail(object.at("rays"), ": 'rays' names '", shortened(pass.rays_parameter),
@@ -164,7 +165,7 @@ void read_shader(JsonObject& object, const Technique& technique, const KnownValu
     for (JsonObject& write : object.objects("writes")) pass.writes.push_back(read_use(std::move(write), false, known));
     pass.buffers = object.texts("buffers");
     for (const std::string& buffer : pass.buffers) {
-        std::vector<std::string> names;
+        std::vector<std::string> names = technique.resolve ? ray_buffers : std::vector<std::string>();
         for (const DeclaredBuffer& known_buffer : technique.buffers) names.push_back(known_buffer.name);
         if (!std::ranges::count(names, buffer))
             fail(object.at("buffers"), ": there is no buffer '", shortened(buffer), "'", suggestion(buffer, names));
@@ -251,12 +252,16 @@ void read_passes(JsonObject& root, const KnownValues& known, Technique& techniqu
     for (JsonObject& image : root.objects("images")) technique.images.push_back(read_image(std::move(image), known));
     for (JsonObject& buffer : root.objects("buffers"))
         technique.buffers.push_back(read_buffer(std::move(buffer), known));
-    root.any("passes"), root.any("result");
+    root.any("passes");
+    for (const char* key : {"result", "reflects"})
+        if (technique.resolve && root.has(key))
+            fail(root.at(key), ": a technique with a 'resolve' has no '", key, "': the resolve decides that");
+    if (!technique.resolve) root.any("result");
     for (JsonObject& pass : root.objects("passes"))
         technique.passes.push_back(read_pass(std::move(pass), technique, known));
     for (JsonObject& result : root.objects("result"))
         technique.results.push_back(read_result(std::move(result), known));
-    if (technique.results.empty()) fail(root.at("result"), ": 'result' is empty");
+    if (technique.results.empty() && !technique.resolve) fail(root.at("result"), ": 'result' is empty");
     if (root.has("random")) {
         const json& random = root.any("random");
         technique.draws_random_numbers = random == true    ? Condition()

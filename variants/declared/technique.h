@@ -64,6 +64,11 @@ struct DeclaredPass {
     std::string place;
 };
 
+/// What passes find besides their own in a technique with a resolve (variants/resolves/ray_inputs.h): two buffers for
+/// its rays, and an image for shaders that draw them. One of its traced pixels is what DeclaredPass::over can name.
+inline const std::vector<std::string> ray_buffers = {"directions", "hits"};
+inline const std::string below_horizon_image = "below_horizon", traced_pixels = "traced_pixels";
+
 /// The first whose condition holds is what the frame shows.
 struct DeclaredResult {
     std::string radiance, confidence;
@@ -78,12 +83,20 @@ struct RoughnessLimit {
     bool is_excluded = false;  ///< surfaces of just that roughness, too
 };
 
+/// Makes the picture of the rays that its passes write, in place of a DeclaredResult.
+struct DeclaredResolve {
+    std::string initial;                                 ///< of the parameter `resolve`
+    nlohmann::json defaults = nlohmann::json::object();  ///< of parameters that come with it
+    std::string place;
+};
+
 struct Technique {
     std::string name;  ///< of its folder
     std::vector<Parameter> parameters;
     std::vector<TracerSlot> slots;
     std::string tracers_source;
     nlohmann::json tracer_defaults = nlohmann::json::object();
+    std::optional<DeclaredResolve> resolve;
     std::vector<DeclaredImage> images;
     std::vector<DeclaredBuffer> buffers;
     std::vector<DeclaredPass> passes;

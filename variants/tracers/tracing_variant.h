@@ -6,6 +6,20 @@
 /// A technique that traces rays: what its chosen tracers ask for is asked for by it.
 class TracingVariant : public Variant {
 public:
+    /// What a technique need not do in a scene with these facts.
+    struct Needless {
+        bool rays = false;           ///< no pixel would start one: all `stages` are left out
+        std::string such_a_surface;  ///< "as smooth as max_roughness": that would start some
+        std::vector<std::string> stages;
+
+        // Of those that are run:
+        std::vector<LeftOut> parts;
+        Constants constants;                      ///< that switch `parts` off
+        std::vector<std::string> motion_readers;  ///< stages
+        std::vector<std::string> environment_readers;
+        std::vector<std::string> specular_readers;  ///< that ask of a pixel no more than whether it has a specular term
+    };
+
     Reflections render(PassGraph& graph, const GBuffer& gbuffer) final {
         graph.set_constants(constants_);
         const RepairedInputs inputs(graph, gbuffer, repair_inputs_ && !is_sound_);
@@ -23,20 +37,6 @@ public:
     bool needs_depth_layers() const override { return chosen_tracers().needs().depth_layers; }
 
 protected:
-    /// What a technique need not do in a scene with these facts.
-    struct Needless {
-        bool rays = false;           ///< no pixel would start one: all `stages` are left out
-        std::string such_a_surface;  ///< "as smooth as max_roughness": that would start some
-        std::vector<std::string> stages;
-
-        // Of those that are run:
-        std::vector<LeftOut> parts;
-        Constants constants;                      ///< that switch `parts` off
-        std::vector<std::string> motion_readers;  ///< stages
-        std::vector<std::string> environment_readers;
-        std::vector<std::string> specular_readers;  ///< that ask of a pixel no more than whether it has a specular term
-    };
-
     virtual const Tracers& chosen_tracers() const = 0;
     virtual Reflections render_passes(PassGraph& graph, const GBuffer& gbuffer) = 0;  ///< Variant::render()
     /// Of Variant::leave_out(). render_passes() skips `parts` from then on, for which `constants` are set; it is not

@@ -48,7 +48,10 @@ PointIdentity identity_of(const VariantConfig& config) {
         for (const TracerEntry& tracer : tracer_table())
             if (value == tracer.name)
                 identity.sources.push_back("variants/" + tracer.shader.substr(0, tracer.shader.rfind('/') + 1));
-    if (values.contains("resolve")) identity.sources.push_back(find_resolve(values.at("resolve")).folder);
+    if (values.contains("resolve")) {
+        identity.sources.push_back(find_resolve(values.at("resolve")).folder);
+        identity.sources.push_back("variants/resolves/ray_inputs/");
+    }
     return identity;
 }
 

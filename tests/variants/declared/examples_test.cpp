@@ -92,8 +92,16 @@ TEST_F(DeclaredExamples, BlendOverTime) {
                             {{"mode", "simple_linear"}}});
 }
 
+/// One preset for each resolve.
+TEST_F(DeclaredExamples, AnyMarchAndAnyResolve) {
+    expect_same_everywhere("composed_ssr", Json::object(),
+                           {{{"tracer", "hierarchy"}, {"max_rays", 2}},
+                            {{"misses", "weight"}, {"previous_frame", true}},
+                            {{"half_resolution", false}, {"draw_directions", false}, {"resolve", "mean"}}});
+}
+
 TEST_F(DeclaredExamples, HaveTheParametersOfTheTechnique) {
-    for (const std::string technique : {"mcguire_dda", "simple_ssr", "four_mode_ssr"}) {
+    for (const std::string technique : {"mcguire_dda", "simple_ssr", "four_mode_ssr", "composed_ssr"}) {
         SCOPED_TRACE(technique);
         const auto expected = make_variant(technique), found = make_variant(add_example(technique));
         Json schema = expected->params.schema();

@@ -113,6 +113,48 @@ TEST_F(DeclaredRefusals, Images) {
     expect_part(error_with({{"images", images}}), "images[1]: no pass writes the image 'unused'");
 }
 
+TEST_F(DeclaredRefusals, Resolves) {
+    const auto error_of = [&](const Json& patch) {
+        Json changed = {{"result", nullptr},
+                        {"images", nullptr},
+                        {"tracers", {{"slots", {{{"name", "tracer"}, {"default", "dda"}}}}}},
+                        {"resolve", {{"default", "mean"}, {"defaults", {{"lobe", "visible_normals"}}}}},
+                        {"passes",
+                         {{{"shader", "composed_ssr/trace.comp"},
+                           {"tracers", "tracer"},
+                           {"rays", "max_rays"},
+                           {"over", "traced_pixels"},
+                           {"reads", {"below_horizon"}},
+                           {"buffers", {"directions", "hits"}}}}}};
+        for (const auto& [key, value] : patch.items()) {
+            Json& changed_value = key == "pass" ? changed["passes"][0] : changed[key];
+            value.is_object() ? changed_value.merge_patch(value) : void(changed_value = value);
+        }
+        return error_with(changed);
+    };
+    EXPECT_EQ(error_of(Json::object()), "no error");
+    expect_part(error_of({{"resolve", {{"default", "meen"}}}}),
+                "'default' = \"meen\" is not known; did you mean 'mean'?");
+    expect_part(error_of({{"resolve", {{"default", nullptr}}}}), "lacks the key 'default'");
+    expect_part(error_of({{"resolve", {{"defaults", {{"lobee", "normals"}}}}}}), "did you mean 'lobe'?");
+    expect_part(error_of({{"result", sound["result"]}}), "a technique with a 'resolve' has no 'result'");
+    expect_part(error_of({{"reflects", {{"up_to", "limit"}}}}), "a technique with a 'resolve' has no 'reflects'");
+    expect_part(error_of({{"pass", {{"buffers", {"directions"}}}}}), "resolve: no pass has 'hits' among its 'buffers'");
+    expect_part(error_of({{"pass", {{"when", {{"mode", "a"}}}}}}), "'buffers', for rays that the resolve reads, where");
+    expect_part(error_of({{"buffers", {{{"name", "hits"}, {"bytes", 4}}}}}), "has a buffer 'hits' already");
+    expect_part(error_of({{"images", {{{"name", "below_horizon"}, {"format", "r8"}}}}}), "has 'below_horizon' already");
+    const auto parameters_and = [](const char* name) {
+        Json parameters = sound["parameters"];
+        parameters.push_back(sound["parameters"][1]);
+        parameters.back()["name"] = name;
+        return parameters;
+    };
+    expect_part(error_of({{"parameters", parameters_and("max_rays")}}), "the parameter 'max_rays' is one that every");
+    expect_part(error_with({{"parameters", parameters_and("resolve")}}), "the parameter 'resolve' chooses one of");
+    expect_part(error_with_pass({{"over", "traced_pixels"}}), "there is no image 'traced_pixels'");
+    expect_part(error_with_pass({{"buffers", {"hits"}}}), "there is no buffer 'hits'");
+}
+
 TEST_F(DeclaredRefusals, Passes) {
     expect_part(error_with_pass({{"shader", "shade.glsl"}}), "must end in .comp");
     expect_part(error_with_pass({{"shader", "shad.comp"}}), "did you mean 'shade.comp'?");
