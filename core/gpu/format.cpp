@@ -1,5 +1,7 @@
 #include "core/gpu/format.h"
 
+#include "core/gpu/device_impl.h"
+
 #include "core/error.h"
 #include "core/gpu/pipelines/precision.h"
 

@@ -1,7 +1,11 @@
 #pragma once
-#include "core/gpu/device_impl.h"
+#include "core/gpu/image.h"
 
 #include <span>
+
+namespace vk {
+enum class Format;  // of vulkan.hpp, whose headers cost seconds per source file
+}
 
 /// How a channel, or a texel that packs several, lies in memory.
 enum class TexelCoding { unorm_8, unorm_16, unorm_24, half, float_11_11_10, uint_32, float_32 };

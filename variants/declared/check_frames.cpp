@@ -68,7 +68,9 @@ private:
         for (const DeclaredUse* write : writes) check_write(*write);
         for (const std::string& buffer : pass.buffers)
             if (!buffers_.contains(buffer)) fail_here(pass.place, "there is no buffer '" + buffer + "'");
-        if (writes.empty() && pass.buffers.empty()) fail_here(pass.place, "the pass writes nothing");
+        const std::vector<std::string> tested = check_tests(pass, writes);
+        if (writes.empty() && pass.buffers.empty() && tested.empty()) fail_here(pass.place, "the pass writes nothing");
+        written_.insert(tested.begin(), tested.end());
         if (!pass.over.empty() && !(technique_.resolve && pass.over == traced_pixels)) image(pass.over, pass.place);
         for (const DeclaredUse* write : writes) written_.insert(write->image);
         used_buffers_.insert(pass.buffers.begin(), pass.buffers.end());
@@ -104,6 +106,34 @@ private:
         if (!images_.contains(write.image) && ProvidedImages::has(write.image))
             fail_here(write.place, "no pass can write '" + write.image + "', which all techniques read");
         check_mip(image(write.image, write.place), write);
+    }
+
+    /// The depth and stencil buffers that the pass writes.
+    std::vector<std::string> check_tests(const DeclaredPass& pass, const Uses& writes) const {
+        std::vector<std::string> names;
+        for (const auto& [test, is_depth] : {std::pair(&pass.depth, true), std::pair(&pass.stencil, false)}) {
+            if (!*test || !holds((*test)->when)) continue;
+            const auto& [name, place] = std::tie((*test)->image, (*test)->place);
+            const DeclaredImage& buffer = image(name, place);
+            const bool fits = buffer.format == Format::d32f_s8 ||
+                              (is_depth && (buffer.format == Format::d32f || buffer.format == Format::d24 ||
+                                            buffer.format == Format::d16));
+            if (!fits)
+                fail_here(place, "'" + name + "' is " + name_of(buffer.format) +
+                                     (is_depth ? ", which is no format of depth: d32f, d24, d16 or d32f_s8 are"
+                                               : ", which has no stencil: d32f_s8 has one"));
+            for (const DeclaredUse* write : writes)
+                if (image(write->image, write->place).divisor != buffer.divisor ||
+                    image(write->image, write->place).size != buffer.size)
+                    fail_here(place,
+                              "'" + name + "' must have the size of '" + write->image + "', which the pass writes");
+            const bool is_only_written =
+                (*test)->is_written && (!is_depth || (*test)->compare == DepthTest::Compare::always);
+            if (!is_only_written && !written_.contains(name))
+                fail_here(place, "the pass is tested by '" + name + "', which no pass before it writes or clears");
+            if ((*test)->is_written) names.push_back(name);
+        }
+        return names;
     }
 
     void check_mip(const DeclaredImage& image, const DeclaredUse& use) const {

@@ -73,7 +73,7 @@ VariantEntry declared_entry(const fs::path& named) {
     write_out_short_forms(document.value);
     JsonObject root(document, file.string());
     know_keys(root, {"title", "source", "description", "parameters", "tracers", "resolve", "images", "buffers",
-                     "passes", "result", "random", "reflects", "presets"});
+                     "passes", "result", "random", "reflects", "limits", "presets"});
 
     auto technique = std::make_shared<Technique>();
     technique->name = declared_name(folder);
@@ -89,6 +89,7 @@ VariantEntry declared_entry(const fs::path& named) {
     TechniqueFolder read{.path = folder, .files = {}, .sources = {}, .content_hash = {}};
     read_shaders(*technique, read);
     check_frames(*technique, plain->params);
+    entry.limits = technique->limits;
     entry.presets = read_presets(root, technique);
     root.finish();
 

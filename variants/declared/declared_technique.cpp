@@ -159,6 +159,10 @@ void DeclaredTechnique::run(Frame& frame, const DeclaredPass& declared) {
     for (const auto& [image, sampling] : reads) pass.read(image, sampling);
     for (const DeclaredUse* write : in_use(declared.writes, &DeclaredUse::as, frame.known))
         pass.write(image_of(frame, *write));
+    if (const auto& test = declared.depth; test && test->when.holds(frame.known))
+        pass.depth({.compare = test->compare, .is_written = test->is_written, .image = frame.images.at(test->image)});
+    if (const auto& test = declared.stencil; test && test->when.holds(frame.known))
+        pass.stencil({.mode = test->mode, .value = test->value, .image = frame.images.at(test->image)});
     for (const std::string& buffer : declared.buffers) pass.use(frame.buffers.at(buffer));
     for (const auto& [name, value] : declared.set)
         std::visit([&](const auto& number) { pass.set(name, number); }, value);

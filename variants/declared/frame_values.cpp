@@ -14,6 +14,8 @@ std::vector<const Condition*> conditions_of(const Technique& technique) {
     for (const DeclaredBuffer& buffer : technique.buffers) all.push_back(&buffer.when);
     for (const DeclaredPass& pass : technique.passes) {
         all.push_back(&pass.when);
+        for (const std::optional<DeclaredTest>* test : {&pass.depth, &pass.stencil})
+            if (*test) all.push_back(&(*test)->when);
         for (const std::vector<DeclaredUse>* uses : {&pass.reads, &pass.writes})
             for (const DeclaredUse& use : *uses) all.push_back(&use.when);
     }

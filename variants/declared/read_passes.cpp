@@ -99,6 +99,39 @@ DeclaredUse read_use(JsonObject object, bool is_read, const KnownValues& known) 
     return use;
 }
 
+DeclaredTest read_depth(JsonObject object, const KnownValues& known) {
+    know_keys(object, {"image", "compare", "write", "when"});
+    DeclaredTest test;
+    test.place = object.at("image");
+    test.image = object.text("image");
+    using Compare = DepthTest::Compare;
+    test.compare = object.value_of<Compare>("compare", {{"less", Compare::less},
+                                                        {"greater", Compare::greater},
+                                                        {"less_or_equal", Compare::less_or_equal},
+                                                        {"greater_or_equal", Compare::greater_or_equal},
+                                                        {"equal", Compare::equal},
+                                                        {"always", Compare::always}});
+    test.is_written = object.boolean("write", false);
+    test.when = Condition(object, "when", known);
+    object.finish();
+    return test;
+}
+
+DeclaredTest read_stencil(JsonObject object, const KnownValues& known) {
+    know_keys(object, {"image", "write", "equal", "when"});
+    DeclaredTest test;
+    test.place = object.at("image");
+    test.image = object.text("image");
+    test.is_written = object.has("write");
+    if (test.is_written == object.has("equal"))
+        fail(test.place, ": 'stencil' has either a value to 'write', or one that is 'equal' where to draw");
+    test.mode = test.is_written ? Stencil::Mode::write : Stencil::Mode::keep_equal;
+    test.value = unsigned(object.integer(test.is_written ? "write" : "equal", 0, 255));
+    test.when = Condition(object, "when", known);
+    object.finish();
+    return test;
+}
+
 /// Whole numbers are int or uint, others float, four numbers vec4.
 PushValue read_push_value(const json& value, const std::string& where) {
     if (value.is_number_integer() && value >= -0x1p31 && value < 0x1p32)
@@ -153,8 +186,8 @@ void read_clear(JsonObject& object, DeclaredPass& pass) {
 }
 
 void read_shader(JsonObject& object, const Technique& technique, const KnownValues& known, DeclaredPass& pass) {
-    know_keys(object, {"shader", "stage", "reads", "writes", "buffers", "tracers", "rays", "over", "set", "environment",
-                       "scene_constants", "when"});
+    know_keys(object, {"shader", "stage", "reads", "writes", "depth", "stencil", "buffers", "tracers", "rays", "over",
+                       "set", "environment", "scene_constants", "when"});
     pass.shader = object.text("shader");
     pass.is_compute = pass.shader.ends_with(".comp");
     if (!pass.is_compute && !pass.shader.ends_with(".frag"))
@@ -163,6 +196,10 @@ void read_shader(JsonObject& object, const Technique& technique, const KnownValu
     if (object.has("stage")) pass.stage = variable_name(object, "stage");
     for (JsonObject& read : object.objects("reads")) pass.reads.push_back(read_use(std::move(read), true, known));
     for (JsonObject& write : object.objects("writes")) pass.writes.push_back(read_use(std::move(write), false, known));
+    if (object.has("depth")) pass.depth = read_depth(object.object("depth"), known);
+    if (object.has("stencil")) pass.stencil = read_stencil(object.object("stencil"), known);
+    for (const auto& test : {pass.depth, pass.stencil})
+        if (test && pass.is_compute) fail(test->place, ": only a fragment shader is tested by depth or stencil");
     pass.buffers = object.texts("buffers");
     for (const std::string& buffer : pass.buffers) {
         std::vector<std::string> names = technique.resolve ? ray_buffers : std::vector<std::string>();
@@ -231,6 +268,22 @@ RoughnessLimit read_limit(JsonObject object, const Technique& technique) {
     return limit;
 }
 
+VariantLimits read_limits(JsonObject object, const KnownValues& known) {
+    know_keys(object, {"api", "lifted_by"});
+    VariantLimits limits;
+    object.any("api");
+    limits.api = object.value_of<Limits>("api", {{"webgl2", Limits::webgl2}});
+    if (object.has("lifted_by")) {
+        Condition(object, "lifted_by", known);  // which knows parameters and their values
+        limits.lifted_by = object.any("lifted_by");
+        for (const auto& [name, value] : limits.lifted_by.items())
+            if (value.is_structured() || name.starts_with("shot."))
+                fail(object.at("lifted_by"), ": '", shortened(name), "' must be a parameter with one value");
+    }
+    object.finish();
+    return limits;
+}
+
 void write_out(json& owner, const std::string& key) {
     if (!owner.is_object() || !owner.contains(key)) return;
     json& value = owner[key];
@@ -244,6 +297,7 @@ void write_out(json& owner, const std::string& key) {
 void write_out_short_forms(json& root) {
     if (!root.is_object()) return;
     if (root.contains("result") && root["result"].is_object()) root["result"] = json::array({root["result"]});
+    if (root.contains("limits") && root["limits"].is_string()) root["limits"] = {{"api", root["limits"]}};
     if (!root.contains("passes") || !root["passes"].is_array()) return;
     for (json& pass : root["passes"]) write_out(pass, "reads"), write_out(pass, "writes");
 }
@@ -268,5 +322,6 @@ void read_passes(JsonObject& root, const KnownValues& known, Technique& techniqu
                                          : random == false ? Condition::never()
                                                            : Condition(root, "random", known);
     }
+    if (root.has("limits")) technique.limits = read_limits(root.object("limits"), known);
     if (root.has("reflects")) technique.reflects = read_limit(root.object("reflects"), technique);
 }

@@ -43,6 +43,17 @@ struct DeclaredUse {
     std::string place;
 };
 
+/// The depth or stencil buffer of a fragment pass.
+struct DeclaredTest {
+    std::string image;
+    DepthTest::Compare compare = DepthTest::Compare::less;  ///< of depth
+    Stencil::Mode mode = Stencil::Mode::off;                ///< of stencil
+    bool is_written = false;  ///< of depth by `write`, of stencil with Stencil::Mode::write
+    unsigned value = 0;       ///< of stencil
+    Condition when;
+    std::string place;
+};
+
 /// A member of the shader's push_constant block.
 using PushValue = std::variant<int, float, glm::vec4>;
 
@@ -51,6 +62,7 @@ struct DeclaredPass {
     bool is_compute = true;  ///< else a fragment shader over the whole of what it writes
     std::string stage;
     std::vector<DeclaredUse> reads, writes;
+    std::optional<DeclaredTest> depth, stencil;
     std::vector<std::string> buffers;
     std::vector<std::string> tracers;  ///< slots that its shader includes
     unsigned rays = 1;                 ///< of a pixel, at most ...
@@ -101,6 +113,7 @@ struct Technique {
     std::vector<DeclaredBuffer> buffers;
     std::vector<DeclaredPass> passes;
     std::vector<DeclaredResult> results;
+    VariantLimits limits{};
     Condition draws_random_numbers;  ///< itself, not in its tracers
     std::optional<RoughnessLimit> reflects;
 };
