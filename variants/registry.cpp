@@ -8,14 +8,11 @@
 #include "variants/resolves/resolves.h"
 #include "variants/tracers/tracers.h"
 
-// One line for each technique; its entry stands in variants/<name>/<name>.cpp.
+// One line for each technique in C++; its entry stands in variants/<name>/<name>.cpp.
 VariantEntry none_entry();
-VariantEntry mcguire_dda_entry();
 VariantEntry amd_sssr_entry();
 VariantEntry diligent_ssr_entry();
 VariantEntry frostbite_sssr_entry();
-VariantEntry simple_ssr_entry();
-VariantEntry four_mode_ssr_entry();
 VariantEntry composed_ssr_entry();
 
 /// Of variants/declared.
@@ -23,10 +20,25 @@ VariantEntry declared_entry(const std::filesystem::path& folder);
 
 namespace {
 
+/// variants/<name>/technique.json.
+VariantEntry own_declared_entry(const std::string& name) {
+    VariantEntry entry = declared_entry(std::filesystem::path(SSRLAB_SOURCE_DIR) / "variants" / name);
+    TechniqueFolder folder = *entry.folder;
+    folder.is_ssrlabs = true;
+    entry.folder = std::make_shared<TechniqueFolder>(std::move(folder));
+    return entry;
+}
+
+/// In the order of lists and reports.
 std::deque<VariantEntry> entries_with_tuned_presets() {
-    std::deque<VariantEntry> entries = {none_entry(),          mcguire_dda_entry(),    amd_sssr_entry(),
-                                        diligent_ssr_entry(),  frostbite_sssr_entry(), simple_ssr_entry(),
-                                        four_mode_ssr_entry(), composed_ssr_entry()};
+    std::deque<VariantEntry> entries = {none_entry(),
+                                        own_declared_entry("mcguire_dda"),
+                                        amd_sssr_entry(),
+                                        diligent_ssr_entry(),
+                                        frostbite_sssr_entry(),
+                                        own_declared_entry("simple_ssr"),
+                                        own_declared_entry("four_mode_ssr"),
+                                        composed_ssr_entry()};
     for (VariantEntry& entry : entries) {
         const auto file = std::filesystem::path(SSRLAB_SOURCE_DIR) / "variants" / entry.name / "tuned_presets.json";
         if (std::filesystem::exists(file)) add_tuned_presets(entry, file);
@@ -47,7 +59,7 @@ const VariantEntry& add_technique_folder(const std::filesystem::path& folder) {
     VariantEntry entry = declared_entry(folder);
     const auto known = std::ranges::find(growing_table(), entry.name, &VariantEntry::name);
     const bool is_new = known == growing_table().end();
-    if (!is_new && !known->folder)
+    if (!is_new && (!known->folder || known->folder->is_ssrlabs))
         fail(folder.string(), ": '", entry.name, "' is one of ssrlab's own techniques; give the folder another name");
     if (!is_new && known->folder->path != entry.folder->path)
         fail(folder.string(), ": ", known->folder->path.string(), " is called '", entry.name,

@@ -15,24 +15,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path examples = fs::path(SSRLAB_SOURCE_DIR) / "experiments/examples";
-
-/// Techniques of ssrlab that are also written as folders.
-std::vector<std::string> declared_names() {
-    std::vector<std::string> names;
+/// Techniques of ssrlab that folders declare: of variants/, and for one in C++ an example.
+std::map<std::string, fs::path> declared_folders() {
+    const fs::path root = SSRLAB_SOURCE_DIR;
+    std::map<std::string, fs::path> folders;
     for (const VariantEntry& entry : variant_table())
-        if (fs::exists(path_inside(examples, entry.name + "/technique.json"))) names.push_back(entry.name);
-    return names;
+        for (const char* above : {"variants", "experiments/examples"})
+            if (const fs::path folder = path_inside(root / above, entry.name);
+                fs::exists(path_inside(folder, "technique.json")))
+                folders[entry.name] = folder;
+    return folders;
 }
 
-/// The folder that `from` names: one of the examples, or one of the user's own.
+/// The folder that `from` names: one of ssrlab's, or one of the user's own.
 fs::path folder_of(const std::string& from) {
     if (from.find('/') != std::string::npos) return from;
-    const std::vector<std::string> names = declared_names();
-    if (std::ranges::count(names, from)) return path_inside(examples, from);
+    const std::map<std::string, fs::path> folders = declared_folders();
+    if (const auto found = folders.find(from); found != folders.end()) return found->second;
     const std::string& name = find_variant(from).name;  // or says that there is none of that name
     std::string list;
-    for (const std::string& known : names) list += (list.empty() ? "" : ", ") + known;
+    for (const auto& [known, folder] : folders) list += (list.empty() ? "" : ", ") + known;
     fail("'", name, "' has no declared form: its C++ decides what a list of passes cannot say; these have one: ", list);
 }
 

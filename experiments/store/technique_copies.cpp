@@ -12,7 +12,7 @@ void write_technique_copies(const std::filesystem::path& results, const std::vec
         if (!variant.external) names.insert(variant.variant);
     for (const std::string& name : names) {
         const auto& folder = find_variant(name).folder;
-        if (!folder) continue;
+        if (!folder || folder->is_ssrlabs) continue;
         for (const auto& [file, text] : folder->files)
             write_text(path_inside(results, "techniques/" + name + "/" + file), text);
     }

@@ -21,6 +21,7 @@ struct VariantLimits {
 /// The folder of a technique that its technique.json declares (variants/declared), as it was read.
 struct TechniqueFolder {
     std::filesystem::path path;
+    bool is_ssrlabs = false;                   ///< one of variants/, else somebody's
     std::map<std::string, std::string> files;  ///< content of those that take part, by their paths in the folder
     std::vector<std::string> sources;  ///< ssrlab's own shaders that it names or includes, by their paths from the root
     std::string content_hash;          ///< of what can change a pixel: neither of texts for readers nor of presets

@@ -1,7 +1,7 @@
 #pragma once
 #include "core/gpu/pass_graph.h"
 
-/// A blur of one size for near and far, as of Killzone Shadow Fall in the slides that simple_ssr.cpp names.
+/// A blur of one size for near and far, as of Killzone Shadow Fall in the slides that technique.json names.
 struct SimpleBlurParameters {
     ParameterSet& params;
 

@@ -16,9 +16,8 @@ struct DeclaredStudy : StudyTest {
         StudyTest::SetUp();
         name = testing::UnitTest::GetInstance()->current_test_info()->name();
         std::ranges::transform(name, name.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-        const fs::path example = fs::path(SSRLAB_SOURCE_DIR) / "experiments/examples/mcguire_dda";
-        fs::create_directories(folder / "techniques");
-        fs::copy(example, folder / "techniques" / name);
+        fs::create_directories(technique());
+        fs::copy(fs::path(SSRLAB_SOURCE_DIR) / "variants/mcguire_dda/technique.json", technique());
         edit("technique.json", "mcguire_dda/shade.comp", "shade.comp");
         std::string shade = read_text(fs::path(SSRLAB_SOURCE_DIR) / "variants/mcguire_dda/shade.comp");
         shade += "#include \"own.glsl\"\n";

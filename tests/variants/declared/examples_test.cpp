@@ -1,5 +1,5 @@
-// The techniques of experiments/examples are those of ssrlab that they are written after: the same bits and the same
-// work left out, with all of their presets.
+// The technique of experiments/examples is that of ssrlab which it is written after: the same bits and the same work
+// left out, with all of its presets.
 #include "tests/variants/declared/technique_folder.h"
 #include "tests/variants/held_camera.h"
 #include "tests/variants/mirror_scenes.h"
@@ -55,64 +55,24 @@ struct DeclaredExamples : HeldCamera {
             EXPECT_EQ(names(found), names(expected)) << facts.min_roughness;
         }
     }
-
-    /// With the values of all presets of the technique, and with these.
-    void expect_same_everywhere(const std::string& technique, const nlohmann::json& with,
-                                const std::vector<nlohmann::json>& more) {
-        const std::string declared = add_example(technique);
-        for (const Preset& preset : find_variant(technique).presets)
-            expect_same(technique, declared, changed(preset.parameters, with));
-        for (const nlohmann::json& parameters : more) expect_same(technique, declared, changed(with, parameters));
-    }
 };
 
 using Json = nlohmann::json;
 
-TEST_F(DeclaredExamples, LinearTracing) {
-    expect_same_everywhere("mcguire_dda", Json::object(),
-                           {Json::object(),
-                            {{"tracer", "hierarchy"}},
-                            {{"tracer", "frostbite_linear"}},
-                            {{"dda.layers", "2"}},
-                            {{"tracer", "exact_scene"}},
-                            {{"bilinear_color", true}, {"repair_inputs", true}}});
-}
-
-TEST_F(DeclaredExamples, SimpleTechniques) {
-    expect_same_everywhere("simple_ssr", Json::object(),
-                           {{{"draw", "normals"}, {"rays", 2}}, {{"blur_width", 0.1}, {"max_roughness", 0.4}}});
-}
-
-TEST_F(DeclaredExamples, BlendOverTime) {
-    expect_same_everywhere("four_mode_ssr", {{"mode", "temporal"}},
-                           {{{"float_histories", true}},
-                            {{"history_place", "reflection"}},
-                            {{"mode", "stochastic"}},
-                            {{"mode", "hiz"}},
-                            {{"mode", "simple_linear"}}});
-}
-
 /// One preset for each resolve.
 TEST_F(DeclaredExamples, AnyMarchAndAnyResolve) {
-    expect_same_everywhere("composed_ssr", Json::object(),
-                           {{{"tracer", "hierarchy"}, {"max_rays", 2}},
-                            {{"misses", "weight"}, {"previous_frame", true}},
-                            {{"half_resolution", false}, {"draw_directions", false}, {"resolve", "mean"}}});
+    const std::string declared = add_example("composed_ssr");
+    for (const Preset& preset : find_variant("composed_ssr").presets)
+        expect_same("composed_ssr", declared, preset.parameters);
+    for (const Json& parameters :
+         {Json{{"tracer", "hierarchy"}, {"max_rays", 2}}, Json{{"misses", "weight"}, {"previous_frame", true}},
+          Json{{"half_resolution", false}, {"draw_directions", false}, {"resolve", "mean"}}})
+        expect_same("composed_ssr", declared, parameters);
 }
 
-TEST_F(DeclaredExamples, HaveTheParametersOfTheTechnique) {
-    for (const std::string technique : {"mcguire_dda", "simple_ssr", "four_mode_ssr", "composed_ssr"}) {
-        SCOPED_TRACE(technique);
-        const auto expected = make_variant(technique), found = make_variant(add_example(technique));
-        Json schema = expected->params.schema();
-        if (technique == "four_mode_ssr") schema["properties"]["mode"]["default"] = "temporal";
-        for (const auto& [name, of_parameter] : schema["properties"].items()) {
-            Json of_found = found->params.schema()["properties"][name];
-            if (name == "mode") of_found["description"] = of_parameter["description"];
-            EXPECT_EQ(of_found, of_parameter) << name;
-        }
-        EXPECT_EQ(found->params.values().size(), expected->params.values().size());
-    }
+TEST_F(DeclaredExamples, HasTheParametersOfTheTechnique) {
+    const auto expected = make_variant("composed_ssr"), found = make_variant(add_example("composed_ssr"));
+    EXPECT_EQ(found->params.schema(), expected->params.schema());
 }
 
 }  // namespace
