@@ -20,8 +20,8 @@ std::map<std::string, fs::path> declared_folders() {
     const fs::path root = SSRLAB_SOURCE_DIR;
     std::map<std::string, fs::path> folders;
     for (const VariantEntry& entry : variant_table())
-        for (const char* above : {"variants", "experiments/examples"})
-            if (const fs::path folder = path_inside(root / above, entry.name);
+        for (const std::string above : {"variants/", "experiments/examples/"})
+            if (const fs::path folder = path_inside(root, above + entry.name);
                 fs::exists(path_inside(folder, "technique.json")))
                 folders[entry.name] = folder;
     return folders;

@@ -133,20 +133,23 @@ TEST_F(ShaderCacheTest, IsNotNeeded) {
     expect_equal(storing(), storing());
 }
 
-/// Of files that are larger than all may be together, those that were written last stay.
+/// Of files that are larger than all may be together, those that were written last stay, and what is none of ours.
 TEST_F(ShaderCacheTest, DeletesTheOldestWhereItIsFull) {
     fs::create_directories(folder);
     const auto now = fs::file_time_type::clock::now();
+    const auto kept_as = [&](int age) { return folder / (std::string(31, 'a') + std::to_string(age)); };
+    std::ofstream(folder / "somebodys").put('x');
+    fs::resize_file(folder / "somebodys", 2 * ShaderCache::most_bytes);
     for (int age = 0; age < 4; ++age) {
-        const fs::path file = folder / std::to_string(age);
+        const fs::path file = kept_as(age);
         std::ofstream(file).put('x');
         fs::resize_file(file, ShaderCache::most_bytes / 5);  // without contents: takes no room on the disk
         fs::last_write_time(file, now - std::chrono::hours(age));
     }
     ShaderCache::make_room();
-    EXPECT_EQ(kept().size(), 4u) << "not yet";
-    fs::resize_file(folder / "3", ShaderCache::most_bytes);
-    fs::last_write_time(folder / "3", now - std::chrono::hours(3));
+    EXPECT_EQ(kept().size(), 5u) << "not yet";
+    fs::resize_file(kept_as(3), ShaderCache::most_bytes);
+    fs::last_write_time(kept_as(3), now - std::chrono::hours(3));
     ShaderCache::make_room();
-    EXPECT_EQ(kept(), (std::set<fs::path>{folder / "0", folder / "1"}));
+    EXPECT_EQ(kept(), (std::set<fs::path>{kept_as(0), kept_as(1), folder / "somebodys"}));
 }

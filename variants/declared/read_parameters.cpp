@@ -125,6 +125,10 @@ void refuse_repetition(const std::vector<JsonObject>& objects, const Technique& 
     const std::unique_ptr<Variant> variant = make_declared(std::make_shared<Technique>(technique));
     for (size_t i = 0; i < objects.size(); ++i) {
         const std::string& name = technique.parameters[i].name;
+        if (name == "resolve" && !technique.resolve)
+            fail(objects[i].at("name"),
+                 ": the parameter 'resolve' chooses one of ssrlab's resolves, which a technique with "
+                 "\"resolve\": {...} has; call yours otherwise");
         if (std::ranges::count(variant->params, name, &Parameter::glsl_name) == 1) continue;
         const auto first = std::ranges::find(technique.parameters, name, &Parameter::name);
         if (first - technique.parameters.begin() < long(i))
@@ -133,12 +137,6 @@ void refuse_repetition(const std::vector<JsonObject>& objects, const Technique& 
             fail(objects[i].at("name"), ": the parameter '", name,
                  "' is one that every such technique, its tracers or its resolve have already; call yours otherwise");
     }
-    for (const JsonObject& object : objects)
-        if (const std::string& name = technique.parameters[size_t(&object - objects.data())].name;
-            name == "resolve" && !technique.resolve)
-            fail(object.at("name"),
-                 ": the parameter 'resolve' chooses one of ssrlab's resolves, which a technique with "
-                 "\"resolve\": {...} has; call yours otherwise");
 }
 
 }  // namespace

@@ -3,9 +3,11 @@
 #include "core/cache_folder.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/path_inside.h"
 
 #include <glslang/Public/ShaderLang.h>
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -74,6 +76,12 @@ std::string hash_of(std::string_view bytes) {
     return hash.hex();
 }
 
+/// Whether the file can be one of ours: nothing else may be deleted.
+bool is_key(const std::string& name) {
+    return name.size() == hash_of("").size() &&
+           std::ranges::all_of(name, [](unsigned char c) { return std::isxdigit(c) != 0; });
+}
+
 }  // namespace
 
 std::string ShaderCache::key_of(const std::vector<std::string>& sources) {
@@ -87,9 +95,9 @@ std::string ShaderCache::key_of(const std::vector<std::string>& sources) {
 }
 
 std::optional<Shader> ShaderCache::find(const std::string& key) {
-    const fs::path file = folder() / key;
-    if (std::error_code none; !fs::is_regular_file(file, none)) return {};
     try {
+        const fs::path file = path_inside(folder(), key);
+        if (!fs::is_regular_file(file)) return {};
         const std::string text = read_text(file);
         const size_t hash_digits = hash_of("").size();
         if (text.size() < hash_digits) return {};
@@ -107,8 +115,8 @@ void ShaderCache::keep(const std::string& key, const Shader& shader) {
     try {
         static const bool is_first = (make_room(), true);
         (void)is_first;
-        write_text(folder() / key, hash_of(content) + content);
-    } catch (const MachineError&) {  // read-only, or full
+        write_text(path_inside(folder(), key), hash_of(content) + content);
+    } catch (const std::exception&) {  // read-only, or full
     }
 }
 
@@ -123,7 +131,7 @@ void ShaderCache::make_room() {
     std::error_code none;  // another process may delete, too
     for (const auto& entry : fs::directory_iterator(folder(), none)) {
         const uintmax_t size = entry.file_size(none);
-        if (none) continue;
+        if (none || !is_key(entry.path().filename().string())) continue;
         all.push_back({entry.last_write_time(none), size, entry.path()});
         bytes += size;
     }

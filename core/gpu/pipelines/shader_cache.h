@@ -18,7 +18,7 @@ public:
     static std::optional<Shader> find(const std::string& key);
     static void keep(const std::string& key, const Shader& shader);
 
-    /// If there are more than most_bytes, deletes those that were written first until half of that is left. keep()
+    /// If shaders take more than most_bytes, deletes those that were written first until half of that is left. keep()
     /// does so once in a process.
     static void make_room();
 };
