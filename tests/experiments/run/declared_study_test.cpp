@@ -73,7 +73,8 @@ TEST_F(DeclaredStudy, RunsLikeTheTechniqueThatItIsWrittenAfter) {
 }
 
 TEST_F(DeclaredStudy, AnEditRedoesItsCellsAndNoOthers) {
-    const std::string variants = "[{\"variant\": \"none\"}, {\"variant\": \"mcguire_dda\"}, " + own() + "]";
+    const std::string variants =
+        R"([{"variant": "none"}, {"variant": "mcguire_dda"}, {"variant": "composed_ssr"}, )" + own() + "]";
     const std::vector<SourceFile> sources = present_sources();
     const auto before = cells(study(variants), sources);
     const std::set<std::string> its_own = {name + " default"};
@@ -94,9 +95,11 @@ TEST_F(DeclaredStudy, AnEditRedoesItsCellsAndNoOthers) {
         std::ranges::find(edited_sources, path, &SourceFile::path)->hash += "edited";
         return differing(declared, cells(study(variants), edited_sources));
     };
-    EXPECT_EQ(with_edit_of("variants/declared/declared_technique.cpp"), its_own);
-    EXPECT_EQ(with_edit_of("variants/mcguire_dda/trace.comp"),
-              std::set<std::string>({"mcguire_dda default", name + " default"}));
+    const std::set<std::string> of_this_march = {"mcguire_dda default", name + " default"};
+    EXPECT_EQ(with_edit_of("variants/declared/declared_technique.cpp"), of_this_march);
+    EXPECT_EQ(with_edit_of("variants/mcguire_dda/trace.comp"), of_this_march);
+    EXPECT_EQ(with_edit_of("variants/resolves/ray_inputs/ray_inputs.cpp"),
+              std::set<std::string>{"composed_ssr default"});
     EXPECT_EQ(with_edit_of("variants/amd_sssr/intersect.comp"), std::set<std::string>());
 }
 
