@@ -57,6 +57,10 @@ private:
         fail(place, ": there is no image '", shortened(name), "'", suggestion(name, names));
     }
 
+    [[noreturn]] void refuse_feedback(const DeclaredUse& read) const {
+        fail_here(read.place, "the pass reads '" + read.image + "' and writes it, too; write another image");
+    }
+
     void check(const DeclaredPass& pass) {
         if (!pass.cleared.empty()) {
             if (!buffers_.contains(pass.cleared)) written_.insert(image(pass.cleared, pass.place).name);
@@ -68,7 +72,7 @@ private:
         for (const DeclaredUse* write : writes) check_write(*write);
         for (const std::string& buffer : pass.buffers)
             if (!buffers_.contains(buffer)) fail_here(pass.place, "there is no buffer '" + buffer + "'");
-        const std::vector<std::string> tested = check_tests(pass, writes);
+        const std::vector<std::string> tested = check_tests(pass, reads, writes);
         if (writes.empty() && pass.buffers.empty() && tested.empty()) fail_here(pass.place, "the pass writes nothing");
         written_.insert(tested.begin(), tested.end());
         if (!pass.over.empty() && !(technique_.resolve && pass.over == traced_pixels)) image(pass.over, pass.place);
@@ -95,7 +99,7 @@ private:
         check_mip(image(read.image, read.place), read);
         for (const DeclaredUse* write : writes)
             if (write->image == read.image && (!write->mip || !read.mip || *write->mip == *read.mip))
-                fail_here(read.place, "the pass reads '" + read.image + "' and writes it, too; write another image");
+                refuse_feedback(read);
         if (!written_.contains(read.image))
             fail_here(read.place, "the pass reads '" + read.image +
                                       "', which no pass before it writes; what the frame before wrote is 'previous_" +
@@ -109,7 +113,7 @@ private:
     }
 
     /// The depth and stencil buffers that the pass writes.
-    std::vector<std::string> check_tests(const DeclaredPass& pass, const Uses& writes) const {
+    std::vector<std::string> check_tests(const DeclaredPass& pass, const Uses& reads, const Uses& writes) const {
         std::vector<std::string> names;
         for (const auto& [test, is_depth] : {std::pair(&pass.depth, true), std::pair(&pass.stencil, false)}) {
             if (!*test || !holds((*test)->when)) continue;
@@ -131,7 +135,10 @@ private:
                 (*test)->is_written && (!is_depth || (*test)->compare == DepthTest::Compare::always);
             if (!is_only_written && !written_.contains(name))
                 fail_here(place, "the pass is tested by '" + name + "', which no pass before it writes or clears");
-            if ((*test)->is_written) names.push_back(name);
+            if (!(*test)->is_written) continue;
+            for (const DeclaredUse* read : reads)
+                if (read->image == name) refuse_feedback(*read);
+            names.push_back(name);
         }
         return names;
     }

@@ -82,6 +82,10 @@ TEST_F(DeclaredMasks, Refusals) {
     expect_part(error_with({{"depth", {{"compare", "lesser"}}}}), "did you mean 'less'?");
     expect_part(error_with({{"shader", "shade.comp"}}), "only a fragment shader is tested by depth or stencil");
 
+    expect_part(error_with({{"reads", "mask"}, {"depth", {{"write", true}, {"when", {{"by", "nothing"}}}}}}),
+                "the pass reads 'mask' and writes it, too; write another image, where by is 'nothing'");
+    EXPECT_EQ(error_with({{"reads", "mask"}}), "no error") << "it is only tested by it";
+
     Json unmarked = Json::parse(masked);
     unmarked["passes"].erase(2);
     unmarked["passes"].erase(0);
