@@ -50,10 +50,15 @@ vk::Format vulkan_format(Format format) { return facts_of(format).vulkan; }
 
 vk::ImageAspectFlags aspect_of(Format format) {
     using Aspect = vk::ImageAspectFlagBits;
-    if (format == Format::d32f_s8) return Aspect::eDepth | Aspect::eStencil;
-    const bool is_depth = format == Format::d32f || format == Format::d24 || format == Format::d16;
-    return is_depth ? Aspect::eDepth : Aspect::eColor;
+    if (has_stencil(format)) return Aspect::eDepth | Aspect::eStencil;
+    return has_depth(format) ? Aspect::eDepth : Aspect::eColor;
 }
+
+bool has_depth(Format format) {
+    return format == Format::d32f || format == Format::d24 || format == Format::d16 || has_stencil(format);
+}
+
+bool has_stencil(Format format) { return format == Format::d32f_s8; }
 
 std::string name_of(Format format) { return facts_of(format).name; }
 

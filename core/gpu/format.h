@@ -23,6 +23,10 @@ const FormatFacts& facts_of(Format format);
 /// In the order of Format.
 std::span<const FormatFacts> all_formats();
 
+/// Whether depth tests, or stencil tests, can use an image of the format.
+bool has_depth(Format format);
+bool has_stencil(Format format);
+
 /// Texels of the format from float32 channels and back: as many values as the texels have channels. Halves are rounded
 /// to the nearest even, unorm values to the nearest after clamping to [0, 1].
 void encode_texels(Format format, std::span<const float> values, std::byte* texels);

@@ -35,7 +35,7 @@ struct ShaderCacheTest : testing::Test {
         std::set<fs::path> added = kept();
         for (const fs::path& file : old) added.erase(file);
         EXPECT_EQ(added.size(), 1u);
-        return *added.begin();
+        return added.empty() ? fs::path() : *added.begin();
     }
 
     const char* const set = std::getenv("SSRLAB_SHADER_CACHE");

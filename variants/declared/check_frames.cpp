@@ -119,10 +119,7 @@ private:
             if (!*test || !holds((*test)->when)) continue;
             const auto& [name, place] = std::tie((*test)->image, (*test)->place);
             const DeclaredImage& buffer = image(name, place);
-            const bool fits = buffer.format == Format::d32f_s8 ||
-                              (is_depth && (buffer.format == Format::d32f || buffer.format == Format::d24 ||
-                                            buffer.format == Format::d16));
-            if (!fits)
+            if (!(is_depth ? has_depth(buffer.format) : has_stencil(buffer.format)))
                 fail_here(place, "'" + name + "' is " + name_of(buffer.format) +
                                      (is_depth ? ", which is no format of depth: d32f, d24, d16 or d32f_s8 are"
                                                : ", which has no stencil: d32f_s8 has one"));

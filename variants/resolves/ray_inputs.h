@@ -21,7 +21,8 @@ public:
 
     bool depends_on_seed(Resolves& resolves) const;  ///< march aside
     std::string not_repeatable(const Tracers& tracers, Resolves& resolves) const;
-    /// Adds what this and the resolve need not do to that of the technique's own passes.
+    /// Completes `needless`, which holds the stages and readers of the technique's own passes, by what the parameters,
+    /// the probe and the resolve need of the scene.
     void add_needless(TracingVariant::Needless& needless, const SceneFacts& facts, Resolves& resolves) const;
 
 private:

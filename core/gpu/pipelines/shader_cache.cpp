@@ -1,7 +1,6 @@
 #include "core/gpu/pipelines/shader_cache.h"
 
 #include "core/cache_folder.h"
-#include "core/error.h"
 #include "core/files.h"
 #include "core/path_inside.h"
 
@@ -9,7 +8,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <spirv-tools/libspirv.hpp>
@@ -17,57 +15,17 @@
 namespace fs = std::filesystem;
 using nlohmann::json;
 
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ShaderInterface::Resource, name, binding, kind, is_vertex)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ShaderInterface, resources, formatted_images, push_offsets, push_size, outputs,
+                                   constants, local_size)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ShaderCounter, what, resource)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Shader, spirv, interface, counters)
+
 namespace {
 
 fs::path folder() {
     const char* const own = std::getenv("SSRLAB_SHADER_CACHE");
     return own && *own ? fs::path(own) : default_cache_folder() / "shaders";
-}
-
-json::binary_t bytes_of(const std::vector<unsigned>& words) {
-    std::vector<uint8_t> bytes(words.size() * sizeof(unsigned));
-    std::memcpy(bytes.data(), words.data(), bytes.size());
-    return json::binary_t(std::move(bytes));
-}
-
-std::vector<unsigned> words_of(const json::binary_t& bytes) {
-    std::vector<unsigned> words(bytes.size() / sizeof(unsigned));
-    std::memcpy(words.data(), bytes.data(), words.size() * sizeof(unsigned));
-    return words;
-}
-
-json json_of(const Shader& shader) {
-    const ShaderInterface& interface = shader.interface;
-    json modules = json::array(), resources = json::array(), counters = json::array();
-    for (const auto& module : shader.spirv) modules.push_back(json::binary(bytes_of(module)));
-    for (const auto& r : interface.resources) resources.push_back({r.name, r.binding, r.kind, r.is_vertex});
-    for (const ShaderCounter& counter : shader.counters) counters.push_back({counter.what, counter.resource});
-    return {{"spirv", modules},
-            {"resources", resources},
-            {"formatted_images", interface.formatted_images},
-            {"push_offsets", interface.push_offsets},
-            {"push_size", interface.push_size},
-            {"outputs", interface.outputs},
-            {"constants", interface.constants},
-            {"local_size", interface.local_size},
-            {"counters", counters}};
-}
-
-Shader shader_of(const json& j) {
-    Shader shader;
-    ShaderInterface& interface = shader.interface;
-    for (const json& module : j.at("spirv")) shader.spirv.push_back(words_of(module.get_binary()));
-    for (const json& r : j.at("resources"))
-        interface.resources.push_back({r.at(0), r.at(1), r.at(2).get<ShaderInterface::Kind>(), r.at(3)});
-    j.at("formatted_images").get_to(interface.formatted_images);
-    j.at("push_offsets").get_to(interface.push_offsets);
-    j.at("push_size").get_to(interface.push_size);
-    j.at("outputs").get_to(interface.outputs);
-    j.at("constants").get_to(interface.constants);
-    j.at("local_size").get_to(interface.local_size);
-    for (const json& counter : j.at("counters"))
-        shader.counters.push_back({counter.at(0).get<decltype(ShaderCounter::what)>(), counter.at(1)});
-    return shader;
 }
 
 std::string hash_of(std::string_view bytes) {
@@ -103,7 +61,7 @@ std::optional<Shader> ShaderCache::find(const std::string& key) {
         if (text.size() < hash_digits) return {};
         const std::string_view content = std::string_view(text).substr(hash_digits);
         if (!text.starts_with(hash_of(content))) return {};
-        return shader_of(json::from_cbor(content));
+        return json::from_cbor(content).get<Shader>();
     } catch (const std::exception&) {  // of another layout, or deleted meanwhile
         return {};
     }
@@ -111,7 +69,7 @@ std::optional<Shader> ShaderCache::find(const std::string& key) {
 
 void ShaderCache::keep(const std::string& key, const Shader& shader) {
     std::string content;
-    json::to_cbor(json_of(shader), content);
+    json::to_cbor(shader, content);
     try {
         static const bool is_first = (make_room(), true);
         (void)is_first;
