@@ -98,10 +98,11 @@ int tradeoff_command(const TradeoffOptions& options) {
 
 namespace {
 
-/// The technique's name, or else its folder, wherever the config lies.
+/// The name of a technique of ssrlab, or else its folder, wherever the config lies.
 std::string named_in_configs(const VariantConfig& point) {
     const auto found = std::ranges::find(variant_table(), point.variant, &VariantEntry::name);
-    return found != variant_table().end() && found->folder ? found->folder->path.string() : point.variant;
+    return found != variant_table().end() && found->folder && !found->folder->is_ssrlabs ? found->folder->path.string()
+                                                                                         : point.variant;
 }
 
 }  // namespace
