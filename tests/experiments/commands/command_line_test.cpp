@@ -58,6 +58,17 @@ TEST_F(CommandLine, NamesMistakesInConfigs) {
     expect_mistake("tune study.json", "it can only be extended");
 }
 
+/// The steps of a search are studies in folders of their own, which name the technique.
+TEST_F(CommandLine, SearchesATechniqueThatIsDeclared) {
+    config(R"({"shots": [{"scene": "mirror_pillars", "resolution": [32, 18]}], "reference": {"samples": 16}, "seeds": 1,
+        "timing": {"frames": 0}, "metrics": ["mse"], "masks": ["all"], "targets": ["image"],
+        "variants": [{"variant": "mcguire_dda"}],
+        "tune": {"time": "operations", "most_runs": 1, "axes": {"dda.stride": [1, 2]}}})");
+    const Outcome tuned = ssrlab("tune study.json --out tuned");
+    EXPECT_EQ(tuned.code, 0) << tuned.text;
+    EXPECT_TRUE(fs::exists(folder / "tuned/tuned.md")) << tuned.text;
+}
+
 TEST_F(CommandLine, PlansAndRefusesWhatThisMachineCannotHold) {
     // Also of a point that uses scene data, whose time does not depend on its rays.
     config(
