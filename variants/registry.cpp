@@ -59,7 +59,7 @@ const VariantEntry& add_technique_folder(const std::filesystem::path& folder) {
     VariantEntry entry = declared_entry(folder);
     const auto known = std::ranges::find(growing_table(), entry.name, &VariantEntry::name);
     const bool is_new = known == growing_table().end();
-    if (!is_new && (!known->folder || known->folder->is_ssrlabs))
+    if (!is_new && known->is_ssrlabs())
         fail(folder.string(), ": '", entry.name, "' is one of ssrlab's own techniques; give the folder another name");
     if (!is_new && known->folder->path != entry.folder->path)
         fail(folder.string(), ": ", known->folder->path.string(), " is called '", entry.name,

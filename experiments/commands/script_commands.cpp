@@ -100,9 +100,9 @@ namespace {
 
 /// The name of a technique of ssrlab, or else its folder, wherever the config lies.
 std::string named_in_configs(const VariantConfig& point) {
-    const auto found = std::ranges::find(variant_table(), point.variant, &VariantEntry::name);
-    return found != variant_table().end() && found->folder && !found->folder->is_ssrlabs ? found->folder->path.string()
-                                                                                         : point.variant;
+    if (point.external) return point.variant;
+    const VariantEntry& entry = find_variant(point.variant);
+    return entry.is_ssrlabs() ? entry.name : entry.folder->path.string();
 }
 
 }  // namespace

@@ -24,8 +24,7 @@ std::vector<VariantConfig> all_points(const std::vector<std::string>& names) {
     for (const std::string& name : names) wanted.push_back(technique_point_name(name));
     std::vector<VariantConfig> points;
     for (const VariantEntry& entry : variant_table()) {
-        const bool is_ssrlabs = !entry.folder || entry.folder->is_ssrlabs;
-        if (entry.presets.empty() || !is_ssrlabs || entry.name == "mcguire_dda" || entry.name == "composed_ssr")
+        if (entry.presets.empty() || !entry.is_ssrlabs() || entry.name == "mcguire_dda" || entry.name == "composed_ssr")
             points.push_back(single_point(entry.name));
         for (const Preset& preset : entry.presets) points.push_back(single_point(entry.name, preset.name));
         if (entry.name != "mcguire_dda") continue;

@@ -11,9 +11,9 @@ void write_technique_copies(const std::filesystem::path& results, const std::vec
     for (const VariantConfig& variant : variants)
         if (!variant.external) names.insert(variant.variant);
     for (const std::string& name : names) {
-        const auto& folder = find_variant(name).folder;
-        if (!folder || folder->is_ssrlabs) continue;
-        for (const auto& [file, text] : folder->files)
+        const VariantEntry& entry = find_variant(name);
+        if (entry.is_ssrlabs()) continue;
+        for (const auto& [file, text] : entry.folder->files)
             write_text(path_inside(results, "techniques/" + name + "/" + file), text);
     }
 }

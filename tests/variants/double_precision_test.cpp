@@ -63,6 +63,7 @@ TEST(DoublePrecision, EveryShaderCompiles) {
         }
     };
     for (const VariantEntry& entry : variant_table()) {
+        if (!entry.is_ssrlabs()) continue;  // of another test of this process
         const std::unique_ptr<Variant> variant = make_variant(entry.name, {}, "");
         compile_all(entry.name, variant->params, variant->shader_includes());
     }

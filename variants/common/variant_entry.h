@@ -34,6 +34,9 @@ struct VariantEntry {
     VariantLimits limits{};
     std::function<std::unique_ptr<Variant>()> create;
     std::shared_ptr<const TechniqueFolder> folder{};  ///< of one that a folder declares; else none
+
+    /// Whether it is one of variants/, not of somebody's own folder.
+    bool is_ssrlabs() const { return !folder || folder->is_ssrlabs; }
 };
 
 /// Parameter values with others changed or added: for presets that begin with another.
