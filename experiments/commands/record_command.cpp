@@ -5,7 +5,7 @@
 #include "core/shown_text.h"
 #include "experiments/commands/commands.h"
 #include "experiments/commands/frame_numbers.h"
-#include "experiments/config/all_points.h"
+#include "experiments/config/points/all_points.h"
 #include "experiments/record/record.h"
 #include "experiments/run/progress.h"
 

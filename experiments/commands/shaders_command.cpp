@@ -7,7 +7,7 @@
 #include "core/scene/load_scene.h"
 #include "core/shown_text.h"
 #include "experiments/commands/commands.h"
-#include "experiments/config/all_points.h"
+#include "experiments/config/points/all_points.h"
 #include "experiments/measuring/costs/compiled_shaders.h"
 #include "experiments/run/needs.h"
 

@@ -2,7 +2,7 @@
 // copy of the rules, and less than a library, which would need the same sources once more and a place to be found in.
 #include "core/error.h"
 #include "experiments/commands/commands.h"
-#include "experiments/evaluation/over_scenes.h"
+#include "experiments/evaluation/effects/over_scenes.h"
 #include "metrics/median_interval.h"
 #include "metrics/statistics.h"
 

@@ -5,7 +5,7 @@
 #include "core/scene/load_scene.h"
 #include "core/shown_text.h"
 #include "experiments/commands/commands.h"
-#include "experiments/config/shot.h"
+#include "experiments/config/shots/shot.h"
 #include "experiments/run/progress.h"
 #include "groundtruth/paths/path_tracer.h"
 #include "groundtruth/reference/reference_audit.h"

@@ -2,8 +2,8 @@
 
 #include "core/error.h"
 #include "core/json.h"
-#include "experiments/config/point_name.h"
-#include "experiments/config/variant_of.h"
+#include "experiments/config/points/point_name.h"
+#include "experiments/config/points/variant_of.h"
 
 #include <algorithm>
 #include <map>

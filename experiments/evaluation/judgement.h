@@ -1,6 +1,6 @@
 #pragma once
-#include "experiments/evaluation/effects.h"
-#include "experiments/evaluation/over_scenes.h"
+#include "experiments/evaluation/effects/effects.h"
+#include "experiments/evaluation/effects/over_scenes.h"
 
 #include <span>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
+#include "experiments/evaluation/effects/time_effects.h"
 #include "experiments/evaluation/summary.h"
-#include "experiments/evaluation/time_effects.h"
 
 #include <filesystem>
 #include <nlohmann/json.hpp>

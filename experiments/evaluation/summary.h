@@ -1,5 +1,5 @@
 #pragma once
-#include "experiments/evaluation/effects.h"
+#include "experiments/evaluation/effects/effects.h"
 #include "experiments/measuring/cell.h"
 
 #include <filesystem>

@@ -1,8 +1,8 @@
 #include "experiments/measuring/left_out_by.h"
 
 #include "core/gbuffer/rasterizer.h"
+#include "experiments/config/points/variant_of.h"
 #include "groundtruth/paths/path_tracer.h"
-#include "experiments/config/variant_of.h"
 
 std::vector<LeftOutBy> left_out_of(const Shot& shot, const std::vector<VariantConfig>& variants) {
     std::vector<LeftOutBy> all;
@@ -14,8 +14,7 @@ std::vector<LeftOutBy> left_out_of(const Shot& shot, const std::vector<VariantCo
     }
     for (const VariantConfig& v : variants) {
         const std::string who = v.point == "default" ? v.variant : v.variant + " " + v.point;
-        for (const LeftOut& part : variant_of(v)->leave_out(shot.facts))
-            all.push_back({who, part});
+        for (const LeftOut& part : variant_of(v)->leave_out(shot.facts)) all.push_back({who, part});
     }
     return all;
 }

@@ -1,6 +1,6 @@
 #pragma once
 #include "core/left_out.h"
-#include "experiments/config/shot.h"
+#include "experiments/config/shots/shot.h"
 
 /// What someone leaves out of a shot.
 struct LeftOutBy {

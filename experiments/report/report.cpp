@@ -4,7 +4,7 @@
 #include "core/files.h"
 #include "core/json.h"
 #include "core/path_inside.h"
-#include "experiments/evaluation/results_schema.h"
+#include "experiments/evaluation/columns/results_schema.h"
 #include "experiments/evaluation/study_tables.h"
 #include "experiments/evaluation/summary.h"
 #include "experiments/report/answers.h"

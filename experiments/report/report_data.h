@@ -1,9 +1,9 @@
 #pragma once
-#include "experiments/evaluation/effects.h"
-#include "experiments/evaluation/over_scenes.h"
+#include "experiments/evaluation/effects/effects.h"
+#include "experiments/evaluation/effects/over_scenes.h"
+#include "experiments/evaluation/effects/time_effects.h"
 #include "experiments/evaluation/study_points.h"
 #include "experiments/evaluation/summary.h"
-#include "experiments/evaluation/time_effects.h"
 #include "experiments/stability/stability_report.h"
 
 #include <nlohmann/json.hpp>

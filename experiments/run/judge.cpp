@@ -5,8 +5,8 @@
 #include "core/json.h"
 #include "core/scene/load_scene.h"
 #include "core/scene/scene_family.h"
-#include "experiments/config/capture_folder.h"
-#include "experiments/config/external_images.h"
+#include "experiments/config/points/external_images.h"
+#include "experiments/config/shots/capture_folder.h"
 #include "experiments/evaluation/summary.h"
 #include "experiments/store/result_images.h"
 
@@ -169,8 +169,7 @@ JudgedFrames judge_frames(const JudgeSettings& settings) {
     if (images_in(settings.frames) == images_in(settings.against))
         judged.against = Judgement{.views = {}, .verdict = judgement::identical};
     else
-        judged.against =
-            judge_effects(read_rows<EffectRow>(run.out / "effects.csv"), study.primary, {images->name, judged_point},
-                          {images->name, before_point});
+        judged.against = judge_effects(read_rows<EffectRow>(run.out / "effects.csv"), study.primary,
+                                       {images->name, judged_point}, {images->name, before_point});
     return judged;
 }

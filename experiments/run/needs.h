@@ -1,5 +1,5 @@
 #pragma once
-#include "experiments/config/shot.h"
+#include "experiments/config/shots/shot.h"
 #include "experiments/measuring/left_out_by.h"
 #include "experiments/measuring/times/timing.h"
 

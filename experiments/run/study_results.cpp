@@ -1,8 +1,8 @@
 #include "experiments/run/study_results.h"
 
 #include "core/files.h"
+#include "experiments/evaluation/columns/results_schema.h"
 #include "experiments/evaluation/evaluation.h"
-#include "experiments/evaluation/results_schema.h"
 #include "experiments/measuring/times/timing.h"
 #include "experiments/store/host_info.h"
 #include "experiments/store/manifest.h"

@@ -1,5 +1,5 @@
 #pragma once
-#include "experiments/config/shot.h"
+#include "experiments/config/shots/shot.h"
 #include "experiments/stability/stability_case.h"
 
 /// The shot that a case draws. Fails with Error as load_shot() does.

@@ -1,8 +1,8 @@
 #include "experiments/stability/stability.h"
 
 #include "core/error.h"
-#include "experiments/config/all_points.h"
 #include "experiments/config/chosen.h"
+#include "experiments/config/points/all_points.h"
 #include "experiments/stability/amplification.h"
 #include "metrics/metric.h"
 

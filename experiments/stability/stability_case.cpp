@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 #include "core/reading_limits.h"
-#include "experiments/config/point_name.h"
+#include "experiments/config/points/point_name.h"
 
 #include <algorithm>
 #include <limits>

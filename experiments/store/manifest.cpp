@@ -1,9 +1,9 @@
 #include "experiments/store/manifest.h"
 
 #include "experiments/config/comparisons.h"
-#include "experiments/config/external_images.h"
-#include "experiments/config/read_shots.h"
-#include "experiments/config/variant_of.h"
+#include "experiments/config/points/external_images.h"
+#include "experiments/config/points/variant_of.h"
+#include "experiments/config/shots/read_shots.h"
 #include "experiments/measuring/left_out_by.h"
 #include "experiments/store/shot_facts.h"
 #include "metrics/temporal.h"

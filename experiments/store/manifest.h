@@ -1,5 +1,5 @@
 #pragma once
-#include "experiments/config/shot.h"
+#include "experiments/config/shots/shot.h"
 
 #include <nlohmann/json.hpp>
 #include <optional>

@@ -1,5 +1,5 @@
 #pragma once
-#include "experiments/evaluation/over_scenes.h"
+#include "experiments/evaluation/effects/over_scenes.h"
 #include "experiments/watch/watch_settings.h"
 
 /// A technique as a study that is written for a watch has it.

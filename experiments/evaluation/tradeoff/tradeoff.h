@@ -1,7 +1,7 @@
 #pragma once
-#include "experiments/evaluation/other_costs.h"
-#include "experiments/evaluation/pairs.h"
 #include "experiments/evaluation/tradeoff/chosen_points.h"
+#include "experiments/evaluation/tradeoff/other_costs.h"
+#include "experiments/evaluation/tradeoff/pairs.h"
 
 inline constexpr const char* unit_of_times = "ms";
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "experiments/evaluation/over_scenes.h"
+#include "experiments/evaluation/effects/over_scenes.h"
 #include "experiments/evaluation/tradeoff/chosen_points.h"
 #include "experiments/evaluation/tradeoff/tradeoff.h"
 

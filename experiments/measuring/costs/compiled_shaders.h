@@ -1,7 +1,7 @@
 #pragma once
 #include "core/gpu/chips/chip_compiler.h"
 #include "experiments/config/config.h"
-#include "experiments/config/shot.h"
+#include "experiments/config/shots/shot.h"
 #include "experiments/measuring/cell.h"
 #include "experiments/measuring/frames/frame_source.h"
 

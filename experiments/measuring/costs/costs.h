@@ -1,6 +1,6 @@
 #pragma once
 #include "experiments/config/config.h"
-#include "experiments/config/shot.h"
+#include "experiments/config/shots/shot.h"
 #include "experiments/measuring/cell.h"
 #include "experiments/measuring/frames/frame_source.h"
 

@@ -2,7 +2,7 @@
 #include "core/gpu/pass_cost.h"
 #include "core/gpu/waves/wave_replay.h"
 #include "experiments/config/config.h"
-#include "experiments/config/shot.h"
+#include "experiments/config/shots/shot.h"
 #include "experiments/measuring/frames/frame_source.h"
 
 #include <functional>

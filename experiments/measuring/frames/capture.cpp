@@ -6,7 +6,7 @@
 #include "core/gbuffer/gbuffer_checks.h"
 #include "core/gbuffer/pixel_position.h"
 #include "core/path_inside.h"
-#include "experiments/config/capture_folder.h"
+#include "experiments/config/shots/capture_folder.h"
 #include "groundtruth/reference/reference_file.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 #include "core/gbuffer/gbuffer_file.h"
 #include "core/gbuffer/prefiltered_environment.h"
-#include "experiments/config/shot.h"
+#include "experiments/config/shots/shot.h"
 #include "groundtruth/reference/reference.h"
 
 #include <memory>

@@ -4,15 +4,13 @@
 #include "core/gbuffer/composite.h"
 #include "core/gbuffer/environment_images.h"
 #include "core/gbuffer/gbuffer_transfer.h"
-#include "experiments/config/variant_of.h"
+#include "experiments/config/points/variant_of.h"
 
 #include <algorithm>
 
 namespace {
 
-bool needs_depth_layers(const VariantConfig& variant) {
-    return variant_of(variant)->needs_depth_layers();
-}
+bool needs_depth_layers(const VariantConfig& variant) { return variant_of(variant)->needs_depth_layers(); }
 
 class SceneSource final : public FrameSource {
 public:

@@ -2,7 +2,7 @@
 #include "core/gbuffer/gbuffer_file.h"
 #include "core/gbuffer/rasterizer.h"
 #include "experiments/config/config.h"
-#include "experiments/config/shot.h"
+#include "experiments/config/shots/shot.h"
 #include "experiments/measuring/frames/capture.h"
 
 #include <map>

@@ -2,7 +2,7 @@
 #include "core/ray_probe.h"
 #include "core/scene/scene.h"
 #include "core/shared/camera.h"
-#include "experiments/config/shot.h"
+#include "experiments/config/shots/shot.h"
 #include "groundtruth/scene/camera_view.h"
 #include "groundtruth/scene/embree_scene.h"
 

@@ -2,7 +2,7 @@
 #include "core/cpu_times.h"
 #include "core/gpu/clock.h"
 #include "experiments/config/config.h"
-#include "experiments/config/shot.h"
+#include "experiments/config/shots/shot.h"
 #include "experiments/measuring/cell.h"
 #include "experiments/measuring/frames/frame_source.h"
 #include "metrics/median_interval.h"

@@ -4,7 +4,7 @@
 #include "core/exr.h"
 #include "core/path_inside.h"
 #include "core/png.h"
-#include "experiments/config/external_images.h"
+#include "experiments/config/points/external_images.h"
 #include "experiments/measuring/frames/external_proof.h"
 #include "experiments/run/shots/point_errors.h"
 #include "experiments/store/image_queue.h"

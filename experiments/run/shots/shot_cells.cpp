@@ -1,7 +1,7 @@
 #include "experiments/run/shots/shot_cells.h"
 #include "core/elapsed.h"
 #include "core/error.h"
-#include "experiments/config/conditions.h"
+#include "experiments/config/points/conditions.h"
 #include "experiments/measuring/costs/costs.h"
 #include "experiments/measuring/costs/gpu_estimates.h"
 #include "experiments/measuring/rehearsal.h"

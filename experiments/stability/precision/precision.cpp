@@ -1,7 +1,7 @@
 #include "experiments/stability/precision/precision.h"
 
 #include "core/error.h"
-#include "experiments/config/all_points.h"
+#include "experiments/config/points/all_points.h"
 #include "experiments/stability/precision/precision_judge.h"
 
 const char* name_of(PrecisionKind kind) {

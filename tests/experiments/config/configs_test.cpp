@@ -3,7 +3,7 @@
 #include "core/files.h"
 #include "experiments/config/config.h"
 #include "experiments/config/config_schema.h"
-#include "experiments/config/shot.h"
+#include "experiments/config/shots/shot.h"
 #include "variants/registry.h"
 
 #include <gtest/gtest.h>

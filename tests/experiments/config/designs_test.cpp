@@ -2,10 +2,10 @@
 // settings of shots, labels and names. Over 400 lines, as all of them are one short config each, made by one helper.
 #include "core/error.h"
 #include "core/files.h"
-#include "experiments/config/conditions.h"
 #include "experiments/config/config_parts.h"
-#include "experiments/config/point_name.h"
-#include "experiments/config/unit_samples.h"
+#include "experiments/config/points/conditions.h"
+#include "experiments/config/points/point_name.h"
+#include "experiments/config/points/unit_samples.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>

@@ -1,5 +1,5 @@
 // What seeds give: bias and variance, and the effects of points against a baseline.
-#include "experiments/evaluation/effects.h"
+#include "experiments/evaluation/effects/effects.h"
 #include "experiments/evaluation/interval.h"
 #include "experiments/measuring/splits.h"
 #include "experiments/store/study_rows.h"

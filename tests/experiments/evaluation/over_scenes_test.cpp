@@ -1,5 +1,5 @@
 // What holds over scenes: closed forms, brute force, and how often what is truly the best is said to be behind.
-#include "experiments/evaluation/over_scenes.h"
+#include "experiments/evaluation/effects/over_scenes.h"
 
 #include "core/error.h"
 #include "experiments/evaluation/interval.h"

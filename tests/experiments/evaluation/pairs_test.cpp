@@ -1,5 +1,5 @@
 // Two points beside each other: by closed forms, and how often equal ones are said to differ, on heavy tails.
-#include "experiments/evaluation/pairs.h"
+#include "experiments/evaluation/tradeoff/pairs.h"
 
 #include "experiments/evaluation/interval.h"
 #include "experiments/evaluation/standings.h"

@@ -1,5 +1,5 @@
 // What a results folder says of its own columns.
-#include "experiments/evaluation/results_schema.h"
+#include "experiments/evaluation/columns/results_schema.h"
 #include "core/files.h"
 #include "experiments/tables/columns.h"
 

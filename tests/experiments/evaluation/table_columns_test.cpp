@@ -1,4 +1,4 @@
-#include "experiments/evaluation/table_columns.h"
+#include "experiments/evaluation/columns/table_columns.h"
 
 #include "core/files.h"
 #include "experiments/config/config_parts.h"
@@ -14,10 +14,11 @@ namespace {
 const fs::path source = SSRLAB_SOURCE_DIR, file = fs::path(testing::TempDir()) / "table_columns.json";
 
 std::string mistake_in(const std::string& table) {
-    write_text(file,
-               R"({"shots": [{"scene": "fence"}], "variants": [{"variant": "mcguire_dda"}], "hits": {}, "costs": true, "gpu_compilers": ["navi21"],
+    write_text(
+        file,
+        R"({"shots": [{"scene": "fence"}], "variants": [{"variant": "mcguire_dda"}], "hits": {}, "costs": true, "gpu_compilers": ["navi21"],
  "tables": [{"name": "a", "caption": "", )" +
-                   table + "}]}");
+            table + "}]}");
     const std::string message = error_message([] { check_table_columns(read_config(file)); });
     return message.starts_with(file.string()) ? message.substr(file.string().size()) : message;
 }

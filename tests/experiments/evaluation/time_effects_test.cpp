@@ -1,5 +1,5 @@
 // Ratios of times: paired by frame, with intervals that allow for slow changes of the machine's speed.
-#include "experiments/evaluation/time_effects.h"
+#include "experiments/evaluation/effects/time_effects.h"
 #include "metrics/median_interval.h"
 
 #include <gtest/gtest.h>

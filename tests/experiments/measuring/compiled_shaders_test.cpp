@@ -2,7 +2,7 @@
 #include "core/error.h"
 #include "core/gpu/device.h"
 #include "core/scene/load_scene.h"
-#include "experiments/config/all_points.h"
+#include "experiments/config/points/all_points.h"
 #include "experiments/run/needs.h"
 #include "variants/registry.h"
 

@@ -1,6 +1,6 @@
 #include "tests/experiments/measuring/coverage.h"
 
-#include "experiments/evaluation/effects.h"
+#include "experiments/evaluation/effects/effects.h"
 #include "experiments/evaluation/summary.h"
 #include "experiments/measuring/measure.h"
 #include "experiments/measuring/rung_errors.h"

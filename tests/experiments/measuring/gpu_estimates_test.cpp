@@ -3,7 +3,7 @@
 #include "core/gpu/device.h"
 #include "core/gpu/waves/traced_shader.h"
 #include "core/scene/load_scene.h"
-#include "experiments/config/all_points.h"
+#include "experiments/config/points/all_points.h"
 #include "experiments/measuring/render_variant.h"
 #include "experiments/run/needs.h"
 

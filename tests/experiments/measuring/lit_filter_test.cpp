@@ -1,6 +1,6 @@
 #include "experiments/measuring/frames/lit_filter.h"
 #include "core/scene/load_scene.h"
-#include "experiments/config/shot.h"
+#include "experiments/config/shots/shot.h"
 
 #include <gtest/gtest.h>
 #include <random>

@@ -1,5 +1,5 @@
 // Effects hold the noise of the reference that both of their errors are made with.
-#include "experiments/evaluation/effects.h"
+#include "experiments/evaluation/effects/effects.h"
 #include "experiments/evaluation/interval.h"
 #include "experiments/store/study_rows.h"
 

@@ -1,7 +1,7 @@
 // How a shot is played, and what a config may ask for.
 #include "core/error.h"
 #include "core/files.h"
-#include "experiments/config/shot.h"
+#include "experiments/config/shots/shot.h"
 #include "experiments/measuring/shot_truth.h"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 #include "experiments/record/record.h"
 #include "core/gbuffer/gbuffer_transfer.h"
 #include "core/gpu/device.h"
-#include "experiments/config/all_points.h"
+#include "experiments/config/points/all_points.h"
 #include "experiments/measuring/rehearsal.h"
 #include "experiments/measuring/render_variant.h"
 #include "experiments/record/recorder.h"

@@ -3,10 +3,10 @@
 
 #include "core/exr.h"
 #include "core/files.h"
-#include "experiments/evaluation/effects.h"
+#include "experiments/evaluation/effects/effects.h"
+#include "experiments/evaluation/effects/time_effects.h"
 #include "experiments/evaluation/evaluation.h"
 #include "experiments/evaluation/interval.h"
-#include "experiments/evaluation/time_effects.h"
 #include "experiments/store/manifest.h"
 #include "experiments/store/study_rows.h"
 

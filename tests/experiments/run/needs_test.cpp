@@ -1,5 +1,5 @@
 #include "experiments/run/needs.h"
-#include "experiments/config/all_points.h"
+#include "experiments/config/points/all_points.h"
 #include "tests/variants/variant_fixture.h"
 
 #include <algorithm>

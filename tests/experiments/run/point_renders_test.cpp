@@ -2,7 +2,7 @@
 #include "core/error.h"
 #include "core/gbuffer/gbuffer_transfer.h"
 #include "core/gpu/device.h"
-#include "experiments/evaluation/effects.h"
+#include "experiments/evaluation/effects/effects.h"
 #include "experiments/measuring/frames/frame_source.h"
 #include "tests/experiments/run/study_fixture.h"
 

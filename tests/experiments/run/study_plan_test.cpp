@@ -71,9 +71,10 @@ TEST_F(StudyPlanTest, AnEditRedoesTheCellsThatItMayChange) {
 
     for (const char* file :
          {"experiments/report/report.cpp", "experiments/report/page/page.js", "experiments/evaluation/summary.cpp",
-          "experiments/evaluation/effects.cpp", "experiments/store/manifest.cpp", "experiments/commands/commands.h",
-          "experiments/figures/tables.py", "experiments/run/study_results.cpp", "experiments/run/progress.cpp",
-          "experiments/config/config.cpp", "experiments/stability/stability.cpp", "variants/README.md"})
+          "experiments/evaluation/effects/effects.cpp", "experiments/store/manifest.cpp",
+          "experiments/commands/commands.h", "experiments/figures/tables.py", "experiments/run/study_results.cpp",
+          "experiments/run/progress.cpp", "experiments/config/config.cpp", "experiments/stability/stability.cpp",
+          "variants/README.md"})
         EXPECT_EQ(changed(file), Cells()) << file;
     for (const char* file : {"variants/amd_sssr/intersect.comp", "variants/amd_sssr/passes.cpp"})
         EXPECT_EQ(changed(file), Cells({"amd_sssr default", "times"})) << file;

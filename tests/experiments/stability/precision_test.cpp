@@ -1,7 +1,7 @@
 #include "experiments/stability/precision/precision.h"
 #include "core/files.h"
 #include "core/scene/load_scene.h"
-#include "experiments/config/all_points.h"
+#include "experiments/config/points/all_points.h"
 #include "tests/variants/variant_fixture.h"
 
 #include <algorithm>

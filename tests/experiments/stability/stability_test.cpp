@@ -1,7 +1,7 @@
 #include "experiments/stability/stability.h"
 #include "core/files.h"
 #include "core/scene/load_scene.h"
-#include "experiments/config/all_points.h"
+#include "experiments/config/points/all_points.h"
 #include "experiments/stability/changed_shot.h"
 #include "experiments/stability/stability_report.h"
 #include "tests/error_message.h"
@@ -215,9 +215,9 @@ TEST_F(StabilityTest, ErrorsAndDriftAreWhatTheyMustBe) {
 }
 
 /// What claims to know of no unit of length keeps its error in scenes of any size, but for rounding, which moves single
-/// hits by a pixel: of 1296 pixels one weighs up to 1 % of the error. The path tracer's picture differs where rounding moves
-/// a path across the border of two cells with other probabilities to go on: one of a pixel's 64 samples that ends has
-/// up to ten times the weight elsewhere, which is (10 / 64)^2 / 1296 = 2e-5 of the squares; five such may.
+/// hits by a pixel: of 1296 pixels one weighs up to 1 % of the error. The path tracer's picture differs where rounding
+/// moves a path across the border of two cells with other probabilities to go on: one of a pixel's 64 samples that ends
+/// has up to ten times the weight elsewhere, which is (10 / 64)^2 / 1296 = 2e-5 of the squares; five such may.
 TEST_F(StabilityTest, ErrorsOfWhatHasNoUnitDoNotDependOnScale) {
     std::string cases;
     for (const char* scale : {"1e-3", "1e3", "1e5"})

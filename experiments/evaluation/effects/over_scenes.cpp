@@ -1,4 +1,4 @@
-#include "experiments/evaluation/over_scenes.h"
+#include "experiments/evaluation/effects/over_scenes.h"
 
 #include "core/error.h"
 #include "experiments/evaluation/standings.h"

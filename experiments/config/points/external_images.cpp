@@ -1,10 +1,10 @@
-#include "experiments/config/external_images.h"
+#include "experiments/config/points/external_images.h"
 
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
 #include "core/path_inside.h"
-#include "experiments/config/shot.h"
+#include "experiments/config/shots/shot.h"
 #include "variants/registry.h"
 
 #include <algorithm>

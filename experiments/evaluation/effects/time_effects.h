@@ -1,6 +1,6 @@
 #pragma once
 #include "experiments/config/comparisons.h"
-#include "experiments/evaluation/effects.h"
+#include "experiments/evaluation/effects/effects.h"
 #include "experiments/measuring/cell.h"
 #include "metrics/median_interval.h"
 

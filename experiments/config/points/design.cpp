@@ -1,8 +1,8 @@
-#include "experiments/config/design.h"
+#include "experiments/config/points/design.h"
 
 #include "core/error.h"
 #include "core/near_miss.h"
-#include "experiments/config/unit_samples.h"
+#include "experiments/config/points/unit_samples.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
-#include "experiments/config/variant_of.h"
+#include "experiments/config/points/variant_of.h"
 
 #include "core/error.h"
-#include "experiments/config/external_images.h"
+#include "experiments/config/points/external_images.h"
 #include "variants/registry.h"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "experiments/config/shot.h"
+#include "experiments/config/shots/shot.h"
 
 #include "core/scene/load_scene.h"
 

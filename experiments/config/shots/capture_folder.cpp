@@ -1,4 +1,4 @@
-#include "experiments/config/capture_folder.h"
+#include "experiments/config/shots/capture_folder.h"
 
 #include "core/error.h"
 #include "core/path_inside.h"

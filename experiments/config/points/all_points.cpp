@@ -1,7 +1,7 @@
-#include "experiments/config/all_points.h"
+#include "experiments/config/points/all_points.h"
 
 #include "experiments/config/chosen.h"
-#include "experiments/config/point_name.h"
+#include "experiments/config/points/point_name.h"
 #include "variants/registry.h"
 #include "variants/tracers/tracers.h"
 

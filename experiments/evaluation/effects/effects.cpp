@@ -1,4 +1,4 @@
-#include "experiments/evaluation/effects.h"
+#include "experiments/evaluation/effects/effects.h"
 
 #include "experiments/evaluation/interval.h"
 #include "experiments/measuring/lit_noise.h"

@@ -1,4 +1,4 @@
-#include "experiments/config/unit_samples.h"
+#include "experiments/config/points/unit_samples.h"
 
 #include <algorithm>
 #include <boost/random/sobol.hpp>

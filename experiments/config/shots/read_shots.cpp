@@ -1,9 +1,9 @@
-#include "experiments/config/read_shots.h"
+#include "experiments/config/shots/read_shots.h"
 
 #include "core/error.h"
 #include "core/scene/scene_family.h"
-#include "experiments/config/capture_folder.h"
-#include "experiments/config/point_name.h"
+#include "experiments/config/points/point_name.h"
+#include "experiments/config/shots/capture_folder.h"
 #include "metrics/ghost.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "experiments/config/point_name.h"
+#include "experiments/config/points/point_name.h"
 
 #include "core/error.h"
 #include "core/files.h"

@@ -2,7 +2,7 @@
 #include "core/parameters.h"
 #include "experiments/config/config.h"
 #include "experiments/config/keys.h"
-#include "experiments/config/shot.h"
+#include "experiments/config/shots/shot.h"
 
 // An entry of `variants` may hold for some points and shots only: `only_if` all of its conditions hold, and not
 // (`skip_if`) where all of its conditions do. A condition is a value, an array of values, or an object of `at_least`,

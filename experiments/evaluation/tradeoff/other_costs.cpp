@@ -1,4 +1,4 @@
-#include "experiments/evaluation/other_costs.h"
+#include "experiments/evaluation/tradeoff/other_costs.h"
 
 #include "core/error.h"
 #include "core/near_miss.h"

@@ -1,11 +1,11 @@
-#include "experiments/evaluation/results_schema.h"
+#include "experiments/evaluation/columns/results_schema.h"
 
 #include "core/files.h"
-#include "experiments/config/variant_of.h"
-#include "experiments/evaluation/effects.h"
-#include "experiments/evaluation/over_scenes.h"
+#include "experiments/config/points/variant_of.h"
+#include "experiments/evaluation/effects/effects.h"
+#include "experiments/evaluation/effects/over_scenes.h"
+#include "experiments/evaluation/effects/time_effects.h"
 #include "experiments/evaluation/summary.h"
-#include "experiments/evaluation/time_effects.h"
 #include "experiments/measuring/cell.h"
 
 #include <map>

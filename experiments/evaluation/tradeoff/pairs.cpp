@@ -1,7 +1,7 @@
-#include "experiments/evaluation/pairs.h"
+#include "experiments/evaluation/tradeoff/pairs.h"
 
-#include "experiments/evaluation/other_costs.h"
 #include "experiments/evaluation/standings.h"
+#include "experiments/evaluation/tradeoff/other_costs.h"
 #include "experiments/store/manifest.h"
 #include "metrics/statistics.h"
 #include "metrics/temporal.h"

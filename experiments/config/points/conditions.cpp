@@ -1,10 +1,10 @@
-#include "experiments/config/conditions.h"
+#include "experiments/config/points/conditions.h"
 
 #include "core/error.h"
 #include "core/near_miss.h"
 #include "core/value_condition.h"
-#include "experiments/config/external_images.h"
-#include "experiments/config/read_shots.h"
+#include "experiments/config/points/external_images.h"
+#include "experiments/config/shots/read_shots.h"
 
 #include <algorithm>
 

@@ -1,11 +1,11 @@
-#include "experiments/config/read_variants.h"
+#include "experiments/config/points/read_variants.h"
 
 #include "core/error.h"
 #include "core/near_miss.h"
-#include "experiments/config/conditions.h"
-#include "experiments/config/design.h"
-#include "experiments/config/external_images.h"
-#include "experiments/config/point_name.h"
+#include "experiments/config/points/conditions.h"
+#include "experiments/config/points/design.h"
+#include "experiments/config/points/external_images.h"
+#include "experiments/config/points/point_name.h"
 #include "variants/registry.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "experiments/evaluation/time_effects.h"
+#include "experiments/evaluation/effects/time_effects.h"
 
 #include "experiments/evaluation/interval.h"
 #include "experiments/store/manifest.h"
