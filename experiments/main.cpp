@@ -74,17 +74,25 @@ void add_cache(CLI::App& command, CommonOptions& common) {
         ->type_name("DIR");
 }
 
-void add_shot(CLI::App& command, ShotOptions& shot) {
-    command
-        .add_option("scene", shot.scene,
-                    "A scene's name (see: ssrlab list scenes), or a path to a .json, .gltf or .glb")
+void add_scene(CLI::App& command, std::string& scene) {
+    command.add_option("scene", scene, "A scene's name (see: ssrlab list scenes), or a path to a .json, .gltf or .glb")
         ->required()
         ->type_name("SCENE");
-    command.add_option("--camera", shot.camera, "Default: the scene's first")->type_name("NAME");
-    command.add_option("--size", shot.size, "Width and height in pixels; default: 480 270")
+}
+
+/// `size`: two numbers; `otherwise`: what they are by default.
+template <class Size>
+void add_size(CLI::App& command, Size& size, const std::string& otherwise = "480 270") {
+    command.add_option("--size", size, "Width and height in pixels; default: " + otherwise)
         ->expected(2)
         ->type_name("W H")
         ->check(CLI::Range(1, 16384));
+}
+
+void add_shot(CLI::App& command, ShotOptions& shot) {
+    add_scene(command, shot.scene);
+    command.add_option("--camera", shot.camera, "Default: the scene's first")->type_name("NAME");
+    add_size(command, shot.size);
     command.add_option("--frame", shot.frame, "Frame of the camera's path and of the animation; default: 0")
         ->type_name("N");
 }
@@ -300,17 +308,10 @@ int parse_and_run(int argc, char** argv) {
         .add_option("engine", scene_for.engine, "any, three, babylon, eevee or godot: decides the files' formats")
         ->required()
         ->type_name("ENGINE");
-    scene_for_command_
-        .add_option("scene", scene_for.scene,
-                    "A scene's name (see: ssrlab list scenes), or a path to a .json, .gltf or .glb")
-        ->required()
-        ->type_name("SCENE");
+    add_scene(scene_for_command_, scene_for.scene);
     scene_for_command_.add_option("--camera", scene_for.cameras, "One or more; default: the scene's first")
         ->type_name("NAME");
-    scene_for_command_.add_option("--size", scene_for.size, "Width and height in pixels; default: 480 270")
-        ->expected(2)
-        ->type_name("W H")
-        ->check(CLI::Range(1, 16384));
+    add_size(scene_for_command_, scene_for.size);
     scene_for_command_
         .add_option("--frames", scene_for.frames,
                     "Frames of the cameras' paths and of the animation, as 0-63 or 0 8 16")
@@ -571,10 +572,7 @@ int parse_and_run(int argc, char** argv) {
         ->check(CLI::Range(0u, largest_scene_number))
         ->capture_default_str()
         ->type_name("N");
-    rays_command_.add_option("--size", rays.size, "Width and height in pixels; default: 160 90")
-        ->expected(2)
-        ->type_name("W H")
-        ->check(CLI::Range(1, 16384));
+    add_size(rays_command_, rays.size, "160 90");
     add_scene_path(rays_command_, common);
     add_reading(rays_command_);
     rays_command_.callback([&] { rays_command(rays, common); });
@@ -582,11 +580,7 @@ int parse_and_run(int argc, char** argv) {
     RecordOptions record;
     CLI::App& record_command_ = *app.add_subcommand(
         "record", "Write a page in which a browser does a technique's passes again (WebGL 2), beside the truth");
-    record_command_
-        .add_option("scene", record.shot.scene,
-                    "A scene's name (see: ssrlab list scenes), or a path to a .json, .gltf or .glb")
-        ->required()
-        ->type_name("SCENE");
+    add_scene(record_command_, record.shot.scene);
     record_command_
         .add_option(
             "--variant", record.variant,
@@ -595,10 +589,7 @@ int parse_and_run(int argc, char** argv) {
         ->type_name("NAME");
     add_values(record_command_, record.preset, record.parameters);
     record_command_.add_option("--camera", record.shot.camera, "Default: the scene's first")->type_name("NAME");
-    record_command_.add_option("--size", record.shot.size, "Width and height in pixels; default: 192 108")
-        ->expected(2)
-        ->type_name("W H")
-        ->check(CLI::Range(1, 16384));
+    add_size(record_command_, record.shot.size, "192 108");
     record_command_.add_option("--frames", record.frames, "Frames of the camera's path and of the animation")
         ->capture_default_str()
         ->type_name("A-B");
@@ -637,10 +628,7 @@ int parse_and_run(int argc, char** argv) {
     watch_command_.add_option("--preset", watch.preset, "One of the technique's presets; default: its defaults")
         ->type_name("NAME");
     watch_command_.add_option("--camera", watch.camera, "Default: each scene's first")->type_name("NAME");
-    watch_command_.add_option("--size", watch.size, "Width and height in pixels; default: 480 270")
-        ->expected(2)
-        ->type_name("W H")
-        ->check(CLI::Range(1, 16384));
+    add_size(watch_command_, watch.size);
     watch_command_
         .add_option("--frames", watch.frames,
                     "Frames of the camera's path and of the animation, for histories; the last is measured")
