@@ -230,7 +230,12 @@ int parse_and_run(int argc, char** argv) {
         ->type_name("DIR");
     merge_command_.add_flag("--keep-all", merge.keep_all, "The parts were run with --keep-all");
     merge_command_.add_flag("--replace", merge.replaces, "As for `ssrlab run`");
-    add_device(merge_command_, common), add_scene_path(merge_command_, common);
+    merge_command_
+        .add_option("--device", common.device,
+                    "Whose cells are merged, where the parts hold those of several devices: a part of its name, or an "
+                    "index of `ssrlab list devices`; default: the one that made all, which need not be here")
+        ->type_name("NAME");
+    add_scene_path(merge_command_, common);
     add_reading(merge_command_);
     merge_command_.callback([&] { status = merge_command(merge, common); });
 

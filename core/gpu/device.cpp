@@ -119,11 +119,11 @@ size_t choose_by_type(const std::vector<DeviceInfo>& devices) {
 }
 
 size_t choose_by_name(const std::vector<DeviceInfo>& devices, const std::string& choice) {
-    if (std::ranges::all_of(choice, [](unsigned char c) { return std::isdigit(c); }) && choice.size() < 6)
+    if (is_device_index(choice))
         if (const size_t index = std::stoul(choice); index < devices.size()) return index;
     std::vector<std::string> names;
     for (size_t i = 0; i < devices.size(); ++i) {
-        if (lower(devices[i].name).find(lower(choice)) != std::string::npos) return i;
+        if (devices[i].fits(choice)) return i;
         names.push_back(std::to_string(i) + " '" + devices[i].name + "'");
     }
     fail("no Vulkan device fits '", choice, "'", suggestion(choice, names));
@@ -191,6 +191,15 @@ NeededFeatures needed_features() {
 bool validation_requested() {
     const char* value = std::getenv("SSRLAB_VALIDATE");
     return value && std::string(value) == "1";
+}
+
+bool DeviceInfo::fits(const std::string& part_of_name) const {
+    return lower(name).find(lower(part_of_name)) != std::string::npos;
+}
+
+bool is_device_index(const std::string& choice) {
+    const bool has_digits_alone = std::ranges::all_of(choice, [](unsigned char c) { return std::isdigit(c); });
+    return has_digits_alone && !choice.empty() && choice.size() < 6;
 }
 
 std::vector<DeviceInfo> list_devices() {

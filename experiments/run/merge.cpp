@@ -7,10 +7,39 @@
 #include "experiments/store/result_images.h"
 
 #include <algorithm>
+#include <map>
 
 namespace fs = std::filesystem;
 
 namespace {
+
+/// The devices that made the cells of the parts, by name and driver.
+std::map<std::string, DeviceInfo> devices_of(const std::vector<fs::path>& folders) {
+    std::map<std::string, DeviceInfo> devices;
+    for (const fs::path& folder : folders) {
+        const CellStore store(folder, [](const std::string&) {});
+        for (const std::string& name : store.names())
+            if (const std::optional<Cell> cell = store.read(name)) {
+                const nlohmann::json& made_by = cell->provenance.at("device");
+                const DeviceInfo device{.name = made_by.at("name"), .driver = made_by.at("driver")};
+                devices.emplace(device.name + ", " + device.driver, device);
+            }
+    }
+    return devices;
+}
+
+/// Cells are named by the device that made them, which need not be one of this machine: the only one of the parts, or
+/// the one that `choice` names. Nothing if that is none of them, or several, or an index: then this machine's counts.
+std::optional<DeviceInfo> device_of_parts(const std::map<std::string, DeviceInfo>& devices, const std::string& choice) {
+    std::optional<DeviceInfo> found;
+    if (is_device_index(choice)) return found;
+    for (const auto& [shown, device] : devices)
+        if (device.fits(choice)) {
+            if (found) return {};
+            found = device;
+        }
+    return found;
+}
 
 /// A cell of one of the folders.
 struct FoundCell {
@@ -63,9 +92,14 @@ void take_over(const FoundCell& found, const fs::path& out) {
 
 size_t merge_study(const Config& config, const RunSettings& settings, const std::vector<fs::path>& folders) {
     for (const fs::path& folder : folders) check_owner(folder, config, settings.keep_all);
-    StudySession study(config, settings);
+    const std::map<std::string, DeviceInfo> devices = devices_of(folders);
+    const std::optional<DeviceInfo> of_parts = device_of_parts(devices, settings.device);
+    RunSettings here = settings;
+    if (of_parts) here.device = "";  // nothing is rendered
+    StudySession study(config, here);
     const auto say = [&](const std::string& text) { study.progress.say(text); };
-    study.plan = plan_study(config, study.device.info(), settings.search_path, settings.keep_all);
+    const DeviceInfo device = of_parts.value_or(study.device.info());
+    study.plan = plan_study(config, device, settings.search_path, settings.keep_all);
     const FolderOwner owner(settings.out, config, settings.keep_all, settings.replaces, say);
     std::vector<std::string> missing;
     for (const PlannedShot& shot : study.plan.shots) {
@@ -86,8 +120,9 @@ size_t merge_study(const Config& config, const RunSettings& settings, const std:
     }
     if (study.finished.empty())
         fail("none of the ", study.plan.cell_count(), " cells of this study is in ", folders.front().string(),
-             folders.size() > 1 ? " or the folders beside it" : "",
-             "; were they made by this version of ssrlab, on a device like ", study.device.info().name, "?");
+             folders.size() > 1 ? " or the folders beside it" : "", "; were they made by this version of ssrlab, on ",
+             device.name, "?",
+             devices.size() > 1 ? " They hold cells of several devices: --device NAME says whose are merged" : "");
     write_results(study, missing.empty(), {});
     say(counted(study.finished.size(), "cell") + " merged, " + std::to_string(missing.size()) + " missing");
     for (size_t i = 0; i < std::min<size_t>(missing.size(), 5); ++i) say("  missing: " + missing[i]);

@@ -1,7 +1,10 @@
 // Whole studies, small ones: that a run repeats itself, continues where it stopped, and that leaving work out changes
 // nothing.
 #include "core/error.h"
+#include "core/gpu/device.h"
 #include "core/json.h"
+#include "experiments/run/plan/study_plan.h"
+#include "experiments/store/cell_store.h"
 #include "groundtruth/reference/reference_file.h"
 #include "tests/experiments/run/study_fixture.h"
 
@@ -157,6 +160,51 @@ TEST_F(StudyTest, PartsMakeTheWhole) {
     EXPECT_THROW(merge_study(other, {.out = folder / "x", .device = ""}, {folder / "a"}), Error);
     EXPECT_THROW(run_part("d", {"shot=nowhere"}), Error) << "a selection of nothing is a mistake";
     EXPECT_NO_THROW(run_part("d", {"shot=nowhere", "shard=1/2"})) << "but for a part of several";
+}
+
+/// Names the cells of a folder, and what their images are, as another device would have made them.
+void make_on_another_device(const Config& study, const fs::path& folder, const std::string& device) {
+    const std::vector<fs::path> search_path = {fs::path(SSRLAB_SOURCE_DIR) / "scenes"};
+    const DeviceInfo here = Device().info(), there{.name = device, .driver = "a driver"};
+    const StudyPlan of_here = plan_study(study, here, search_path, false),
+                    of_there = plan_study(study, there, search_path, false);
+    const CellStore store(folder, [](const std::string& text) { ADD_FAILURE() << text; });
+    for (size_t s = 0; s < of_here.shots.size(); ++s)
+        for (size_t c = 0; c < of_here.shots[s].cells.size(); ++c) {
+            const std::string& name = of_here.shots[s].cells[c].name;
+            std::optional<Cell> cell = store.load(name);
+            if (!cell) continue;
+            cell->provenance["device"]["name"] = device, cell->provenance["device"]["driver"] = "a driver";
+            fs::remove(store.file(name));
+            store.save(of_there.shots[s].cells[c].name, *cell);
+        }
+}
+
+TEST_F(StudyTest, PartsOfADeviceThatIsNotHereAreMerged) {
+    const Config study = config(R"("fence")");
+    const std::string alone = read_text(run(study, "here") / "results.csv");
+    fs::copy(folder / "here", folder / "there", fs::copy_options::recursive);
+    make_on_another_device(study, folder / "there", "Graphics 9000");
+    const auto merge = [&](const std::vector<fs::path>& parts, const std::string& device, const std::string& out) {
+        return merge_study(
+            study, {.out = folder / out, .device = device, .search_path = {fs::path(SSRLAB_SOURCE_DIR) / "scenes"}},
+            parts);
+    };
+    const auto device_of = [&](const std::string& out) {
+        return read_json(folder / out / "manifest.json")["provenance"][0]["device"]["name"].get<std::string>();
+    };
+    EXPECT_EQ(merge({folder / "there"}, "", "a"), 0u);
+    EXPECT_EQ(read_text(folder / "a/results.csv"), alone);
+    EXPECT_EQ(device_of("a"), "Graphics 9000");
+    // Of several devices this machine's own counts, unless another is named.
+    const std::vector<fs::path> both = {folder / "here", folder / "there"};
+    EXPECT_EQ(merge(both, "", "b"), 0u);
+    EXPECT_EQ(device_of("b"), Device().info().name);
+    EXPECT_EQ(merge(both, "graphics", "c"), 0u);
+    EXPECT_EQ(device_of("c"), "Graphics 9000");
+    EXPECT_EQ(merge(both, "0", "d"), 0u) << "an index is one of this machine's, not a digit of a name";
+    EXPECT_EQ(device_of("d"), Device("0").info().name);
+    EXPECT_THROW(merge(both, "elsewhere", "e"), Error);
 }
 
 TEST_F(StudyTest, WhatWasMeasuredAgainstAnotherTruthIsNotUsed) {
