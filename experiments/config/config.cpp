@@ -120,10 +120,12 @@ Keys study_keys(const json& variant = json::object()) {
         {"gpu_compilers", array_of(any_text(), 0), json::array(),
          "GPUs whose compiler is asked what it makes of each point's passes (`compiled.csv`): registers, occupancy, "
          "instructions. No GPU is needed; `ssrlab list chips` names them, `navi21`, `gfx1100` and `vega10` among them"},
-        {"images", one_of({"last", "all", "played"}), "last",
+        {"images", one_of({"last", "all", "played", "none"}), "last",
          "of which frames results, references, confidence and verdicts are kept as images, which the report's viewer "
          "plays: the last, or `all` that are measured. `played`: the last, and of each frame before it the reflections "
-         "alone (target `specular`), of the truth, too, where the frame has a reference"},
+         "alone (target `specular`), of the truth, too, where the frame has a reference. `none`: numbers alone, in "
+         "less time "
+         "and in a hundredth of the space"},
         {"timing", object_of(timing_keys()), otherwise("as below"), "how times are taken"},
         {"metrics", names_of_metrics(), Names{"mse", "relmse", "smape", "bias", "energy_ratio", "flip", "ssim"},
          "what is measured"},
@@ -305,6 +307,7 @@ Config read_config(const std::filesystem::path& file) {
             fail(study.at("gpu_compilers"), ": '", shortened(*at), "' stands there twice");
     config.kept_images = study["images"] == "all"      ? KeptImages::measured
                          : study["images"] == "played" ? KeptImages::played
+                         : study["images"] == "none"   ? KeptImages::none
                                                        : KeptImages::last;
     read_measures(study, config);
     check_probes(study, config);

@@ -103,6 +103,7 @@ inline constexpr unsigned default_seeds = 8;
 
 /// Of which frames images are kept.
 enum class KeptImages {
+    none,
     last,      ///< of each shot's last
     measured,  ///< of every measured one
     played     ///< of each shot's last, and of those before it the reflections alone, which a viewer plays

@@ -69,7 +69,10 @@ class Studies:
         """Runs a study and reads it; `name`: its folder within that of the search."""
         folder, config, log_file = (path_inside(self.out, name + end) for end in ("", ".json", ".log"))
         study = self.common | {"variants": variants, "shots": shots, "seeds": seeds}
-        timing = self.timing if name == "judged" else self.search_timing
+        is_search = name != "judged"
+        timing = self.search_timing if is_search else self.timing
+        if is_search:
+            study["images"] = "none"
         study["timing"] = timing if is_timed and self.has_clock else {"frames": 0}
         study["costs"] = is_timed and self.has_time and not self.has_clock
         if self.is_estimated:
@@ -77,7 +80,7 @@ class Studies:
         write_text(config, json.dumps(study, indent=1))  # beside the folder: study.json in it is ssrlab's own
         begin = time.monotonic()
         with open(log_file, "a", encoding="utf-8") as log:
-            command = [self.command[0], "run", config, "--out", folder, *self.command[1:]]
+            command = [self.command[0], "run", config, "--out", folder, *(["--no-report"] if is_search else []), *self.command[1:]]
             code = subprocess.run(command, stdout=log, stderr=log).returncode
         self._keep_minutes(name, (time.monotonic() - begin) / 60)
         if code != 0:

@@ -34,6 +34,7 @@ std::string Shot::name() const {
 }
 
 StepImages Shot::images_of(const FrameStep& step, KeptImages kept) const {
+    if (kept == KeptImages::none) return StepImages::none;
     if (&step == &steps.back() || (kept == KeptImages::measured && step.is_measured)) return StepImages::all;
     const bool is_played = kept == KeptImages::played && !step.is_warm_up && !step.is_held;
     return is_played ? StepImages::reflections : StepImages::none;

@@ -117,6 +117,7 @@ private:
     std::vector<std::string> with_images(std::vector<std::string> what) const {
         if (config_.kept_images == KeptImages::measured) what.push_back("all images");
         if (config_.kept_images == KeptImages::played) what.push_back("played images");
+        if (config_.kept_images == KeptImages::none) what.push_back("no images");
         return what;
     }
     std::string name(const std::vector<std::string>& sources, const std::string& request,

@@ -76,6 +76,7 @@ void note_reference(Opening& opening, const Reference& reference, unsigned frame
                              warning.get<std::string>());
     open.entry["references"].push_back(std::move(entry));
     if (use.is_of_last) open.entry["reference"] = open.entry["references"].back();
+    if (opening.config.kept_images == KeptImages::none) return;
     const std::filesystem::path& out = opening.settings.out;
     const float exposure_ev = open.shot.camera.exposure_ev;
     if (use.is_of_last || (opening.config.kept_images == KeptImages::measured && use.is_of_measured))

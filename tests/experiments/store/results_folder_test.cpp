@@ -261,4 +261,10 @@ TEST_F(StudyTest, KeepsTheImagesOfEveryMeasuredFrame) {
         EXPECT_EQ(own.back().first, 2u) << what;
     }
     EXPECT_EQ(count_cells(folder / "a"), cells + 4) << "the point and the references' images are done anew";
+
+    const std::string results = read_text(folder / "a/results.csv");
+    study.kept_images = KeptImages::none;
+    EXPECT_TRUE(kept().empty());
+    EXPECT_EQ(read_text(folder / "a/results.csv"), results) << "numbers do not depend on what is kept";
+    EXPECT_EQ(count_cells(folder / "a"), cells + 6) << "one study's cells have images, the other's have none";
 }
