@@ -8,7 +8,8 @@ std::vector<LeftOutBy> left_out_of(const Shot& shot, const std::vector<VariantCo
     std::vector<LeftOutBy> all;
     if (shot.config.gbuffer.empty()) {
         const ShotFrame now = shot_frame(shot, shot.config.frames.back());
-        const PathTracer tracer(shot.scene, now.scene, now.camera, shot.config.extent, {});
+        const PathTracer tracer(shot.scene, now.scene, now.camera, shot.config.extent,
+                                {.learns_lights = false});  // which would trace paths, and changes nothing here
         for (const LeftOut& part : tracer.left_out()) all.push_back({"path tracer", part});
         for (const LeftOut& part : left_out_of_rasterizer(shot.facts)) all.push_back({"rasteriser", part});
     }
