@@ -124,8 +124,8 @@ Keys study_keys(const json& variant = json::object()) {
          "of which frames results, references, confidence and verdicts are kept as images, which the report's viewer "
          "plays: the last, or `all` that are measured. `played`: the last, and of each frame before it the reflections "
          "alone (target `specular`), of the truth, too, where the frame has a reference. `none`: numbers alone, in "
-         "less time "
-         "and in a hundredth of the space"},
+         "less "
+         "time and space"},
         {"timing", object_of(timing_keys()), otherwise("as below"), "how times are taken"},
         {"metrics", names_of_metrics(), Names{"mse", "relmse", "smape", "bias", "energy_ratio", "flip", "ssim"},
          "what is measured"},
