@@ -162,7 +162,7 @@ TEST_F(StudyTest, PartsMakeTheWhole) {
     EXPECT_NO_THROW(run_part("d", {"shot=nowhere", "shard=1/2"})) << "but for a part of several";
 }
 
-/// Names the cells of a folder, and what their images are, as another device would have made them.
+/// Names the cells of a folder as if another device had made them.
 void make_on_another_device(const Config& study, const fs::path& folder, const std::string& device) {
     const std::vector<fs::path> search_path = {fs::path(SSRLAB_SOURCE_DIR) / "scenes"};
     const DeviceInfo here = Device().info(), there{.name = device, .driver = "a driver"};
