@@ -48,6 +48,8 @@ void PathLanes::start(const PathStart& path) {
     while (resume_branches(), busy_ == all_lanes) advance();
     const int lane = std::countr_one(busy_);
     busy_ |= 1u << lane;
+    estimate_[lane] = path.estimate;
+    seed_a_[lane] = path.sequence.seed_a, seed_b_[lane] = path.sequence.seed_b;
     origin_.set(lane, path.origin);
     direction_.set(lane, path.direction);
     throughput_.set(lane, vec3(1.0f));
@@ -60,7 +62,8 @@ void PathLanes::start(const PathStart& path) {
     reversed_sample_[lane] = path.reversed_sample;
     is_specular_[lane] = path.is_specular;
     per_estimate_[lane] = path.per_estimate;
-    ++estimate_.paths;
+    ++path.estimate->paths;
+    records_ |= path.estimate->radiance_record != nullptr;
 }
 
 void PathLanes::finish() {
@@ -73,7 +76,7 @@ void PathLanes::trace_rays() {
     const uint32_t on_their_way = busy_ & ~resumed_;
     for_each_bit(on_their_way, [&](int lane) {
         const vec3 origin = origin_.get(lane), direction = direction_.get(lane);
-        ++estimate_.rays;
+        ++estimate_[lane]->rays;
         if (!intersect(scene_.geometry.handle(), origin, direction, ray[lane])) return;
         hits |= 1u << lane;
         scene_.geometry.prefetch(ray[lane].hit.instID[0], ray[lane].hit.primID);
@@ -97,7 +100,7 @@ void PathLanes::trace_rays() {
 void PathLanes::leave(int lane) {
     const vec3 direction = direction_.get(lane);
     if (goal_ == PathGoal::lit_color && depth_[lane] == 1)
-        is_on_screen_[lane] = is_on_screen(scene_, direction, estimate_);
+        is_on_screen_[lane] = is_on_screen(scene_, direction, *estimate_[lane]);
     const float weight = scene_.mis.of_bsdf(pdf_[lane], scene_.lights.environment_pdf(light_cell_[lane], direction));
     radiance_.set(lane,
                   radiance_.get(lane) + throughput_.get(lane) * scene_.scene.environment.radiance(direction) * weight);
@@ -125,7 +128,7 @@ void PathLanes::meet(int lane, const RTCRayHit& ray) {
         continues_[lane] = !surface.is_unlit;
         if (goal_ == PathGoal::lit_color && depth_[lane] == 1)
             is_on_screen_[lane] =
-                is_on_screen(scene_, surface.origin, surface.error, surface.geometric_normal, estimate_);
+                is_on_screen(scene_, surface.origin, surface.error, surface.geometric_normal, *estimate_[lane]);
     };
     scene_.materials.shade(instance, triangle, ray.hit.u, ray.hit.v, -direction, ray.ray.tfar, take);
 }
@@ -133,7 +136,7 @@ void PathLanes::meet(int lane, const RTCRayHit& ray) {
 void PathLanes::sample_lights() {
     Lanes<uint32_t> x, y;
     FOR_EACH_LANE {
-        const glm::uvec2 bits = sequence_.bits(reversed_sample_[lane], pair_[lane]);
+        const glm::uvec2 bits = sequence(lane).bits(reversed_sample_[lane], pair_[lane]);
         x[lane] = bits.x;
         y[lane] = bits.y;
     }
@@ -163,6 +166,8 @@ void PathLanes::split(int lane, unsigned parts) {
     part_[lane] = 1.0f / float(parts);
     for (unsigned part = 1; part < parts; ++part)
         branches_.push_back({
+            .estimate = estimate_[lane],
+            .sequence = sequence(lane),
             .direction = direction_.get(lane),
             .throughput = throughput_.get(lane),
             .weight = weight_.get(lane),
@@ -191,6 +196,8 @@ void PathLanes::resume_branches() {
         const int lane = std::countr_one(busy_);
         busy_ |= 1u << lane;
         resumed_ |= 1u << lane;
+        estimate_[lane] = branch.estimate;
+        seed_a_[lane] = branch.sequence.seed_a, seed_b_[lane] = branch.sequence.seed_b;
         direction_.set(lane, branch.direction);
         throughput_.set(lane, branch.throughput);
         radiance_.set(lane, vec3(0.0f));
@@ -249,7 +256,7 @@ void PathLanes::scatter() {
         }
 
         // One number chooses the lobe and, stretched again, places the sample on it.
-        const vec2 u = sequence_.pair(reversed_sample_[lane], pair_[lane] + 1);
+        const vec2 u = sequence(lane).pair(reversed_sample_[lane], pair_[lane] + 1);
         const bool is_specular = u.x < q;
         const vec2 stretched(is_specular ? u.x / q : (u.x - q) / (1.0f - q), u.y);
         const vec3 i =
@@ -266,7 +273,7 @@ void PathLanes::scatter() {
         const float chance = by_promise ? bounded : greatest;
         const bool plays = has_roulette & (by_promise | (depth_[lane] >= 2)) & (chance < 1.0f);
         const float survival = plays ? chance : 1.0f;
-        const bool survives = sequence_.random(reversed_sample_[lane], pair_[lane]) < survival;
+        const bool survives = sequence(lane).random(reversed_sample_[lane], pair_[lane]) < survival;
         const bool goes_on =
             reflects & (i.z > 0) & (dot(direction, geometric_normal) > 0) & (pdf > 0) & (greatest > 0) & survives;
 
@@ -285,11 +292,12 @@ void PathLanes::scatter() {
 void PathLanes::trace_shadow_rays(uint32_t reached) {
     for_each_bit(reached, [&](int lane) {
         const vec3 direct = direct_.get(lane);
-        const bool arrives = direct != vec3(0.0f) && is_visible(scene_, lights_, lane, estimate_);
+        const bool arrives = direct != vec3(0.0f) && is_visible(scene_, lights_, lane, *estimate_[lane]);
         if (arrives) radiance_.set(lane, radiance_.get(lane) + direct);
-        if (estimate_.light_record && depth_[lane] <= scene_.settings.max_depth) [[unlikely]]  // not the last vertex
-            estimate_.light_record->push_back({position_.get(lane), geometric_normal_.get(lane), lights_.group[lane],
-                                               arrives ? luminance(weight_.get(lane) * direct) : 0.0f});
+        std::vector<LightObservation>* const lights = estimate_[lane]->light_record;
+        if (lights && depth_[lane] <= scene_.settings.max_depth) [[unlikely]]  // not the last vertex
+            lights->push_back({position_.get(lane), geometric_normal_.get(lane), lights_.group[lane],
+                               arrives ? luminance(weight_.get(lane) * direct) : 0.0f});
     });
 }
 
@@ -308,41 +316,43 @@ void PathLanes::advance() {
     const uint32_t continuing = bits_of(continues_);
     for_each_bit(busy_ & ~continuing, [&](int lane) { end(lane); });
     busy_ &= continuing;
-    if (estimate_.radiance_record) [[unlikely]]
+    if (records_) [[unlikely]]
         record(continuing);
 }
 
 void PathLanes::record(uint32_t continuing) {
     visits_.resize(lane_count);
     for_each_bit(continuing, [&](int lane) {
+        if (!estimate_[lane]->radiance_record) return;
         visits_[lane].push_back({position_.get(lane), geometric_normal_.get(lane), luminance(throughput_.get(lane)),
                                  luminance(radiance_.get(lane))});
     });
 }
 
 void PathLanes::end(int lane) {
+    PixelEstimate& estimate = *estimate_[lane];
     if (!visits_.empty()) [[unlikely]] {
         for (const Visit& visit : visits_[lane]) {
             const float brought = (luminance(radiance_.get(lane)) - visit.radiance) / visit.throughput;
-            if (std::isfinite(brought)) estimate_.radiance_record->push_back({visit.position, visit.normal, brought});
+            if (std::isfinite(brought)) estimate.radiance_record->push_back({visit.position, visit.normal, brought});
         }
         visits_[lane].clear();
     }
     if (const vec3 cut = weight_.get(lane) * cut_.get(lane);
         goal_ == PathGoal::reflection && std::isfinite(cut.x + cut.y + cut.z))
-        estimate_.cut += glm::dvec3(cut);
+        estimate.cut += glm::dvec3(cut);
     const vec3 radiance = radiance_.get(lane), reflected = weight_.get(lane) * radiance;
     if (!std::isfinite(reflected.x + reflected.y + reflected.z)) {
-        ++estimate_.non_finite;
+        ++estimate.non_finite;
     } else if (goal_ == PathGoal::lit_color) {
-        estimate_.camera_radiance += glm::dvec3(radiance);
+        estimate.camera_radiance += glm::dvec3(radiance);
         if (!is_on_screen_[lane]) return;
-        estimate_.on_screen += glm::dvec3(radiance);
-        ++estimate_.on_screen_samples;
+        estimate.on_screen += glm::dvec3(radiance);
+        ++estimate.on_screen_samples;
     } else if (is_specular_[lane]) {
-        estimate_.specular += glm::dvec3(reflected);
-        estimate_.incident += glm::dvec3(radiance);
+        estimate.specular += glm::dvec3(reflected);
+        estimate.incident += glm::dvec3(radiance);
     } else {
-        estimate_.diffuse += glm::dvec3(reflected);
+        estimate.diffuse += glm::dvec3(reflected);
     }
 }

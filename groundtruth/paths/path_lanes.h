@@ -10,6 +10,8 @@ inline constexpr uint32_t diffuse_stream = 1u << 16;  ///< pairs of the paths th
 
 /// A path that leaves the first hit.
 struct PathStart {
+    PixelEstimate* estimate;  ///< that it is added to; outlives PathLanes::finish()
+    SobolSequence sequence;   ///< of its batch
     glm::vec3 origin, direction;
     glm::vec3 weight;          ///< f mu_i / pdf of its lobe
     float pdf;                 ///< sr^-1, of its lobe
@@ -27,11 +29,11 @@ enum class PathGoal {
     lit_color    ///< the lit colour of what they meet first: `camera_radiance` and `on_screen`
 };
 
-/// Paths in flight. A lane whose path has ended takes the next one, so that all lanes stay busy until finish().
+/// Paths in flight, of any batches. A lane whose path has ended takes the next one, so that all lanes stay busy until
+/// finish().
 class PathLanes {
 public:
-    PathLanes(const TracedScene& scene, const SobolSequence& sequence, PathGoal goal, PixelEstimate& estimate)
-        : scene_(scene), sequence_(sequence), goal_(goal), estimate_(estimate) {}
+    PathLanes(const TracedScene& scene, PathGoal goal) : scene_(scene), goal_(goal) {}
 
     void start(const PathStart& path);
     void finish();
@@ -51,8 +53,12 @@ private:
     void record(uint32_t continuing);
     void end(int lane);
 
+    SobolSequence sequence(int lane) const { return {seed_a_[lane], seed_b_[lane]}; }
+
     /// A part of a path that was split, at the vertex from which it is to go on.
     struct Branch {
+        PixelEstimate* estimate;
+        SobolSequence sequence;
         vec3 direction, throughput, weight, position, error, geometric_normal, normal, base_color;
         float metalness, roughness, specular, per_estimate, promise, part;
         uint32_t depth, pair, reversed_sample, is_specular;
@@ -64,15 +70,16 @@ private:
     };
 
     const TracedScene& scene_;
-    const SobolSequence& sequence_;
     const PathGoal goal_;
-    PixelEstimate& estimate_;
     uint32_t busy_ = 0;                       ///< bit per lane: it holds a path
     uint32_t resumed_ = 0;                    ///< bit per lane: its path is a branch that stands at its vertex
     std::vector<Branch> branches_;            ///< that wait for a lane
-    std::vector<std::vector<Visit>> visits_;  ///< of each lane, while what paths find is taken down
+    bool records_ = false;                    ///< what paths find is taken down
+    std::vector<std::vector<Visit>> visits_;  ///< of each lane, while it is
 
     // Of each path:
+    PixelEstimate* estimate_[lane_count] = {};
+    Lanes<uint32_t> seed_a_, seed_b_;  ///< of its sequence
     LanesVec3 origin_, direction_, throughput_, radiance_, weight_;
     Lanes<float> pdf_;            ///< with which direction_ was drawn
     Lanes<uint32_t> light_cell_;  ///< of the last vertex that took a light sample

@@ -39,6 +39,59 @@ bool prepare(const TracedScene& scene, FirstVertex& vertex) {
     return true;
 }
 
+/// A lanes' worth of samples.
+struct SampleLanes {
+    int count = 0;
+    Lanes<uint32_t> seed_a, seed_b;  ///< of each one's sequence
+    Lanes<uint32_t> reversed_sample;
+    PixelEstimate* estimate[lane_count] = {};
+
+    SobolSequence sequence(int lane) const { return {seed_a[lane], seed_b[lane]}; }
+};
+
+/// The same samples of each of a pixel's batches, by lanes: those of one batch after those of another, so that batches
+/// of few samples fill the lanes together.
+class PixelSamples {
+public:
+    PixelSamples(unsigned x, unsigned y, unsigned first, unsigned count, std::span<SampleBatch> batches)
+        : pixel_(uint64_t(y) << 32 | x), first_(first), count_(count), batches_(batches) {}
+
+    std::span<SampleBatch> batches() const { return batches_; }
+    PixelSamples of(std::span<SampleBatch> batches) const {
+        PixelSamples samples = *this;
+        samples.batches_ = batches;
+        return samples;
+    }
+    /// The batches before they had samples.
+    std::vector<SampleBatch> without_sums() const {
+        std::vector<SampleBatch> empty;
+        for (const SampleBatch& batch : batches_) empty.push_back({.seed = batch.seed, .estimate = {}});
+        return empty;
+    }
+
+    template <class Work>
+    void for_each_lanes(const Work& work) const {
+        SampleLanes lanes;
+        for (SampleBatch& batch : batches_) {
+            const SobolSequence sequence(batch.seed ^ hash_bits_64(pixel_));
+            for (unsigned sample = first_; sample < first_ + count_; ++sample) {
+                lanes.seed_a[lanes.count] = sequence.seed_a, lanes.seed_b[lanes.count] = sequence.seed_b;
+                lanes.reversed_sample[lanes.count] = reverse_bits(sample);
+                lanes.estimate[lanes.count] = &batch.estimate;
+                if (++lanes.count < lane_count) continue;
+                work(lanes);
+                lanes.count = 0;
+            }
+        }
+        if (lanes.count > 0) work(lanes);
+    }
+
+private:
+    uint64_t pixel_;
+    unsigned first_, count_;
+    std::span<SampleBatch> batches_;
+};
+
 /// Specularly reflected radiance of all punctual lights, in closed form but for their visibility.
 void add_highlight(const TracedScene& scene, FirstHit& hit) {
     FirstVertex vertex{.hit = hit};
@@ -74,18 +127,17 @@ void add_emission(const TracedScene& scene, const LightLanes& lights, int lane, 
     if (is_shown) estimate.on_screen += glm::dvec3(incident);
 }
 
-/// Light samples at the first hit, for the lanes' worth of samples that begins with `first_sample`.
-void add_direct_light(const TracedScene& scene, const FirstVertex& vertex, const SobolSequence& sequence,
-                      unsigned first_sample, int count, PixelEstimate& estimate) {
+/// Light samples at the first hit.
+void add_direct_light(const TracedScene& scene, const FirstVertex& vertex, const SampleLanes& samples) {
     const FirstHit& hit = vertex.hit;
     Lanes<uint32_t> x, y;
     Lanes<uint32_t> is_wanted, cell;
     LanesVec3 point;
     FOR_EACH_LANE {
-        const glm::uvec2 bits = sequence.bits(reverse_bits(first_sample + uint32_t(lane)), pair_light);
+        const glm::uvec2 bits = samples.sequence(lane).bits(samples.reversed_sample[lane], pair_light);
         x[lane] = bits.x;
         y[lane] = bits.y;
-        is_wanted[lane] = lane < count;
+        is_wanted[lane] = lane < samples.count;
         cell[lane] = vertex.light_cell;
         point.set(lane, hit.position);
     }
@@ -112,7 +164,8 @@ void add_direct_light(const TracedScene& scene, const FirstVertex& vertex, const
         incident.set(lane, keep_if(is_used & !is_delta, radiance * (f.specular_pdf * specular_weight)));
         aim_shadow_ray(origin, error, geometric_normal, lane, lights);
     }
-    for (int lane = 0; lane < count; ++lane) {
+    for (int lane = 0; lane < samples.count; ++lane) {
+        PixelEstimate& estimate = *samples.estimate[lane];
         const vec3 parts[3] = {vertex.wants_diffuse ? diffuse.get(lane) : vec3(0.0f),
                                vertex.wants_specular ? specular.get(lane) : vec3(0.0f),
                                vertex.wants_specular ? incident.get(lane) : vec3(0.0f)};
@@ -130,16 +183,15 @@ void add_direct_light(const TracedScene& scene, const FirstVertex& vertex, const
     }
 }
 
-/// Starts the paths of one lobe for a lanes' worth of samples.
-void start_paths(const FirstVertex& vertex, const SobolSequence& sequence, unsigned first_sample, int count,
-                 bool is_specular, PathLanes& paths, PixelEstimate& estimate) {
+/// Starts their paths of one lobe.
+void start_paths(const FirstVertex& vertex, const SampleLanes& samples, bool is_specular, PathLanes& paths) {
     const float per_estimate = vertex.per_estimate[is_specular];
     const FirstHit& hit = vertex.hit;
     LanesVec3 origin, direction, weight;
     Lanes<float> pdf, local_height;
     FOR_EACH_LANE {
         const vec2 u =
-            sequence.pair(reverse_bits(first_sample + uint32_t(lane)), is_specular ? pair_specular : pair_diffuse);
+            samples.sequence(lane).pair(samples.reversed_sample[lane], is_specular ? pair_specular : pair_diffuse);
         const vec3 i =
             choose(is_specular, sample_ggx_reflection_bounded(vertex.lobes.o, vertex.lobes.alpha, u), sample_cosine(u));
         const LobeValues f = evaluate(vertex.lobes, i);
@@ -151,38 +203,40 @@ void start_paths(const FirstVertex& vertex, const SobolSequence& sequence, unsig
         weight.set(lane, choose(is_specular, f.specular, f.diffuse) * (1.0f / lobe_pdf));
         origin.set(lane, offset_origin(hit.ray_origin, hit.position_error, hit.geometric_normal, towards));
     }
-    for (int lane = 0; lane < count; ++lane) {
+    for (int lane = 0; lane < samples.count; ++lane) {
         if (!(pdf[lane] > 0)) continue;
-        if (is_specular) ++estimate.lobe_samples;
+        if (is_specular) ++samples.estimate[lane]->lobe_samples;
         if (local_height[lane] <= 0) continue;
-        paths.start({origin.get(lane), direction.get(lane), weight.get(lane), pdf[lane], vertex.light_cell,
-                     reverse_bits(first_sample + uint32_t(lane)), is_specular, per_estimate});
+        paths.start({samples.estimate[lane], samples.sequence(lane), origin.get(lane), direction.get(lane),
+                     weight.get(lane), pdf[lane], vertex.light_cell, samples.reversed_sample[lane], is_specular,
+                     per_estimate});
     }
 }
 
-/// Specular paths alone, and what they found.
-PixelEstimate trace_specular(const TracedScene& scene, const FirstVertex& vertex, const SobolSequence& sequence,
-                             unsigned first_sample, unsigned count, PathGoal goal) {
-    PixelEstimate estimate;
-    PathLanes paths(scene, sequence, goal, estimate);
-    for (unsigned done = 0; done < count; done += lane_count)
-        start_paths(vertex, sequence, first_sample + done, int(std::min(count - done, unsigned(lane_count))), true,
-                    paths, estimate);
+/// Specular paths alone, and what they found of each batch.
+std::vector<SampleBatch> trace_specular(const TracedScene& scene, const FirstVertex& vertex,
+                                        const PixelSamples& samples, PathGoal goal) {
+    std::vector<SampleBatch> found = samples.without_sums();
+    PathLanes paths(scene, goal);
+    samples.of(found).for_each_lanes([&](const SampleLanes& lanes) { start_paths(vertex, lanes, true, paths); });
     paths.finish();
-    return estimate;
+    return found;
 }
 
 /// The lower rungs of the truth ladder, along the same directions as the specular paths.
-void trace_lit_colors(const TracedScene& scene, const FirstVertex& vertex, const SobolSequence& sequence,
-                      unsigned first_sample, unsigned count, PixelEstimate& estimate) {
-    const PixelEstimate lit = trace_specular(scene, vertex, sequence, first_sample, count, PathGoal::lit_color);
-    estimate.camera_radiance += lit.camera_radiance;
-    estimate.on_screen += lit.on_screen;
-    // Directions below the geometric horizon meet the surface itself, which the image shows, and carry no light.
-    estimate.on_screen_samples += lit.on_screen_samples + (lit.lobe_samples - lit.paths);
-    estimate.non_finite += lit.non_finite;
-    estimate.rays += lit.rays;
-    estimate.paths += lit.paths;
+void add_lit_colors(const TracedScene& scene, const FirstVertex& vertex, const PixelSamples& samples) {
+    const std::vector<SampleBatch> found = trace_specular(scene, vertex, samples, PathGoal::lit_color);
+    for (size_t b = 0; b < found.size(); ++b) {
+        const PixelEstimate& lit = found[b].estimate;
+        PixelEstimate& estimate = samples.batches()[b].estimate;
+        estimate.camera_radiance += lit.camera_radiance;
+        estimate.on_screen += lit.on_screen;
+        // Directions below the geometric horizon meet the surface itself, which the image shows, and carry no light.
+        estimate.on_screen_samples += lit.on_screen_samples + (lit.lobe_samples - lit.paths);
+        estimate.non_finite += lit.non_finite;
+        estimate.rays += lit.rays;
+        estimate.paths += lit.paths;
+    }
 }
 
 /// Samples that teach what the scene is like, at least, where few things are learnt of each cell and where more are,
@@ -332,28 +386,33 @@ FirstHit PathTracer::first_hit(unsigned x, unsigned y) const {
 
 void PathTracer::trace(unsigned x, unsigned y, const FirstHit& hit, uint64_t seed, unsigned first_sample,
                        unsigned count, PixelEstimate& estimate) const {
+    SampleBatch batch{.seed = seed, .estimate = estimate};
+    trace(x, y, hit, first_sample, count, {&batch, 1});
+    estimate = batch.estimate;
+}
+
+void PathTracer::trace(unsigned x, unsigned y, const FirstHit& hit, unsigned first_sample, unsigned count,
+                       std::span<SampleBatch> batches) const {
     const FlushDenormals flush;
-    estimate.samples += count;
+    for (SampleBatch& batch : batches) batch.estimate.samples += count;
     const TracedScene& scene = state_->scene;
     FirstVertex vertex{.hit = hit};
     if (!prepare(scene, vertex)) return;
-    vertex.wants_diffuse = vertex.wants_diffuse && estimate.has_diffuse;
+    vertex.wants_diffuse = vertex.wants_diffuse && batches.front().estimate.has_diffuse;
     for (const int lobe : {0, 1})
         if (const HostImage& image = state_->per_estimate[lobe]; !image.values.empty())
             vertex.per_estimate[lobe] = *image.pixel(x, y);
 
-    const SobolSequence sequence(seed ^ hash_bits_64(uint64_t(y) << 32 | x));
-    PathLanes paths(scene, sequence, PathGoal::reflection, estimate);
-    for (unsigned done = 0; done < count; done += lane_count) {
-        const int lanes = int(std::min(count - done, unsigned(lane_count)));
-        if (!scene.lights.empty()) add_direct_light(scene, vertex, sequence, first_sample + done, lanes, estimate);
-        if (vertex.wants_specular) start_paths(vertex, sequence, first_sample + done, lanes, true, paths, estimate);
-        if (vertex.wants_diffuse) start_paths(vertex, sequence, first_sample + done, lanes, false, paths, estimate);
-    }
+    const PixelSamples samples(x, y, first_sample, count, batches);
+    PathLanes paths(scene, PathGoal::reflection);
+    samples.for_each_lanes([&](const SampleLanes& lanes) {
+        if (!scene.lights.empty()) add_direct_light(scene, vertex, lanes);
+        if (vertex.wants_specular) start_paths(vertex, lanes, true, paths);
+        if (vertex.wants_diffuse) start_paths(vertex, lanes, false, paths);
+    });
     paths.finish();
-    if (scene.settings.ladder && vertex.wants_specular)
-        trace_lit_colors(scene, vertex, sequence, first_sample, count, estimate);
+    if (scene.settings.ladder && vertex.wants_specular) add_lit_colors(scene, vertex, samples);
     if (scene.settings.keep_all && scene.settings.specular &&
         !vertex.wants_specular)  // the price of not leaving them out
-        trace_specular(scene, vertex, sequence, first_sample, count, PathGoal::reflection);
+        trace_specular(scene, vertex, samples, PathGoal::reflection);
 }

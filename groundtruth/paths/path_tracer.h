@@ -5,6 +5,7 @@
 #include "groundtruth/sampling/lobes.h"
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -73,6 +74,12 @@ struct PixelEstimate {
     std::vector<RadianceObservation>* radiance_record = nullptr;
 };
 
+/// Samples of a pixel with a scramble of their own, and their sums.
+struct SampleBatch {
+    uint64_t seed = 0;
+    PixelEstimate estimate;
+};
+
 /// Unbiased path tracer over Embree (next-event estimation and BSDF sampling combined by multiple importance sampling)
 /// for one frame of one camera. Building it builds the BVH, with all cores; afterwards all members are const and may be
 /// called from any number of threads, whose results do not depend on how the work is split.
@@ -104,9 +111,15 @@ public:
     /// The hit of the ray through the centre of pixel (x, y), y down.
     FirstHit first_hit(unsigned x, unsigned y) const;
 
-    /// Adds samples [first_sample, first_sample + count) of the Owen-scrambled Sobol' sequence that (x, y, seed)
-    /// selects. Different seeds give independent scrambles; the error falls fastest when count is a power of two that
-    /// divides first_sample. Unlit hits and the background have nothing to estimate: only `samples` grows.
+    /// Adds to each batch samples [first_sample, first_sample + count) of the Owen-scrambled Sobol' sequence that
+    /// (x, y, seed of the batch) selects. Different seeds give independent scrambles; the error falls fastest when
+    /// count is a power of two that divides first_sample. Unlit hits and the background have nothing to estimate: only
+    /// `samples` grows. Paths of all batches are in flight together, so that several batches take less time in one
+    /// call; each batch gets what it gets alone, but for the order in which its sums are added. All batches have the
+    /// diffuse light, or none has.
+    void trace(unsigned x, unsigned y, const FirstHit& hit, unsigned first_sample, unsigned count,
+               std::span<SampleBatch> batches) const;
+    /// The same of one batch.
     void trace(unsigned x, unsigned y, const FirstHit& hit, uint64_t seed, unsigned first_sample, unsigned count,
                PixelEstimate& estimate) const;
 

@@ -148,8 +148,8 @@ Reference render_reference(const Scene& scene, const ScenePose& pose, const Came
                             .keep_all = settings.keep_all});
     const PixelTracer tracer{
         .first_hit = [&](unsigned x, unsigned y) { return path_tracer.first_hit(x, y); },
-        .trace = [&](unsigned x, unsigned y, const FirstHit& hit, uint64_t seed, unsigned first, unsigned count,
-                     PixelEstimate& estimate) { path_tracer.trace(x, y, hit, seed, first, count, estimate); }};
+        .trace = [&](unsigned x, unsigned y, const FirstHit& hit, unsigned first, unsigned count,
+                     std::span<SampleBatch> batches) { path_tracer.trace(x, y, hit, first, count, batches); }};
     const bool needs_guide_variance = settings.target_relative_error > 0 && state.guide_variance.values.empty();
     // Of the lit colour alone few samples are asked, and a guide would take more than roulette by it saves.
     if (!settings.lit_only) {

@@ -140,9 +140,12 @@ PixelCost add_alike(Reference& reference, const PixelTracer& tracer, glm::uvec2 
     Batches diffuse, specular, image, incident, camera_radiance, on_screen;
     double on_screen_samples = 0;
     glm::dvec3 cut(0.0);
+    std::array<SampleBatch, batch_count> batches;
+    for (unsigned b = 0; b < batch_count; ++b)
+        batches[b] = {.seed = mix(pass_seed + b), .estimate = {.has_diffuse = has_diffuse}};
+    if (hit.is_hit && !hit.is_unlit) tracer.trace(x, y, hit, 0, batch_samples, batches);
     for (unsigned b = 0; b < batch_count; ++b) {
-        PixelEstimate estimate{.has_diffuse = has_diffuse};
-        if (hit.is_hit && !hit.is_unlit) tracer.trace(x, y, hit, mix(pass_seed + b), 0, batch_samples, estimate);
+        const PixelEstimate& estimate = batches[b].estimate;
         diffuse.sums[b] = estimate.diffuse + glm::dvec3(hit.emitted) * double(batch_samples);
         specular.sums[b] = estimate.specular;
         image.sums[b] = diffuse.sums[b] + specular.sums[b] + glm::dvec3(hit.highlight) * double(batch_samples);

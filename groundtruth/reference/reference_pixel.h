@@ -6,8 +6,8 @@
 /// Both are called from any thread; `trace` is PathTracer::trace().
 struct PixelTracer {
     std::function<FirstHit(unsigned x, unsigned y)> first_hit;
-    std::function<void(unsigned x, unsigned y, const FirstHit& hit, uint64_t seed, unsigned first_sample,
-                       unsigned count, PixelEstimate& estimate)>
+    std::function<void(unsigned x, unsigned y, const FirstHit& hit, unsigned first_sample, unsigned count,
+                       std::span<SampleBatch> batches)>
         trace;
 };
 

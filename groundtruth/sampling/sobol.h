@@ -59,6 +59,8 @@ struct SobolSequence {
 
     explicit SobolSequence(uint64_t seed)
         : seed_a(uint32_t(hash_bits_64(seed))), seed_b(uint32_t(hash_bits_64(seed) >> 32)) {}
+    /// That of a lane which keeps both halves apart.
+    SobolSequence(uint32_t seed_a, uint32_t seed_b) : seed_a(seed_a), seed_b(seed_b) {}
 
     /// 32-bit fixed-point coordinates of pair `pair` of a sample whose index has its bits reversed.
     glm::uvec2 bits(uint32_t reversed_sample, uint32_t pair) const {

@@ -443,6 +443,35 @@ TEST(estimator, splitting_samples_changes_only_rounding) {
     }
 }
 
+TEST(estimator, batches_traced_together_are_those_traced_alone) {
+    // Samples of a batch that do not fill the lanes, one that splits lanes between batches, and one that fills them.
+    const TestScene room = make_room();
+    PathTracer tracer(room.scene, room.pose(), room_camera(), extent, {.ladder = true});
+    HostImage bright(extent, 3, 0.5f), dark(extent, 3, 1e-3f);  // paths of dark pixels are split
+    tracer.expect(dark, bright);
+    for (const unsigned count : {1u, 5u, 16u})
+        for (const glm::uvec2 pixel : pixels) {
+            const FirstHit hit = tracer.first_hit(pixel.x, pixel.y);
+            std::array<SampleBatch, 16> together;
+            for (unsigned b = 0; b < together.size(); ++b) together[b].seed = 70 + b;
+            tracer.trace(pixel.x, pixel.y, hit, 32, count, together);
+            for (const auto& [seed, all] : together) {
+                PixelEstimate alone;
+                tracer.trace(pixel.x, pixel.y, hit, seed, 32, count, alone);
+                EXPECT_EQ(all.samples, alone.samples);
+                EXPECT_EQ(all.lobe_samples, alone.lobe_samples);
+                EXPECT_EQ(all.on_screen_samples, alone.on_screen_samples);
+                EXPECT_EQ(all.rays, alone.rays);
+                EXPECT_EQ(all.paths, alone.paths);
+                // Each path is the same to the bit; the order in which their sums are added is not.
+                for (const auto output : {&PixelEstimate::diffuse, &PixelEstimate::specular, &PixelEstimate::incident,
+                                          &PixelEstimate::camera_radiance, &PixelEstimate::on_screen})
+                    for (int channel = 0; channel < 3; ++channel)
+                        EXPECT_NEAR((all.*output)[channel], (alone.*output)[channel], 1e-12 * (alone.*output)[channel]);
+            }
+        }
+}
+
 TEST(estimator, number_of_threads_changes_no_bit) {
     const TestScene room = make_room();
     const PathTracer tracer(room.scene, room.pose(), room_camera(), extent, {});

@@ -32,14 +32,16 @@ struct Random {  // a generator as the standard library wants it, cheap to seed
 PixelTracer rare_bright_paths(double p, std::function<uint64_t(unsigned x, unsigned y)> seed_of) {
     return {.first_hit = [](unsigned, unsigned) { return FirstHit{.is_hit = true}; },
             .trace =
-                [p, seed_of](unsigned x, unsigned y, const FirstHit&, uint64_t seed, unsigned, unsigned count,
-                             PixelEstimate& estimate) {
-                    Random random{hash_bits_64(seed ^ seed_of(x, y)) ^ hash_bits_64(uint64_t(y) << 32 | x)};
-                    std::poisson_distribution<uint64_t> met(p * count);
-                    const double sum = (1 - bright_share) * count + bright_share / p * double(met(random));
-                    estimate.specular += glm::dvec3(sum);
-                    estimate.incident += glm::dvec3(sum);
-                    estimate.samples += count, estimate.lobe_samples += count, estimate.rays += count;
+                [p, seed_of](unsigned x, unsigned y, const FirstHit&, unsigned, unsigned count,
+                             std::span<SampleBatch> batches) {
+                    for (auto& [seed, estimate] : batches) {
+                        Random random{hash_bits_64(seed ^ seed_of(x, y)) ^ hash_bits_64(uint64_t(y) << 32 | x)};
+                        std::poisson_distribution<uint64_t> met(p * count);
+                        const double sum = (1 - bright_share) * count + bright_share / p * double(met(random));
+                        estimate.specular += glm::dvec3(sum);
+                        estimate.incident += glm::dvec3(sum);
+                        estimate.samples += count, estimate.lobe_samples += count, estimate.rays += count;
+                    }
                 }};
 }
 
@@ -125,10 +127,10 @@ TEST(SampleAllocation, GivesMoreToAPixelThatIsNoisyAlone) {
     const glm::uvec2 noisy(7, 4);
     const PixelTracer all = rare_bright_paths(0.5, [](unsigned, unsigned) { return 6; });
     PixelTracer one = all;
-    one.trace = [&](unsigned x, unsigned y, const FirstHit& hit, uint64_t seed, unsigned first, unsigned count,
-                    PixelEstimate& estimate) {
-        if (glm::uvec2(x, y) == noisy) return all.trace(x, y, hit, seed, first, count, estimate);
-        estimate.specular += glm::dvec3(count);
+    one.trace = [&](unsigned x, unsigned y, const FirstHit& hit, unsigned first, unsigned count,
+                    std::span<SampleBatch> batches) {
+        if (glm::uvec2(x, y) == noisy) return all.trace(x, y, hit, first, count, batches);
+        for (SampleBatch& batch : batches) batch.estimate.specular += glm::dvec3(count);
     };
     const Reference r = render(one, {.max_samples = 1 << 16, .target_relative_error = 0.02f});
     for (unsigned y = 0; y < extent.y; ++y)

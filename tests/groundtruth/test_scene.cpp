@@ -107,9 +107,11 @@ PixelMoments render_pixel(const PathTracer& tracer, unsigned x, unsigned y, unsi
     result.hit = tracer.first_hit(x, y);
     std::array<glm::dvec3, batch_count> means[5];
     double on_screen = 0, lobe = 0;
+    std::array<SampleBatch, batch_count> batches;
+    for (unsigned batch = 0; batch < batch_count; ++batch) batches[batch].seed = seed * 1000 + batch;
+    tracer.trace(x, y, result.hit, 0, samples_per_batch, batches);
     for (unsigned batch = 0; batch < batch_count; ++batch) {
-        PixelEstimate estimate;
-        tracer.trace(x, y, result.hit, seed * 1000 + batch, 0, samples_per_batch, estimate);
+        const PixelEstimate& estimate = batches[batch].estimate;
         means[0][batch] = estimate.diffuse / double(estimate.samples) + glm::dvec3(result.hit.emitted);
         means[1][batch] = estimate.specular / double(estimate.samples);
         const double lobe_samples = double(estimate.lobe_samples),

@@ -23,8 +23,8 @@ struct View {
           camera(pose_camera(scene.cameras.front(), pose, frame)),
           path_tracer(scene, pose, camera, extent, {.ladder = true}),
           tracer{[this](unsigned x, unsigned y) { return path_tracer.first_hit(x, y); },
-                 [this](unsigned x, unsigned y, const FirstHit& hit, uint64_t seed, unsigned first, unsigned count,
-                        PixelEstimate& estimate) { path_tracer.trace(x, y, hit, seed, first, count, estimate); }},
+                 [this](unsigned x, unsigned y, const FirstHit& hit, unsigned first, unsigned count,
+                        std::span<SampleBatch> batches) { path_tracer.trace(x, y, hit, first, count, batches); }},
           guide(render_guide(tracer, extent, ReferenceSettings().guide_samples, {}).means) {}
 
     Reference reference(unsigned samples, unsigned seed) const {
