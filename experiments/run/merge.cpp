@@ -115,16 +115,16 @@ size_t merge_study(const Config& config, const RunSettings& settings, const std:
                 continue;
             }
             take_over(*found, settings.out);
-            study.finish(planned, std::move(found->cell));
+            study.finished.push_back(std::move(found->cell));
         }
     }
-    if (study.finished().empty())
+    if (study.finished.empty())
         fail("none of the ", study.plan.cell_count(), " cells of this study is in ", folders.front().string(),
              folders.size() > 1 ? " or the folders beside it" : "", "; were they made by this version of ssrlab, on ",
              device.name, "?",
              devices.size() > 1 ? " They hold cells of several devices: --device NAME says whose are merged" : "");
     write_results(study, missing.empty(), {});
-    say(counted(study.finished().size(), "cell") + " merged, " + std::to_string(missing.size()) + " missing");
+    say(counted(study.finished.size(), "cell") + " merged, " + std::to_string(missing.size()) + " missing");
     for (size_t i = 0; i < std::min<size_t>(missing.size(), 5); ++i) say("  missing: " + missing[i]);
     if (!missing.empty()) {
         say("They are done by:");

@@ -106,20 +106,18 @@ public:
 
     void run() {
         if (const auto said = find_finished()) return say_end(study_, *said);
-        std::vector<const PlannedShot*> left;  // that other processes are at
-        const auto rendered = [&] {
-            if (selection_.is_all() && are_results_due()) write_meanwhile();
-        };
-        for (const PlannedShot& shot : study_.plan.shots)
-            if (!do_cells(study_, shot, selection_, false, rendered)) left.push_back(&shot);
-        for (const PlannedShot* shot : left) do_cells(study_, *shot, selection_, true, rendered);
+        for (const PlannedShot& shot : study_.plan.shots) {
+            do_cells(study_, shot, selection_, [&] {
+                if (selection_.is_all() && are_results_due()) write_meanwhile();
+            });
+        }
         if (selection_.is_all()) {
             const std::vector<std::string> lines = lines_of(write(true));
             keep_finished(lines);
             return say_end(study_, lines);
         }
         study_.progress.say(std::to_string(study_.made) + " cells done, " +
-                            std::to_string(study_.finished().size() - study_.made) +
+                            std::to_string(study_.finished.size() - study_.made) +
                             " found done before; once all are there, tables and report are made by:");
         study_.progress.say("  " + command_line("merge", study_.config, study_.settings));
     }
@@ -149,7 +147,7 @@ private:
 
     /// Not with times of another machine, of which every run says so, nor where every run asks a compiler again.
     void keep_finished(const std::vector<std::string>& lines) const {
-        const bool has_more_to_say = std::ranges::any_of(study_.finished(), [&](const Cell& cell) {
+        const bool has_more_to_say = std::ranges::any_of(study_.finished, [&](const Cell& cell) {
             return (!cell.timing.is_null() && cell.provenance.at("host") != study_.maker.at("host")) ||
                    !refusal_in(cell.compiled).empty() || !refusal_in(cell.estimates).empty();
         });

@@ -19,7 +19,7 @@ namespace {
 nlohmann::json manifest_of(const StudySession& study, bool is_complete) {
     nlohmann::json manifest = study_entry(study.config);
     std::map<std::string, const Cell*> finished;
-    for (const Cell& cell : study.finished()) finished[cell.name] = &cell;
+    for (const Cell& cell : study.finished) finished[cell.name] = &cell;
     // All shots first: what was timed of one is added to its entry.
     for (const PlannedShot& shot : study.plan.shots)
         if (const auto references = finished.find(shot.cells.front().name); references != finished.end()) {
@@ -27,16 +27,16 @@ nlohmann::json manifest_of(const StudySession& study, bool is_complete) {
             complete_shot_entry(entry, references->second->shot);
         }
     if (!study.plan.skipped.empty()) manifest["skipped"] = study.plan.skipped;
-    for (const Cell& cell : study.finished()) {
+    for (const Cell& cell : study.finished) {
         for (const nlohmann::json& entry : cell.images) manifest["images"].push_back(entry);
         for (const std::string& note : cell.notes) manifest["notes"].push_back(note);
         if (cell.timing.is_null()) continue;
         add_timing(manifest, cell.timing);
         if (cell.provenance.is_object()) manifest["clock"]["load"].back()["host"] = cell.provenance.at("host");
     }
-    manifest["provenance"] = provenance_entries(study.finished());
+    manifest["provenance"] = provenance_entries(study.finished);
     manifest["is_complete"] = is_complete;
-    manifest["cells"] = {{"done", study.finished().size()}, {"planned", study.plan.cell_count()}};
+    manifest["cells"] = {{"done", study.finished.size()}, {"planned", study.plan.cell_count()}};
     manifest["written"] = {{"ssrlab", study.maker["ssrlab"]}, {"at", time_stamp()}};
     return manifest;
 }
@@ -55,14 +55,14 @@ nlohmann::json run_entry(const StudySession& study) {
             {"spent", seconds},
             {"overhead_share", all > 0 ? overhead / all : 0.0},
             {"cells_made", study.made},
-            {"cells_found", study.finished().size() - study.made},
+            {"cells_found", study.finished.size() - study.made},
             {"peak_memory_mib", double(usage.ru_maxrss) / 1024}};
 }
 
 /// Lists what earlier versions of the study left in the folder, or removes it.
 void handle_stale_files(StudySession& study, nlohmann::json& manifest, const nlohmann::json& before) {
     std::set<std::string> used;
-    for (const Cell& cell : study.finished()) used.insert(cell.name);
+    for (const Cell& cell : study.finished) used.insert(cell.name);
     const std::filesystem::path& out = study.settings.out;
     const StaleFiles stale = find_stale_files(out, study.cells, used, manifest, before);
     if (stale.is_empty()) return;
@@ -83,7 +83,7 @@ StudyAnswers write_results(StudySession& study, bool is_complete, const nlohmann
         manifest = manifest_of(study, is_complete);
         if (is_complete) handle_stale_files(study, manifest, before);
         write_text(file, manifest.dump(1) + "\n");
-        const StudyRows rows = rows_of(study.finished());
+        const StudyRows rows = rows_of(study.finished);
         write_tables(study.settings.out, rows);
         write_parameters(study.settings.out, study.config.variants);
         write_technique_copies(study.settings.out, study.config.variants);

@@ -9,8 +9,6 @@
 #include "experiments/store/cell_store.h"
 #include "experiments/store/provenance.h"
 
-#include <algorithm>
-
 /// What SpentTime calls the compilation of all points' shaders before the first cell.
 inline constexpr const char* compiling = "compiling";
 
@@ -39,23 +37,12 @@ struct StudySession {
     Workload work;
     SpentTime spent;
     std::optional<ClockProof> clock;  ///< made when first needed
+    std::vector<Cell> finished;       ///< in the order of the plan
     size_t made = 0;                  ///< cells that were not found done
     bool is_rehearsed = false;
-
-    /// The cells that are done, in the order of the plan, in whatever order they were done.
-    const std::vector<Cell>& finished() const { return finished_; }
-    void finish(const PlannedCell& planned, Cell cell) {
-        const auto at = std::ranges::upper_bound(places_, planned.place);
-        finished_.insert(finished_.begin() + (at - places_.begin()), std::move(cell));
-        places_.insert(at, planned.place);
-    }
 
     void report(double share, const std::string& what) {
         work.update(share);
         progress.update(work.share_done(), what);
     }
-
-private:
-    std::vector<Cell> finished_;
-    std::vector<size_t> places_;  ///< of each
 };

@@ -12,7 +12,6 @@
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -83,37 +82,36 @@ private:
     static Guide guide(const PathTracer& tracer, unsigned count) {
         Guide guide;
         for (size_t pixel = 0; pixel < guide.specular.pixel_count(); ++pixel) {
-            SampleBatch batch{.seed = 1, .estimate = {}};
-            trace(tracer, pixel, count, {&batch, 1});
-            guide.diffuse.set_rgb(pixel, glm::vec3(batch.estimate.diffuse / double(count)));
-            guide.specular.set_rgb(pixel, glm::vec3(batch.estimate.specular / double(count)));
+            PixelEstimate sum;
+            trace(tracer, pixel, 1, count, sum);
+            guide.diffuse.set_rgb(pixel, glm::vec3(sum.diffuse / double(count)));
+            guide.specular.set_rgb(pixel, glm::vec3(sum.specular / double(count)));
         }
         return guide;
     }
 
-    /// False if the pixel's ray meets nothing.
-    static bool trace(const PathTracer& tracer, size_t pixel, unsigned count, std::span<SampleBatch> found) {
+    static FirstHit trace(const PathTracer& tracer, size_t pixel, uint64_t seed, unsigned count, PixelEstimate& sum) {
         const unsigned x = unsigned(pixel % extent.x), y = unsigned(pixel / extent.x);
         const FirstHit hit = tracer.first_hit(x, y);
-        if (hit.is_hit && !hit.is_unlit) tracer.trace(x, y, hit, 0, count, found);
-        return hit.is_hit;
+        if (hit.is_hit && !hit.is_unlit) tracer.trace(x, y, hit, seed, 0, count, sum);
+        return hit;
     }
 
     Spent spent(const PathTracer& tracer, uint64_t seed) const {
         Spent all;
         const double start = cpu_seconds();
         for (size_t pixel = 0; pixel < guide_.specular.pixel_count(); ++pixel) {
-            std::array<SampleBatch, batches> found;
-            for (unsigned batch = 0; batch < batches; ++batch) found[batch].seed = seed + batch;
-            if (!trace(tracer, pixel, samples, found)) continue;
             double sum = 0, squares = 0;
-            for (const SampleBatch& batch : found) {
-                const double value = luminance_of(batch.estimate.specular) / samples;
-                sum += value, squares += value * value, all.rays += double(batch.estimate.rays);
+            bool is_hit = true;
+            for (unsigned batch = 0; batch < batches && is_hit; ++batch) {
+                PixelEstimate estimate;
+                is_hit = trace(tracer, pixel, seed + batch, samples, estimate).is_hit;
+                const double value = luminance_of(estimate.specular) / samples;
+                sum += value, squares += value * value, all.rays += double(estimate.rays);
             }
             const double radiance = std::max(luminance_of(guide_.specular.rgb(pixel)), floor_share * mean_);
             const double variance = std::max(squares - sum * sum / batches, 0.0) / (batches - 1);
-            if (radiance > 0) all.variance += variance / (radiance * radiance) / hits_;
+            if (is_hit && radiance > 0) all.variance += variance / (radiance * radiance) / hits_;
         }
         all.cpu_seconds = cpu_seconds() - start;
         return all;

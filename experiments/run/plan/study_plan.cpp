@@ -216,7 +216,6 @@ StudyPlan plan_study(const Config& config, const DeviceInfo& device,
     StudyPlan plan;
     plan.compilers = names.compilers();
     std::set<std::string> known;
-    size_t place = 0;
     for (const ShotConfig& of_shot : config.shots) {
         const Shot shot = load(of_shot, search_path);
         if (!known.insert(shot.name()).second)
@@ -228,13 +227,13 @@ StudyPlan plan_study(const Config& config, const DeviceInfo& device,
         planned.config = shot.config, planned.name = shot.name();
         planned.entry = shot_entry(shot, config, keep_all);
         const auto add = [&](CellKind kind, std::string name, const std::string& what, double units) -> PlannedCell& {
-            return planned.cells.emplace_back(PlannedCell{.kind = kind,
-                                                          .name = std::move(name),
-                                                          .what = planned.name + ": " + what,
-                                                          .shot = planned.name,
-                                                          .units = units,
-                                                          .pixels = size_t(shot.config.extent.x) * shot.config.extent.y,
-                                                          .place = place++});
+            return planned.cells.emplace_back(
+                PlannedCell{.kind = kind,
+                            .name = std::move(name),
+                            .what = planned.name + ": " + what,
+                            .shot = planned.name,
+                            .units = units,
+                            .pixels = size_t(shot.config.extent.x) * shot.config.extent.y});
         };
         std::vector<bool> runs;
         for (const VariantConfig& variant : config.variants) {

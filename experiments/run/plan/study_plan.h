@@ -24,7 +24,6 @@ struct PlannedCell {
     const VariantConfig* variant = nullptr;  ///< of renders and costs
     double units = 1;                        ///< of its kind's work: references, frames x seeds, shots
     size_t pixels = 0;                       ///< of a frame
-    size_t place = 0;                        ///< in the order of the plan
 };
 
 struct PlannedShot {

@@ -319,23 +319,20 @@ void rehearse_once(StudySession& study) {
 
 }  // namespace
 
-std::string claim_name(const PlannedShot& shot) { return shot.cells.front().name + "-shot"; }
-
-bool do_cells(StudySession& study, const PlannedShot& shot, const CellSelection& selection, bool joins,
+void do_cells(StudySession& study, const PlannedShot& shot, const CellSelection& selection,
               const std::function<void()>& rendered) {
     std::vector<const PlannedCell*> planned;
     for (const PlannedCell& cell : shot.cells)
         if (selection.holds(cell)) planned.push_back(&cell);
-    if (planned.empty()) return true;
+    if (planned.empty()) return;
     if (std::optional<std::vector<Cell>> all = load_finished(study, planned)) {
-        for (size_t i = 0; i < planned.size(); ++i) study.finish(*planned[i], std::move((*all)[i]));
-        return true;
+        std::ranges::move(*all, std::back_inserter(study.finished));
+        return;
     }
-    const auto claim = study.cells.claim(claim_name(shot), false);
-    if (!claim && !joins) return false;
     rehearse_once(study);
     const std::unique_ptr<OpenShot> open = opened(study, shot);
     const std::string truth = open->truth.content_hash();
+    const size_t before = study.finished.size();
     std::vector<bool> is_done(planned.size());
     for (const bool waits : {false, true})
         for (size_t i = 0; i < planned.size(); ++i) {
@@ -343,9 +340,9 @@ bool do_cells(StudySession& study, const PlannedShot& shot, const CellSelection&
             std::optional<Cell> cell = do_cell(study, task_of(study, *open, shot, *planned[i]), truth, waits);
             if (!cell) continue;
             say_result(study, *cell);
-            study.finish(*planned[i], std::move(*cell));
+            const size_t place = before + size_t(std::count(is_done.begin(), is_done.begin() + ptrdiff_t(i), true));
+            study.finished.insert(study.finished.begin() + ptrdiff_t(place), std::move(*cell));
             is_done[i] = true;
             if (i > 0 && is_done.front()) rendered();
         }
-    return true;
 }

@@ -4,7 +4,6 @@
 #include "core/gpu/device.h"
 #include "core/json.h"
 #include "experiments/run/plan/study_plan.h"
-#include "experiments/run/shots/shot_cells.h"
 #include "experiments/store/cell_store.h"
 #include "groundtruth/reference/reference_file.h"
 #include "tests/experiments/run/study_fixture.h"
@@ -123,19 +122,6 @@ TEST_F(StudyTest, ProcessesShareAFolder) {
         EXPECT_NE(entry.path().extension(), ".claim");
     }
     EXPECT_EQ(cells, 6u) << "two shots of two points, and the references of each";
-}
-
-TEST_F(StudyTest, AShotThatAnotherProcessIsAtComesLast) {
-    const Config study = config(R"(["mirror_pillars", "fence"])");
-    const std::string alone = read_text(run(study, "alone") / "results.csv");
-    const StudyPlan plan =
-        plan_study(study, Device().info(), {fs::path(SSRLAB_SOURCE_DIR) / "scenes"}, /*keep_all=*/false);
-    const CellStore store(folder / "shared", [](const std::string& text) { ADD_FAILURE() << text; });
-    const auto of_another = store.claim(claim_name(plan.shots.front()), false);
-    ASSERT_TRUE(of_another);
-    EXPECT_EQ(read_text(run(study, "shared") / "results.csv"), alone) << "rows in the order of the plan";
-    const auto made = [&](size_t shot) { return fs::last_write_time(store.file(plan.shots[shot].cells.front().name)); };
-    EXPECT_LT(made(1), made(0));
 }
 
 TEST_F(StudyTest, PartsMakeTheWhole) {
