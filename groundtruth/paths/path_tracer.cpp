@@ -7,6 +7,7 @@
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -57,13 +58,13 @@ public:
         : pixel_(uint64_t(y) << 32 | x), first_(first), count_(count), batches_(batches) {}
 
     std::span<SampleBatch> batches() const { return batches_; }
-    PixelSamples of(std::span<SampleBatch> batches) const {
+    PixelSamples with(std::span<SampleBatch> batches) const {
         PixelSamples samples = *this;
         samples.batches_ = batches;
         return samples;
     }
-    /// The batches before they had samples.
-    std::vector<SampleBatch> without_sums() const {
+    /// New batches of the same seeds.
+    std::vector<SampleBatch> empty_batches() const {
         std::vector<SampleBatch> empty;
         for (const SampleBatch& batch : batches_) empty.push_back({.seed = batch.seed, .estimate = {}});
         return empty;
@@ -216,9 +217,9 @@ void start_paths(const FirstVertex& vertex, const SampleLanes& samples, bool is_
 /// Specular paths alone, and what they found of each batch.
 std::vector<SampleBatch> trace_specular(const TracedScene& scene, const FirstVertex& vertex,
                                         const PixelSamples& samples, PathGoal goal) {
-    std::vector<SampleBatch> found = samples.without_sums();
+    std::vector<SampleBatch> found = samples.empty_batches();
     PathLanes paths(scene, goal);
-    samples.of(found).for_each_lanes([&](const SampleLanes& lanes) { start_paths(vertex, lanes, true, paths); });
+    samples.with(found).for_each_lanes([&](const SampleLanes& lanes) { start_paths(vertex, lanes, true, paths); });
     paths.finish();
     return found;
 }

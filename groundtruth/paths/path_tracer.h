@@ -115,8 +115,8 @@ public:
     /// (x, y, seed of the batch) selects. Different seeds give independent scrambles; the error falls fastest when
     /// count is a power of two that divides first_sample. Unlit hits and the background have nothing to estimate: only
     /// `samples` grows. Paths of all batches are in flight together, so that several batches take less time in one
-    /// call; each batch gets what it gets alone, but for the order in which its sums are added. All batches have the
-    /// diffuse light, or none has.
+    /// call; each batch gets what it gets alone, but for the order in which its sums are added. `batches`: one
+    /// at least, all with the diffuse light or all without.
     void trace(unsigned x, unsigned y, const FirstHit& hit, unsigned first_sample, unsigned count,
                std::span<SampleBatch> batches) const;
     /// The same of one batch.

@@ -2,8 +2,11 @@
 #include "groundtruth/paths/path_tracer.h"
 #include "groundtruth/reference/reference.h"
 
+#include <functional>
+#include <span>
+
 /// What a pass needs of the path tracer, so that the statistics can also be proved on integrands with known moments.
-/// Both are called from any thread; `trace` is PathTracer::trace().
+/// Both are called from any thread; `trace` is PathTracer::trace() of several batches.
 struct PixelTracer {
     std::function<FirstHit(unsigned x, unsigned y)> first_hit;
     std::function<void(unsigned x, unsigned y, const FirstHit& hit, unsigned first_sample, unsigned count,

@@ -444,7 +444,7 @@ TEST(estimator, splitting_samples_changes_only_rounding) {
 }
 
 TEST(estimator, batches_traced_together_are_those_traced_alone) {
-    // Samples of a batch that do not fill the lanes, one that splits lanes between batches, and one that fills them.
+    // Of fifteen batches, so that the last lanes stay free: of one sample, of five, and of as many as there are lanes.
     const TestScene room = make_room();
     PathTracer tracer(room.scene, room.pose(), room_camera(), extent, {.ladder = true});
     HostImage bright(extent, 3, 0.5f), dark(extent, 3, 1e-3f);  // paths of dark pixels are split
@@ -452,7 +452,7 @@ TEST(estimator, batches_traced_together_are_those_traced_alone) {
     for (const unsigned count : {1u, 5u, 16u})
         for (const glm::uvec2 pixel : pixels) {
             const FirstHit hit = tracer.first_hit(pixel.x, pixel.y);
-            std::array<SampleBatch, 16> together;
+            std::array<SampleBatch, 15> together;
             for (unsigned b = 0; b < together.size(); ++b) together[b].seed = 70 + b;
             tracer.trace(pixel.x, pixel.y, hit, 32, count, together);
             for (const auto& [seed, all] : together) {
@@ -464,8 +464,9 @@ TEST(estimator, batches_traced_together_are_those_traced_alone) {
                 EXPECT_EQ(all.rays, alone.rays);
                 EXPECT_EQ(all.paths, alone.paths);
                 // Each path is the same to the bit; the order in which their sums are added is not.
-                for (const auto output : {&PixelEstimate::diffuse, &PixelEstimate::specular, &PixelEstimate::incident,
-                                          &PixelEstimate::camera_radiance, &PixelEstimate::on_screen})
+                for (const auto output :
+                     {&PixelEstimate::diffuse, &PixelEstimate::specular, &PixelEstimate::incident,
+                      &PixelEstimate::camera_radiance, &PixelEstimate::on_screen, &PixelEstimate::cut})
                     for (int channel = 0; channel < 3; ++channel)
                         EXPECT_NEAR((all.*output)[channel], (alone.*output)[channel], 1e-12 * (alone.*output)[channel]);
             }
