@@ -5,6 +5,7 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <array>
 #include <cmath>
 
 // Properties that hold for any scene: the mean does not depend on how it is estimated. z-tests allow 6 joint standard

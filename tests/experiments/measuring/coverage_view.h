@@ -5,6 +5,7 @@
 #include "metrics/masks.h"
 
 #include <tbb/parallel_for.h>
+#include <span>
 
 /// A scene as its path tracer sees it.
 struct View {
