@@ -123,7 +123,7 @@ TEST_F(CommandLine, ShowsWhatIsDoneOfAStudyThatRunsOrWasStopped) {
     expect_mistake("report o", "holds no results");
     const std::string run = "run study.json --out o --report-after 0";
     const Outcome stopped =
-        ssrlab(run + " >log & until grep 'so far' log; do sleep 0.01; done; kill $!; wait $!; true");
+        ssrlab(run + " >log & while kill -0 $! && ! grep 'so far' log; do sleep 0.01; done; kill $!; wait $!; true");
     EXPECT_NE(stopped.text.find(fs::weakly_canonical(folder / "o/report.html").string()), std::string::npos)
         << stopped.text;
     const auto manifest = [&] { return read_json(folder / "o/manifest.json"); };

@@ -4,7 +4,9 @@ and so stand in one file of over 400 lines.
 usage: tables_test.py TABLES_SCRIPT
 """
 
+import contextlib
 import csv
+import io
 import json
 import math
 import os
@@ -17,6 +19,7 @@ script = sys.argv[1]
 sys.path[:0] = [os.path.dirname(script), os.path.join(os.path.dirname(script), "../python")]
 sys.dont_write_bytecode = True
 
+import tables as tables_script  # noqa: E402
 from paper_figures import numbers  # noqa: E402
 from paper_tables import shot_names, summary_file  # noqa: E402
 from paper_tables.cell import Cell  # noqa: E402
@@ -24,6 +27,7 @@ from paper_tables.documents import Numbers  # noqa: E402
 from paper_tables.halving import halving_share  # noqa: E402
 from paper_tables.markdown import markdown  # noqa: E402
 from paper_tables.variance_shares import KINDS, share_of_total, variance_parts  # noqa: E402
+from ssrlab.mistakes import exit_code  # noqa: E402
 from tables_study import ONE_SEED, RATIOS, SHOTS, TABLES, footer, manifest, read, write, write_results, write_rows  # noqa: E402
 
 
@@ -36,7 +40,22 @@ def check(is_true, what):
 
 
 def tables(*arguments):
-    return subprocess.run([sys.executable, "-B", script, *arguments], capture_output=True, text=True)
+    """As `python3 tables.py ARGUMENTS`, in this process: to start another for each of a hundred calls takes most of the test's time."""
+    out, err = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        sys.argv = [script, *arguments]
+        try:
+            code = exit_code(tables_script.main, "the tables")
+        except SystemExit as of_arguments:
+            code = of_arguments.code
+    return subprocess.CompletedProcess(arguments, code, out.getvalue(), err.getvalue())
+
+
+def test_the_script_itself(folder):
+    started = subprocess.run([sys.executable, "-B", script, folder], capture_output=True, text=True)
+    called = tables(folder)
+    check((started.returncode, started.stdout, started.stderr) == (called.returncode, called.stdout, called.stderr), started.stderr)
+    check(subprocess.run([sys.executable, "-B", script, folder + "/absent"], capture_output=True).returncode == 2, "of a folder that is not there")
 
 
 def test_numbers(folder):
@@ -631,6 +650,7 @@ def main():
         folder = os.path.join(temporary, "single")
         write_results(folder)
         test_numbers(folder)
+        test_the_script_itself(folder)
         test_reading()
         test_names_in_prose(temporary)
         test_halving()
