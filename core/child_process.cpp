@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <cerrno>
@@ -31,13 +31,26 @@ bool hangs(pid_t child, const Patience& patience) {
 
 }  // namespace
 
-int run_program(const std::vector<std::string>& arguments, const Patience* patience) {
+pid_t start_program(const std::vector<std::string>& arguments, int at_our_end, const std::function<void()>& prepare) {
+    if (access(arguments.front().c_str(), X_OK) != 0)
+        fail_machine("cannot start ", arguments.front(), ": ", std::strerror(errno));
     std::vector<char*> list;
     for (const std::string& argument : arguments) list.push_back(const_cast<char*>(argument.c_str()));
     list.push_back(nullptr);
-    pid_t child = 0;
-    if (const int error = posix_spawn(&child, list.front(), nullptr, nullptr, list.data(), environ))
-        fail_machine("cannot start ", arguments.front(), ": ", std::strerror(error));
+    const pid_t parent = getpid(), child = fork();
+    if (child < 0) fail_machine("cannot start ", arguments.front(), ": ", std::strerror(errno));
+    if (child == 0) {  // only what is safe between fork and exec
+        prctl(PR_SET_PDEATHSIG, at_our_end);
+        if (getppid() != parent) _exit(127);  // it has ended meanwhile
+        prepare();
+        execv(list.front(), list.data());
+        _exit(127);
+    }
+    return child;
+}
+
+int run_program(const std::vector<std::string>& arguments, const Patience* patience) {
+    const pid_t child = start_program(arguments, SIGTERM);
     const bool is_killed = patience && hangs(child, *patience);
     if (is_killed) kill(child, SIGKILL);
     int status = 0;

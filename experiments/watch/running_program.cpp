@@ -1,9 +1,9 @@
 #include "experiments/watch/running_program.h"
 
+#include "core/child_process.h"
 #include "core/error.h"
 
 #include <fcntl.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <cerrno>
@@ -30,22 +30,10 @@ RunningProgram::RunningProgram(const std::vector<std::string>& arguments, const 
                                const std::filesystem::path& errors) {
     constexpr int anew = O_WRONLY | O_CREAT | O_TRUNC;
     const OpenFile in("/dev/null", O_RDONLY), out(output.c_str(), anew), err(errors.c_str(), anew);
-    if (access(arguments.front().c_str(), X_OK) != 0)
-        fail_machine("cannot start ", arguments.front(), ": ", std::strerror(errno));
-    std::vector<char*> list;
-    for (const std::string& argument : arguments) list.push_back(const_cast<char*>(argument.c_str()));
-    list.push_back(nullptr);
-    const pid_t parent = getpid();
-    process_ = fork();
-    if (process_ < 0) fail_machine("cannot start ", arguments.front(), ": ", std::strerror(errno));
-    if (process_ == 0) {  // only what is safe between fork and exec
-        prctl(PR_SET_PDEATHSIG, SIGKILL);
-        if (getppid() != parent) _exit(127);  // it has ended meanwhile
+    process_ = start_program(arguments, SIGKILL, [&] {
         setpgid(0, 0);
         dup2(in.descriptor, STDIN_FILENO), dup2(out.descriptor, STDOUT_FILENO), dup2(err.descriptor, STDERR_FILENO);
-        execv(list.front(), list.data());
-        _exit(127);
-    }
+    });
     setpgid(process_, process_);  // whichever of both is first
 }
 

@@ -2,6 +2,7 @@
 
 import os
 import re
+import signal
 import sys
 import traceback
 
@@ -43,9 +44,16 @@ def stop(text):
     sys.exit(3)
 
 
+def _interrupt(_number, _frame):
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)  # once is enough
+    raise KeyboardInterrupt
+
+
 def exit_code(work, what):
     """Of a script: what `work()` returns, else 0; 2 for a mistake in what was read or asked, 3 where `what` cannot be written or the machine
-    or ssrlab itself is at fault. Each is said in a line; SSRLAB_TRACEBACK=1 shows where it happened."""
+    or ssrlab itself is at fault. Each is said in a line; SSRLAB_TRACEBACK=1 shows where it happened. Who is asked to end (SIGTERM) ends as
+    by Ctrl-C, and with it the program that subprocess.run() waits for."""
+    signal.signal(signal.SIGTERM, _interrupt)
     try:
         return work() or 0
     except ResultsError as mistake:

@@ -4,9 +4,12 @@
 #include "core/files.h"
 #include "experiments/commands/commands.h"
 #include "tests/error_message.h"
+#include "tests/experiments/ends_soon.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
+#include <csignal>
 #include <filesystem>
 
 namespace fs = std::filesystem;
@@ -32,6 +35,25 @@ TEST(ChildProcess, EndsOneThatHangs) {
     EXPECT_NE(error_message([&] { run("echo more >> \"$0\"; exec sleep 60"); }).find("got no further for 1 s"),
               std::string::npos);
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
+    fs::remove(file);
+}
+
+/// Whoever stops `ssrlab tune` stops its script and the study that the script runs.
+TEST(ChildProcess, EndsWithThisProcessAndEndsWhatAScriptStarted) {
+    const fs::path file = fs::temp_directory_path() / ("ssrlab_stopped_" + std::to_string(getpid()));
+    fs::remove(file);
+    const std::string study = "echo $$ $PPID > '" + file.string() + "'; exec sleep 60",
+                      script = "import subprocess, sys\nsys.path.insert(0, '" SSRLAB_SOURCE_DIR
+                               "/experiments/python')\nfrom ssrlab.mistakes import exit_code\n"
+                               "exit_code(lambda: subprocess.run(['/bin/sh', '-c', sys.argv[1]]), 'nothing')";
+    const pid_t process = fork();
+    if (process == 0) _exit(run_program({"/usr/bin/python3", "-B", "-c", script, study}));
+    std::string study_process, script_process;
+    while (!(std::ifstream(file) >> study_process >> script_process)) usleep(1000);
+    EXPECT_EQ(kill(process, SIGTERM), 0);
+    waitpid(process, nullptr, 0);
+    EXPECT_TRUE(ends_soon(script_process));
+    EXPECT_TRUE(ends_soon(study_process));
     fs::remove(file);
 }
 

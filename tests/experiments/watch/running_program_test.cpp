@@ -2,10 +2,10 @@
 #include "experiments/watch/running_program.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "tests/experiments/ends_soon.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
-#include <fstream>
 #include <memory>
 #include <sstream>
 
@@ -33,14 +33,7 @@ TEST(RunningProgram, RunsBesideThisOneAndGoesWithItsObject) {
     EXPECT_FALSE(sleeping->exit_code());
     sleeping.reset();
     std::istringstream processes(read_text(folder / "out"));
-    for (std::string process; processes >> process;) {  // whoever adopts the inner one takes a moment to bury it
-        const auto goes_on = [&] {
-            std::ifstream command(fs::path("/proc") / process / "cmdline");
-            return command.get() != std::char_traits<char>::eof();  // of one that waits to be buried it is empty
-        };
-        for (unsigned i = 0; i < 2000 && goes_on(); ++i) usleep(1000);
-        EXPECT_FALSE(goes_on()) << process;
-    }
+    for (std::string process; processes >> process;) EXPECT_TRUE(ends_soon(process)) << process;
     EXPECT_THROW(RunningProgram({"/nonexistent/program"}, folder / "out", folder / "err"), MachineError);
     EXPECT_THROW(RunningProgram({"/bin/true"}, folder / "none/out", folder / "err"), MachineError);
     fs::remove_all(folder);
