@@ -1,7 +1,6 @@
 #include "groundtruth/scene/material_table.h"
 
 #include "groundtruth/scene/alpha_mask.h"
-#include "groundtruth/scene/texture_lookup.h"
 
 namespace {
 
@@ -16,7 +15,7 @@ bool has_colors(const Scene& scene, unsigned material) {
 }  // namespace
 
 MaterialTable::MaterialTable(const Scene& scene, const EmbreeScene& geometry, bool evaluate_everything)
-    : scene_(scene), geometry_(geometry) {
+    : scene_(scene), geometry_(geometry), textures_(scene) {
     for (unsigned i = 0; i < scene.materials.size(); ++i) {
         const Material& material = scene.materials[i];
         const bool has_color = material.base_color_texture.texture >= 0 || has_colors(scene, i);
@@ -63,7 +62,7 @@ void MaterialTable::prefetch_texels(uint32_t instance_index, uint32_t triangle, 
     const Corners at = corners(instance_index, triangle, u, v);
     for (const TextureSlot* slot : {&material.base_color_texture, &material.metalness_roughness_texture,
                                     &material.normal_texture, &material.emission_texture})
-        if (slot->texture >= 0) prefetch_texture(scene_.textures[size_t(slot->texture)], at.uv(*slot));
+        if (slot->texture >= 0) textures_.prefetch(slot->texture, at.uv(*slot));
 }
 
 glm::vec2 MaterialTable::Corners::uv(const TextureSlot& slot) const {
@@ -80,7 +79,7 @@ glm::vec4 MaterialTable::Corners::color() const {
 }
 
 glm::vec4 MaterialTable::sample(const TextureSlot& slot, const Corners& corners) const {
-    return slot.texture < 0 ? glm::vec4(1.0f) : sample_texture(scene_.textures[size_t(slot.texture)], corners.uv(slot));
+    return slot.texture < 0 ? glm::vec4(1.0f) : textures_.sample(slot.texture, corners.uv(slot));
 }
 
 glm::vec3 MaterialTable::mapped_normal(const Material& material, const Corners& corners, const InstanceRecord& instance,

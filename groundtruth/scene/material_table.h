@@ -1,6 +1,7 @@
 #pragma once
 #include "core/scene/scene.h"
 #include "groundtruth/scene/embree_scene.h"
+#include "groundtruth/scene/texture_lookup.h"
 
 #include <vector>
 
@@ -70,6 +71,7 @@ private:
 
     const Scene& scene_;
     const EmbreeScene& geometry_;
+    TiledTextures textures_;
     std::vector<Constants> constants_;
     bool any_varies_ = false;
 };

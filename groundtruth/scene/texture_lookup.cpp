@@ -2,8 +2,12 @@
 
 #include "core/png.h"
 
+#include <sys/mman.h>
 #include <array>
 #include <cmath>
+#include <cstring>
+#include <map>
+#include <new>
 
 namespace {
 
@@ -22,44 +26,116 @@ inline int wrap(int i, int size, TextureWrap mode) {
     return j < size ? j : period - 1 - j;
 }
 
-inline glm::vec4 texel(const Texture& texture, int x, int y) {
-    const uint8_t* code = &(*texture.rgba)[4 * (size_t(y) * texture.extent.x + size_t(x))];
+/// RGBA codes of a texel, as they lie in memory.
+inline glm::vec4 decoded(uint32_t codes, bool is_srgb) {
+    uint8_t code[4];
+    std::memcpy(code, &codes, sizeof code);
     const float alpha = float(code[3]) * (1.0f / 255.0f);
-    if (texture.is_srgb)
-        return {linear_from_code[code[0]], linear_from_code[code[1]], linear_from_code[code[2]], alpha};
+    if (is_srgb) return {linear_from_code[code[0]], linear_from_code[code[1]], linear_from_code[code[2]], alpha};
     return glm::vec4(float(code[0]), float(code[1]), float(code[2]), float(code[3])) * (1.0f / 255.0f);
 }
 
 /// uv in texels. A coordinate beyond the range of int cannot address a texel; the fraction of so large a float is zero
 /// anyway.
-inline glm::vec2 texel_position(const Texture& texture, glm::vec2 uv) {
-    const glm::vec2 p = glm::clamp(uv * glm::vec2(texture.extent), glm::vec2(-1e9f), glm::vec2(1e9f));
+inline glm::vec2 texel_position(glm::ivec2 extent, glm::vec2 uv) {
+    const glm::vec2 p = glm::clamp(uv * glm::vec2(extent), glm::vec2(-1e9f), glm::vec2(1e9f));
     return p.x == p.x && p.y == p.y ? p : glm::vec2(0.0f);
 }
+
+/// The first texel of a bilinear lookup and the last one, wrapped, and where between them uv is.
+struct Footprint {
+    glm::ivec2 first, last;
+    glm::vec2 fraction;
+};
+
+/// `texture`: a Texture, or one in tiles.
+inline Footprint footprint(const auto& texture, glm::vec2 uv) {
+    const glm::ivec2 size(texture.extent);
+    const glm::vec2 p = texel_position(size, uv) - 0.5f, corner = glm::floor(p);
+    const glm::ivec2 first(corner);
+    return {{wrap(first.x, size.x, texture.wrap_u), wrap(first.y, size.y, texture.wrap_v)},
+            {wrap(first.x + 1, size.x, texture.wrap_u), wrap(first.y + 1, size.y, texture.wrap_v)},
+            p - corner};
+}
+
+/// `codes(x, y)`: those of a texel.
+inline glm::vec4 filtered(const auto& texture, glm::vec2 uv, const auto& codes) {
+    const auto texel = [&](int x, int y) { return decoded(codes(x, y), texture.is_srgb); };
+    if (texture.is_nearest) {
+        const glm::ivec2 size(texture.extent), p(glm::floor(texel_position(size, uv)));
+        return texel(wrap(p.x, size.x, texture.wrap_u), wrap(p.y, size.y, texture.wrap_v));
+    }
+    const auto [first, last, f] = footprint(texture, uv);
+    return glm::mix(glm::mix(texel(first.x, first.y), texel(last.x, first.y), f.x),
+                    glm::mix(texel(first.x, last.y), texel(last.x, last.y), f.x), f.y);
+}
+
+constexpr size_t huge_page = size_t(1) << 21;  // of x86-64 and of most ARM
+constexpr unsigned tile = 4;                   // texels along an edge
 
 }  // namespace
 
 glm::vec4 sample_texture(const Texture& texture, glm::vec2 uv) {
-    const glm::ivec2 size(texture.extent);
-    glm::vec2 p = texel_position(texture, uv);
-    if (texture.is_nearest)
-        return texel(texture, wrap(int(std::floor(p.x)), size.x, texture.wrap_u),
-                     wrap(int(std::floor(p.y)), size.y, texture.wrap_v));
-
-    p -= 0.5f;
-    const glm::vec2 corner = glm::floor(p), f = p - corner;
-    const int x0 = wrap(int(corner.x), size.x, texture.wrap_u), x1 = wrap(int(corner.x) + 1, size.x, texture.wrap_u);
-    const int y0 = wrap(int(corner.y), size.y, texture.wrap_v), y1 = wrap(int(corner.y) + 1, size.y, texture.wrap_v);
-    return glm::mix(glm::mix(texel(texture, x0, y0), texel(texture, x1, y0), f.x),
-                    glm::mix(texel(texture, x0, y1), texel(texture, x1, y1), f.x), f.y);
+    return filtered(texture, uv, [&](int x, int y) {
+        uint32_t codes;
+        std::memcpy(&codes, &(*texture.rgba)[4 * (size_t(y) * texture.extent.x + size_t(x))], sizeof codes);
+        return codes;
+    });
 }
 
-void prefetch_texture(const Texture& texture, glm::vec2 uv) {
-    const glm::ivec2 size(texture.extent);
-    const glm::vec2 p = glm::floor(texel_position(texture, uv) - 0.5f);
-    const int x = wrap(int(p.x), size.x, texture.wrap_u);
-    for (int dy = 0; dy < 2; ++dy) {
-        const int y = wrap(int(p.y) + dy, size.y, texture.wrap_v);
-        __builtin_prefetch(&(*texture.rgba)[4 * (size_t(y) * texture.extent.x + size_t(x))]);
+inline const uint32_t* TiledTextures::Tiled::at(int x, int y) const {
+    const unsigned column = unsigned(x), row = unsigned(y);
+    const size_t of_tile = size_t(row / tile) * tiles_in_row + column / tile;
+    return texels + of_tile * (tile * tile) + row % tile * tile + column % tile;
+}
+
+TiledTextures::TiledTextures(const Scene& scene) : textures_(scene.textures.size()) {
+    std::map<const std::vector<uint8_t>*, size_t> offsets;  // of what is copied, in texels
+    size_t count = 0;
+    const auto add = [&](const TextureSlot& slot) {
+        if (slot.texture < 0) return;
+        const Texture& texture = scene.textures[size_t(slot.texture)];
+        const glm::uvec2 tiles = (texture.extent + (tile - 1)) / tile;
+        textures_[size_t(slot.texture)] = {.extent = glm::ivec2(texture.extent),
+                                           .tiles_in_row = tiles.x,
+                                           .wrap_u = texture.wrap_u,
+                                           .wrap_v = texture.wrap_v,
+                                           .is_srgb = texture.is_srgb,
+                                           .is_nearest = texture.is_nearest};
+        if (offsets.emplace(texture.rgba.get(), count).second) count += size_t(tiles.x) * tiles.y * tile * tile;
+    };
+    for (const Material& material : scene.materials)
+        for (const TextureSlot* slot : {&material.base_color_texture, &material.metalness_roughness_texture,
+                                        &material.normal_texture, &material.emission_texture})
+            add(*slot);
+    if (count == 0) return;
+
+    const size_t bytes = (count * sizeof(uint32_t) + huge_page - 1) / huge_page * huge_page;
+    texels_.reset(static_cast<uint32_t*>(std::aligned_alloc(huge_page, bytes)));
+    if (!texels_) throw std::bad_alloc();
+    madvise(texels_.get(), bytes, MADV_HUGEPAGE);  // without it they are only slower
+    for (size_t i = 0; i < textures_.size(); ++i) {
+        Tiled& tiled = textures_[i];
+        if (tiled.tiles_in_row == 0) continue;  // not read
+        const std::vector<uint8_t>* rows = scene.textures[i].rgba.get();
+        uint32_t* texels = texels_.get() + offsets.at(rows);
+        tiled.texels = texels;
+        for (int y = 0; y < tiled.extent.y; ++y)
+            for (int x = 0; x < tiled.extent.x; ++x)
+                std::memcpy(texels + (tiled.at(x, y) - tiled.texels),
+                            rows->data() + 4 * (size_t(y) * size_t(tiled.extent.x) + size_t(x)), sizeof(uint32_t));
     }
+}
+
+glm::vec4 TiledTextures::sample(int texture, glm::vec2 uv) const {
+    const Tiled& tiled = textures_[size_t(texture)];
+    return filtered(tiled, uv, [&](int x, int y) { return *tiled.at(x, y); });
+}
+
+void TiledTextures::prefetch(int texture, glm::vec2 uv) const {
+    const Tiled& tiled = textures_[size_t(texture)];
+    const Footprint at = footprint(tiled, uv);
+    // The tiles at two corners: those of all four but for one lookup of 16.
+    __builtin_prefetch(tiled.at(at.first.x, at.first.y));
+    __builtin_prefetch(tiled.at(at.last.x, at.last.y));
 }

@@ -1,0 +1,46 @@
+// Textures as paths read them are those of the scene.
+#include "groundtruth/scene/texture_lookup.h"
+
+#include <gtest/gtest.h>
+#include <cmath>
+#include <limits>
+#include <random>
+
+/// Sizes that fill their tiles and that do not, all ways to wrap and to filter, texels that two textures show, and
+/// coordinates far outside.
+TEST(TiledTextures, HoldTheTexelsOfTheScene) {
+    std::mt19937 random(1);
+    Scene scene;
+    for (const glm::uvec2 extent : {glm::uvec2(1, 1), {3, 5}, {4, 4}, {17, 6}, {64, 256}}) {
+        std::vector<uint8_t> rgba(4 * size_t(extent.x) * extent.y);
+        for (uint8_t& code : rgba) code = uint8_t(random());
+        const Texels texels = make_texels(std::move(rgba));
+        for (const TextureWrap wrap : {TextureWrap::repeat, TextureWrap::mirrored_repeat, TextureWrap::clamp_to_edge})
+            for (const bool is_nearest : {false, true})
+                scene.textures.push_back({.extent = extent,
+                                          .rgba = texels,
+                                          .is_srgb = wrap != TextureWrap::clamp_to_edge,
+                                          .wrap_u = wrap,
+                                          .wrap_v = TextureWrap::repeat,
+                                          .is_nearest = is_nearest});
+    }
+    // Each channel of a material reads some; no material reads the first one.
+    for (int i = 1; i < int(scene.textures.size()); ++i) {
+        Material material;
+        TextureSlot* const channels[] = {&material.base_color_texture, &material.metalness_roughness_texture,
+                                         &material.normal_texture, &material.emission_texture};
+        channels[i % 4]->texture = i;
+        scene.materials.push_back(material);
+    }
+    const TiledTextures tiled(scene);
+    std::uniform_real_distribution<float> coordinate(-3, 3);
+    std::vector<glm::vec2> places = {{0, 0}, {1, 1}, {-1e30f, 0.5f}, {0.5f, std::numeric_limits<float>::quiet_NaN()}};
+    while (places.size() < 2000) places.emplace_back(coordinate(random), coordinate(random));
+    for (int i = 1; i < int(scene.textures.size()); ++i)
+        for (const glm::vec2 uv : places) {
+            tiled.prefetch(i, uv);
+            const glm::vec4 found = tiled.sample(i, uv), expected = sample_texture(scene.textures[size_t(i)], uv);
+            for (int c = 0; c < 4; ++c)  // where products and sums are fused is the compiler's choice, for each of both
+                ASSERT_NEAR(found[c], expected[c], 0x1p-22f) << i << ' ' << uv.x << ' ' << uv.y << ' ' << c;
+        }
+}
