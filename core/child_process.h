@@ -16,7 +16,7 @@ struct Patience {
 /// it holds. It gets the signal `at_our_end` when this process ends, however it ends, so that nothing goes on that
 /// nobody asks for any more; the thread that starts it has to live until then. `prepare` runs in the child before the
 /// program, and may do only what is safe after a fork of several threads: no allocation, no locks. Fails with
-/// MachineError if there is no such program.
+/// MachineError if it cannot be started.
 pid_t start_program(
     const std::vector<std::string>& arguments, int at_our_end, const std::function<void()>& prepare = [] {});
 

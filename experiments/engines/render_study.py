@@ -9,12 +9,12 @@ refuses (exit code 2) are left out; where it failed (3), the others are rendered
 
 import argparse
 import os
-import subprocess
 import sys
 import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, os.pardir, "python"))
+from ssrlab import interrupts  # noqa: E402
 from ssrlab.json_files import read_json  # noqa: E402
 from ssrlab.mistakes import Fault, ResultsError, exit_code, say  # noqa: E402
 from ssrlab.shots import scene_folder_name, scene_for_words, single_shots  # noqa: E402
@@ -27,7 +27,7 @@ def scene_folder(shot, study, ssrlab, out):
     folder = path_inside(out, f"scenes/{scene_folder_name(words)}")
     if os.path.exists(path_inside(folder, "scene.json")):
         return folder
-    code = subprocess.run([ssrlab, "scene-for", "any", *words, "--out", folder]).returncode
+    code = interrupts.run([ssrlab, "scene-for", "any", *words, "--out", folder])
     if code != 0:
         sys.exit(code)  # it has said why
     return folder
@@ -78,7 +78,7 @@ def main():
         say(f"{engine}, {point}, {os.path.basename(scene)}: {number + 1} of {len(jobs)}" + (f", about {left:.0f} min left" if left else ""))
         words = [path_inside(HERE, "render.sh"), engine, scene, folder, "--point", point, "--seeds", str(seeds)]
         rendered += 1
-        code = subprocess.run(words).returncode
+        code = interrupts.run(words)
         if code == 2:
             left_out += 1
             say("it cannot be compared there, for the reason above, and is left out")

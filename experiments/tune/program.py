@@ -9,8 +9,8 @@ programs"), and its external.json states the `settings` with all their values. W
 
 import json
 import os
-import subprocess
 
+from ssrlab import interrupts
 from ssrlab.json_files import read_json
 from ssrlab.mistakes import ResultsError
 from ssrlab.shots import scene_folder_name, scene_for_words
@@ -93,7 +93,7 @@ class Program:
         os.makedirs(os.path.dirname(log), exist_ok=True)
         with open(log, "a", encoding="utf-8") as stream:
             try:
-                code = subprocess.run(words, stdout=stream, stderr=stream).returncode
+                code = interrupts.run(words, stdout=stream, stderr=stream)
             except OSError as error:
                 raise ResultsError(f"tune: 'program': {words[0]} cannot be run: {error.strerror}") from error
         if code != 0:

@@ -2,9 +2,9 @@
 
 import json
 import os
-import subprocess
 import time
 
+from ssrlab import interrupts
 from ssrlab.csv_files import needed_number, number, whole
 from ssrlab.json_files import read_json
 from ssrlab.mistakes import ResultsError
@@ -81,7 +81,7 @@ class Studies:
         begin = time.monotonic()
         with open(log_file, "a", encoding="utf-8") as log:
             command = [self.command[0], "run", config, "--out", folder, *(["--no-report"] if is_search else []), *self.command[1:]]
-            code = subprocess.run(command, stdout=log, stderr=log).returncode
+            code = interrupts.run(command, stdout=log, stderr=log)
         self._keep_minutes(name, (time.monotonic() - begin) / 60)
         if code != 0:
             raise StudyFailed(code, log_file)

@@ -3,11 +3,12 @@
 #include "core/png.h"
 
 #include <sys/mman.h>
+#include <tbb/parallel_for.h>
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <map>
 #include <new>
+#include <utility>
 
 namespace {
 
@@ -26,7 +27,7 @@ inline int wrap(int i, int size, TextureWrap mode) {
     return j < size ? j : period - 1 - j;
 }
 
-/// RGBA codes of a texel, as they lie in memory.
+/// The colour of a texel, linear and in [0, 1], by its RGBA codes as they lie in memory.
 inline glm::vec4 decoded(uint32_t codes, bool is_srgb) {
     uint8_t code[4];
     std::memcpy(code, &codes, sizeof code);
@@ -58,7 +59,7 @@ inline Footprint footprint(const auto& texture, glm::vec2 uv) {
             p - corner};
 }
 
-/// `codes(x, y)`: those of a texel.
+/// See sample_texture(). `codes(x, y)`: those of a texel.
 inline glm::vec4 filtered(const auto& texture, glm::vec2 uv, const auto& codes) {
     const auto texel = [&](int x, int y) { return decoded(codes(x, y), texture.is_srgb); };
     if (texture.is_nearest) {
@@ -71,7 +72,6 @@ inline glm::vec4 filtered(const auto& texture, glm::vec2 uv, const auto& codes) 
 }
 
 constexpr size_t huge_page = size_t(1) << 21;  // of x86-64 and of most ARM
-constexpr unsigned tile = 4;                   // texels along an edge
 
 }  // namespace
 
@@ -83,26 +83,25 @@ glm::vec4 sample_texture(const Texture& texture, glm::vec2 uv) {
     });
 }
 
-inline const uint32_t* TiledTextures::Tiled::at(int x, int y) const {
-    const unsigned column = unsigned(x), row = unsigned(y);
-    const size_t of_tile = size_t(row / tile) * tiles_in_row + column / tile;
-    return texels + of_tile * (tile * tile) + row % tile * tile + column % tile;
-}
-
 TiledTextures::TiledTextures(const Scene& scene) : textures_(scene.textures.size()) {
-    std::map<const std::vector<uint8_t>*, size_t> offsets;  // of what is copied, in texels
+    struct Block {
+        size_t offset;  ///< in the copy, texels
+        bool is_to_copy = true;
+    };
+    std::map<Texels, Block> blocks;  // texels that several textures show are one
     size_t count = 0;
     const auto add = [&](const TextureSlot& slot) {
         if (slot.texture < 0) return;
         const Texture& texture = scene.textures[size_t(slot.texture)];
-        const glm::uvec2 tiles = (texture.extent + (tile - 1)) / tile;
+        const glm::uvec2 tiles = (texture.extent + (tile_side - 1)) / tile_side;
         textures_[size_t(slot.texture)] = {.extent = glm::ivec2(texture.extent),
                                            .tiles_in_row = tiles.x,
                                            .wrap_u = texture.wrap_u,
                                            .wrap_v = texture.wrap_v,
                                            .is_srgb = texture.is_srgb,
                                            .is_nearest = texture.is_nearest};
-        if (offsets.emplace(texture.rgba.get(), count).second) count += size_t(tiles.x) * tiles.y * tile * tile;
+        if (blocks.emplace(texture.rgba, Block{count}).second)
+            count += size_t(tiles.x) * tiles.y * tile_side * tile_side;
     };
     for (const Material& material : scene.materials)
         for (const TextureSlot* slot : {&material.base_color_texture, &material.metalness_roughness_texture,
@@ -117,25 +116,28 @@ TiledTextures::TiledTextures(const Scene& scene) : textures_(scene.textures.size
     for (size_t i = 0; i < textures_.size(); ++i) {
         Tiled& tiled = textures_[i];
         if (tiled.tiles_in_row == 0) continue;  // not read
-        const std::vector<uint8_t>* rows = scene.textures[i].rgba.get();
-        uint32_t* texels = texels_.get() + offsets.at(rows);
+        const auto block = blocks.find(scene.textures[i].rgba);
+        uint32_t* const texels = texels_.get() + block->second.offset;
         tiled.texels = texels;
-        for (int y = 0; y < tiled.extent.y; ++y)
+        if (!std::exchange(block->second.is_to_copy, false)) continue;
+        const uint8_t* const rows = block->first->data();
+        tbb::parallel_for(0, tiled.extent.y, [&](int y) {
             for (int x = 0; x < tiled.extent.x; ++x)
-                std::memcpy(texels + (tiled.at(x, y) - tiled.texels),
-                            rows->data() + 4 * (size_t(y) * size_t(tiled.extent.x) + size_t(x)), sizeof(uint32_t));
+                std::memcpy(texels + tiled.index(x, y), rows + 4 * (size_t(y) * size_t(tiled.extent.x) + size_t(x)),
+                            sizeof(uint32_t));
+        });
     }
 }
 
 glm::vec4 TiledTextures::sample(int texture, glm::vec2 uv) const {
     const Tiled& tiled = textures_[size_t(texture)];
-    return filtered(tiled, uv, [&](int x, int y) { return *tiled.at(x, y); });
+    return filtered(tiled, uv, [&](int x, int y) { return tiled.texels[tiled.index(x, y)]; });
 }
 
 void TiledTextures::prefetch(int texture, glm::vec2 uv) const {
     const Tiled& tiled = textures_[size_t(texture)];
     const Footprint at = footprint(tiled, uv);
     // The tiles at two corners: those of all four but for one lookup of 16.
-    __builtin_prefetch(tiled.at(at.first.x, at.first.y));
-    __builtin_prefetch(tiled.at(at.last.x, at.last.y));
+    __builtin_prefetch(tiled.texels + tiled.index(at.first.x, at.first.y));
+    __builtin_prefetch(tiled.texels + tiled.index(at.last.x, at.last.y));
 }

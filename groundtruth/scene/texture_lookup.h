@@ -15,7 +15,8 @@ glm::vec4 sample_texture(const Texture& texture, glm::vec2 uv);
 class TiledTextures {
 public:
     /// Of the textures of `scene` those of base colours, metalness and roughness, normals and emission; texels that
-    /// several show are held once. Fails with std::bad_alloc.
+    /// several show are held once. They take the memory of the scene's own, which stay: alpha masks read those. Fails
+    /// with std::bad_alloc.
     explicit TiledTextures(const Scene& scene);
 
     /// sample_texture() of a texture of the scene. `texture`: its index, of one that was copied.
@@ -25,13 +26,21 @@ public:
     void prefetch(int texture, glm::vec2 uv) const;
 
 private:
+    static constexpr unsigned tile_side = 4;  ///< texels
+
     struct Tiled {
         glm::ivec2 extent{0};  ///< texels
         unsigned tiles_in_row = 0;
         TextureWrap wrap_u, wrap_v;
         bool is_srgb, is_nearest;
-        const uint32_t* texels = nullptr;
-        const uint32_t* at(int x, int y) const;
+        const uint32_t* texels = nullptr;  ///< tile after tile, each row by row
+
+        /// Of a texel, in `texels`.
+        size_t index(int x, int y) const {
+            const unsigned column = unsigned(x), row = unsigned(y);
+            const size_t tile = size_t(row / tile_side) * tiles_in_row + column / tile_side;
+            return tile * (tile_side * tile_side) + row % tile_side * tile_side + column % tile_side;
+        }
     };
     struct Free {
         void operator()(uint32_t* texels) const { std::free(texels); }

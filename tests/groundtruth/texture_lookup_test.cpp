@@ -2,7 +2,6 @@
 #include "groundtruth/scene/texture_lookup.h"
 
 #include <gtest/gtest.h>
-#include <cmath>
 #include <limits>
 #include <random>
 
@@ -11,20 +10,26 @@
 TEST(TiledTextures, HoldTheTexelsOfTheScene) {
     std::mt19937 random(1);
     Scene scene;
-    for (const glm::uvec2 extent : {glm::uvec2(1, 1), {3, 5}, {4, 4}, {17, 6}, {64, 256}}) {
+    const std::vector wraps = {TextureWrap::repeat, TextureWrap::mirrored_repeat, TextureWrap::clamp_to_edge};
+    const auto texels_of = [&](glm::uvec2 extent) {
         std::vector<uint8_t> rgba(4 * size_t(extent.x) * extent.y);
         for (uint8_t& code : rgba) code = uint8_t(random());
-        const Texels texels = make_texels(std::move(rgba));
-        for (const TextureWrap wrap : {TextureWrap::repeat, TextureWrap::mirrored_repeat, TextureWrap::clamp_to_edge})
-            for (const bool is_nearest : {false, true})
-                scene.textures.push_back({.extent = extent,
-                                          .rgba = texels,
-                                          .is_srgb = wrap != TextureWrap::clamp_to_edge,
-                                          .wrap_u = wrap,
-                                          .wrap_v = TextureWrap::repeat,
-                                          .is_nearest = is_nearest});
+        return make_texels(std::move(rgba));
+    };
+    scene.textures.push_back({.extent = {2, 2}, .rgba = texels_of({2, 2})});
+    for (const glm::uvec2 extent : {glm::uvec2(1, 1), {3, 5}, {4, 4}, {17, 6}, {64, 256}}) {
+        const Texels texels = texels_of(extent);
+        for (const TextureWrap u : wraps)
+            for (const TextureWrap v : wraps)
+                for (const bool is_nearest : {false, true})
+                    scene.textures.push_back({.extent = extent,
+                                              .rgba = texels,
+                                              .is_srgb = u != v,
+                                              .wrap_u = u,
+                                              .wrap_v = v,
+                                              .is_nearest = is_nearest});
     }
-    // Each channel of a material reads some; no material reads the first one.
+    // Each channel of a material reads some; the first texture is read by none, and not copied.
     for (int i = 1; i < int(scene.textures.size()); ++i) {
         Material material;
         TextureSlot* const channels[] = {&material.base_color_texture, &material.metalness_roughness_texture,

@@ -2,9 +2,10 @@
 
 import os
 import re
-import signal
 import sys
 import traceback
+
+from ssrlab import interrupts
 
 # What a terminal obeys or shows elsewhere than it stands: control characters, marks that turn the direction of writing, separators of
 # lines; and halves of surrogates, in which Python keeps bytes that are no UTF-8. As core/shown_text.cpp has them.
@@ -44,16 +45,14 @@ def stop(text):
     sys.exit(3)
 
 
-def _interrupt(_number, _frame):
-    signal.signal(signal.SIGTERM, signal.SIG_IGN)  # once is enough
-    raise KeyboardInterrupt
-
-
 def exit_code(work, what):
     """Of a script: what `work()` returns, else 0; 2 for a mistake in what was read or asked, 3 where `what` cannot be written or the machine
-    or ssrlab itself is at fault. Each is said in a line; SSRLAB_TRACEBACK=1 shows where it happened. Who is asked to end (SIGTERM) ends as
-    by Ctrl-C, and with it the program that subprocess.run() waits for."""
-    signal.signal(signal.SIGTERM, _interrupt)
+    or ssrlab itself is at fault. Each is said in a line; SSRLAB_TRACEBACK=1 shows where it happened."""
+    with interrupts.taken_once():
+        return _exit_code(work, what)
+
+
+def _exit_code(work, what):
     try:
         return work() or 0
     except ResultsError as mistake:

@@ -1,4 +1,4 @@
-// Programs that ssrlab starts: arguments are data, whatever they hold.
+// Programs that ssrlab starts: arguments are data, whatever they hold, and none goes on that nobody asks for any more.
 #include "core/child_process.h"
 #include "core/error.h"
 #include "core/files.h"
@@ -10,7 +10,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <utility>
 
 namespace fs = std::filesystem;
 
@@ -18,6 +21,7 @@ TEST(ChildProcess, GivesTheExitCode) {
     EXPECT_EQ(run_program({"/bin/true"}), 0);
     EXPECT_EQ(run_program({"/bin/sh", "-c", "exit 7"}), 7);
     EXPECT_THROW(run_program({"/nonexistent/program"}), MachineError);
+    EXPECT_NE(error_message([] { run_program({"/tmp"}); }).find("cannot start /tmp: "), std::string::npos);
     EXPECT_THROW(run_program({"/bin/sh", "-c", "kill -9 $$"}), MachineError);
 }
 
@@ -38,23 +42,40 @@ TEST(ChildProcess, EndsOneThatHangs) {
     fs::remove(file);
 }
 
-/// Whoever stops `ssrlab tune` stops its script and the study that the script runs.
+/// Whoever stops `ssrlab tune` stops its script and the study that the script runs: by a signal to the command alone,
+/// or by Ctrl-C, which all three get. It is said once.
 TEST(ChildProcess, EndsWithThisProcessAndEndsWhatAScriptStarted) {
-    const fs::path file = fs::temp_directory_path() / ("ssrlab_stopped_" + std::to_string(getpid()));
-    fs::remove(file);
-    const std::string study = "echo $$ $PPID > '" + file.string() + "'; exec sleep 60",
-                      script = "import subprocess, sys\nsys.path.insert(0, '" SSRLAB_SOURCE_DIR
-                               "/experiments/python')\nfrom ssrlab.mistakes import exit_code\n"
-                               "exit_code(lambda: subprocess.run(['/bin/sh', '-c', sys.argv[1]]), 'nothing')";
-    const pid_t process = fork();
-    if (process == 0) _exit(run_program({"/usr/bin/python3", "-B", "-c", script, study}));
-    std::string study_process, script_process;
-    while (!(std::ifstream(file) >> study_process >> script_process)) usleep(1000);
-    EXPECT_EQ(kill(process, SIGTERM), 0);
-    waitpid(process, nullptr, 0);
-    EXPECT_TRUE(ends_soon(script_process));
-    EXPECT_TRUE(ends_soon(study_process));
-    fs::remove(file);
+    const fs::path folder = fs::temp_directory_path() / ("ssrlab_stopped_" + std::to_string(getpid()));
+    const std::string study = "echo $$ $PPID > '" + (folder / "processes").string() + "'; exec sleep 60",
+                      script = "import sys\nsys.path.insert(0, '" SSRLAB_SOURCE_DIR
+                               "/experiments/python')\nfrom ssrlab import interrupts\n"
+                               "from ssrlab.mistakes import exit_code\n"
+                               "exit_code(lambda: interrupts.run(['/bin/sh', '-c', sys.argv[1]]), 'the results')";
+    for (const auto& [signal, is_of_all] : {std::pair(SIGTERM, false), {SIGKILL, false}, {SIGINT, true}}) {
+        SCOPED_TRACE(signal);
+        fs::remove_all(folder);
+        fs::create_directories(folder);
+        const pid_t process = fork();
+        if (process == 0) {
+            setpgid(0, 0);
+            if (!std::freopen((folder / "said").c_str(), "w", stderr)) _exit(99);
+            try {
+                _exit(run_program({"/usr/bin/python3", "-B", "-c", script, study}));
+            } catch (...) {
+                _exit(99);
+            }
+        }
+        std::string study_process, script_process;
+        for (unsigned i = 0; i < 20000 && script_process.empty(); ++i, usleep(1000))
+            std::ifstream(folder / "processes") >> study_process >> script_process;
+        ASSERT_FALSE(script_process.empty()) << read_text(folder / "said");
+        EXPECT_EQ(kill(is_of_all ? -process : process, signal), 0);
+        waitpid(process, nullptr, 0);
+        EXPECT_TRUE(ends_soon(study_process));
+        EXPECT_TRUE(ends_soon(script_process));
+        EXPECT_EQ(read_text(folder / "said"), "error: stopped before the results were written\n");
+    }
+    fs::remove_all(folder);
 }
 
 TEST(ChildProcess, HandsArgumentsOnAsTheyAre) {

@@ -46,8 +46,8 @@ def tables(*arguments):
         sys.argv = [script, *arguments]
         try:
             code = exit_code(tables_script.main, "the tables")
-        except SystemExit as of_arguments:
-            code = of_arguments.code
+        except SystemExit as ended:
+            code = ended.code
     return subprocess.CompletedProcess(arguments, code, out.getvalue(), err.getvalue())
 
 

@@ -59,10 +59,10 @@ class FakeSsrlab:
             assert study["timing"].get("copies", True) == (os.path.basename(out) == "judged"), "only what is judged needs second copies"
         self.calls.append(os.path.basename(out))
         if len(self.calls) == self.fails_at:
-            return types.SimpleNamespace(returncode=3)
+            return 3
         os.makedirs(out, exist_ok=True)
         self.write(study, out)
-        return types.SimpleNamespace(returncode=0)
+        return 0
 
     def write(self, study, out):
         points, results, costs, estimates, effects, times, time_effects, seen = [], [], [], [], [], [], [], set()
@@ -131,25 +131,25 @@ class FakeProgram:
             os.makedirs(folder)
             with open(os.path.join(folder, "scene.json"), "w", encoding="utf-8") as stream:
                 json.dump({"scene": words[3]}, stream)
-            return types.SimpleNamespace(returncode=0)
+            return 0
         own, first, scene, out, *rest = words
         assert first == "first" and os.path.isabs(own) and own.endswith("/render"), words
         if len(self.rendered) == self.fails_at:
-            return types.SimpleNamespace(returncode=1)
+            return 1
         pairs = list(zip(rest[::2], rest[1::2]))
         settings = dict(value.split("=") for key, value in pairs if key == "--set")
         assert set(settings) <= set(DEFAULTS), settings
         stated = DEFAULTS | {k: v if isinstance(DEFAULTS[k], str) else json.loads(v) for k, v in settings.items()}
         if self.refuses(stated):
             options["stdout"].write("error: all is NaN\n")
-            return types.SimpleNamespace(returncode=2)
+            return 2
         with open(os.path.join(scene, "scene.json"), encoding="utf-8") as stream:
             self.rendered.append((os.path.basename(out), json.load(stream)["scene"]))
         os.makedirs(out, exist_ok=True)
         with open(os.path.join(out, "external.json"), "w", encoding="utf-8") as stream:
             as_javascript = {k: int(v) if isinstance(v, float) and v.is_integer() else v for k, v in stated.items()}
             json.dump({"name": "engine", "point": dict(pairs).get("--point", "default"), "settings": as_javascript}, stream)
-        return types.SimpleNamespace(returncode=0)
+        return 0
 
 
 def check(is_true, what):
@@ -171,8 +171,8 @@ def search(folder, fake, rules=None, renders=None):
     with open(file, "w", encoding="utf-8") as stream:
         json.dump(asked, stream)
     said = io.StringIO()
-    studies.subprocess = types.SimpleNamespace(run=fake)
-    program.subprocess = types.SimpleNamespace(run=renders)
+    studies.interrupts = types.SimpleNamespace(run=fake)
+    program.interrupts = types.SimpleNamespace(run=renders)
     sys.argv = ["tune.py", file, "--out", os.path.join(folder, "out"), "ssrlab"]
     with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
         code = tune.exit_code(tune.main, "the search")

@@ -109,12 +109,13 @@ Sources all_sources() {
         if (entry.limits.api != Limits::webgl2) continue;
         std::vector<std::string> presets = {""};
         for (const Preset& preset : entry.presets) presets.push_back(preset.name);
+        if (!std::ranges::count(presets, "corrected")) fail(entry.name, " has no preset 'corrected'");
         for (const std::string& preset : presets) {
             const auto variant = make_variant(entry.name, {}, preset);
             const std::string point = preset.empty() ? "" : ", preset " + preset;
             sources.add(entry, *variant, point);
-            // All corrections off and all on: each is met with the others off and on. Other presets have what these two
-            // have in other mixtures, and twice as many shaders.
+            // Around the defaults and the preset with most corrections on; around the others it would be twice as many
+            // shaders.
             if (!preset.empty() && preset != "corrected") continue;
             for (const Parameter& p : variant->params)
                 for (const nlohmann::json& value : other_values(p))

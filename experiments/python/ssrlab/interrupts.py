@@ -1,0 +1,63 @@
+"""What stops a script: Ctrl-C, or being asked to end (SIGTERM). Both are one KeyboardInterrupt, and what the script runs ends with it."""
+
+import contextlib
+import signal
+import subprocess
+import threading
+
+STOPS = (signal.SIGINT, signal.SIGTERM)
+SECONDS_TO_END = 5  # a renderer ends its engine and removes its files
+
+
+class _State:
+    is_stopped = False  # a second stop is ignored
+    is_starting = False  # of a program, which nobody could end before it is known: run() raises what came meanwhile
+
+
+def _stop(_number, _frame):
+    if _State.is_stopped:
+        return
+    _State.is_stopped = True
+    if not _State.is_starting:
+        raise KeyboardInterrupt
+
+
+@contextlib.contextmanager
+def taken_once():
+    """Within it a second one is ignored: by Ctrl-C a terminal stops ssrlab, too, whose end asks its script to end."""
+    if threading.current_thread() is not threading.main_thread():  # which alone may say what signals do
+        yield
+        return
+    before = {number: signal.getsignal(number) for number in STOPS}
+    taken = {number: handler for number, handler in before.items() if handler in (signal.SIG_DFL, signal.default_int_handler)}
+    _State.is_stopped = False
+    for number in taken:
+        signal.signal(number, _stop)
+    try:
+        yield
+    finally:
+        if not _State.is_stopped:  # else another may be on its way
+            for number, handler in taken.items():
+                signal.signal(number, handler)
+
+
+def run(words, **streams):
+    """The exit code of a program, the first of `words`, with its arguments. `streams`: as subprocess.Popen() takes them. Where the script is
+    stopped the program is asked to end, and killed where it does not."""
+    was_stopped, _State.is_starting = _State.is_stopped, True
+    try:
+        process = subprocess.Popen(words, **streams)
+    finally:
+        _State.is_starting = False
+    with process:
+        try:
+            if _State.is_stopped and not was_stopped:
+                raise KeyboardInterrupt
+            return process.wait()
+        except BaseException:
+            process.terminate()
+            try:
+                process.wait(SECONDS_TO_END)
+            except subprocess.TimeoutExpired:
+                process.kill()
+            raise
