@@ -44,14 +44,14 @@ def taken_once():
 def run(words, **streams):
     """The exit code of a program, the first of `words`, with its arguments. `streams`: as subprocess.Popen() takes them. Where the script is
     stopped the program is asked to end, and killed where it does not."""
-    was_stopped, _State.is_starting = _State.is_stopped, True
+    _State.is_starting = True
     try:
         process = subprocess.Popen(words, **streams)
     finally:
         _State.is_starting = False
     with process:
         try:
-            if _State.is_stopped and not was_stopped:
+            if _State.is_stopped:
                 raise KeyboardInterrupt
             return process.wait()
         except BaseException:
