@@ -38,8 +38,8 @@ glm::vec3 read_color(JsonObject& entry, const std::string& key, float max) {
 void hide(Scene& scene, const std::vector<bool>& is_hidden) {
     for (size_t i = 0; i < is_hidden.size(); ++i)
         if (is_hidden[i])
-            std::erase_if(scene.warnings, [&](const std::string& warning) {
-                return warning.find("material '" + shortened(scene.materials[i].name) + "'") != std::string::npos;
+            std::erase_if(scene.warnings, [&](const SceneWarning& warning) {
+                return warning.text.find("material '" + shortened(scene.materials[i].name) + "'") != std::string::npos;
             });
     std::erase_if(scene.instances,
                   [&](const Instance& instance) { return is_hidden[scene.meshes[instance.mesh].material]; });

@@ -19,6 +19,12 @@ const SceneCamera& Scene::camera(const std::string& wanted) const {
     fail("scene '", name, "' has no camera '", wanted, "'", suggestion(wanted, names));
 }
 
+std::vector<std::string> texts_of(const std::vector<SceneWarning>& warnings) {
+    std::vector<std::string> texts;
+    for (const SceneWarning& warning : warnings) texts.push_back(warning.text);
+    return texts;
+}
+
 size_t Scene::triangle_count() const {
     size_t count = 0;
     for (const Instance& instance : instances) count += meshes[instance.mesh].indices.size() / 3;

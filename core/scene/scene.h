@@ -15,7 +15,8 @@
 
 enum class TextureWrap { repeat, mirrored_repeat, clamp_to_edge };
 
-/// 8-bit RGBA texels, row by row. Those of one image are held once, however many textures show it.
+/// RGBA texels, row by row, as bytes; see Texture::channel_bytes. Those of one image are held once, however many textures
+/// show it.
 using Texels = std::shared_ptr<const std::vector<uint8_t>>;
 
 inline Texels make_texels(std::vector<uint8_t> rgba) {
@@ -27,6 +28,7 @@ struct Texture {
     std::string name;
     glm::uvec2 extent{0, 0};
     Texels rgba;           ///< never null in a Scene
+    unsigned channel_bytes = 1;  ///< of a texel's channel: 1, or 2 of 16-bit images, in the machine's byte order
     bool is_srgb = false;  ///< RGB are sRGB codes, decoded before filtering; alpha is linear
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
     bool is_nearest = false;
@@ -56,6 +58,10 @@ struct Material {
     glm::vec3 emission{0.0f};       ///< radiance (W sr^-1 m^-2): emissiveFactor times KHR_materials_emissive_strength
     TextureSlot emission_texture;
     float specular = 1.0f;  ///< KHR_materials_specular's specularFactor: scales the dielectric Fresnel term
+    TextureSlot specular_texture;        ///< A: multiplies `specular`
+    glm::vec3 specular_color{1.0f};      ///< specularColorFactor: scales `dielectric_f0`, at most to 1
+    TextureSlot specular_color_texture;  ///< RGB: multiplies `specular_color`
+    float dielectric_f0 = 0.04f;         ///< reflectance at normal incidence, of the index of refraction (KHR_materials_ior)
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;     ///< a hit counts where alpha >= cutoff (AlphaMode::mask)
     bool is_double_sided = false;  ///< all surfaces are drawn from both sides; this decides whether the back emits
@@ -121,6 +127,7 @@ struct SceneCamera {
     bool is_orthographic = false;
     float vertical_fov = 0.87f;        ///< radians, perspective
     float orthographic_height = 1.0f;  ///< m, full height of the view
+    float aspect = 0.0f;               ///< width over height of the frame that its author saw; 0: none was named
     float near = 0.1f, far = 100.0f;   ///< m
     std::vector<CameraKey> keys;       ///< one: static
     int node = -1;                     ///< the glTF node that poses it in place of `keys`
@@ -152,6 +159,14 @@ struct AnimationChannel {
     std::vector<glm::vec4> values;  ///< rotation: quaternion xyzw; cubic_spline: in-tangent, value, out-tangent per key
 };
 
+/// What a file holds and ssrlab does not show as the file says, or chose for it: one sentence, and whom it concerns.
+struct SceneWarning {
+    std::string text;
+    int material = -1, node = -1;  ///< indices into Scene::materials and Scene::nodes; -1: none in particular
+
+    auto operator<=>(const SceneWarning&) const = default;
+};
+
 struct Scene {
     std::string name;   ///< that of its folder
     std::string asset;  ///< the glTF that it shows, where others may show it, too; else its own name
@@ -166,13 +181,17 @@ struct Scene {
     std::vector<SceneCamera> cameras;
     unsigned frame_count = 1;
     float frame_rate = 30.0f;           ///< frames per second of animation time
-    std::vector<std::string> warnings;  ///< what the files hold and ssrlab does not use, one sentence each
+    std::vector<SceneWarning> warnings;
+    bool draws_backs = true;  ///< single-sided surfaces are seen from behind, too, against glTF 2.0, section 3.9.5
     std::string content_hash;           ///< of every file and override that the rendered light depends on
     MemoryShare memory = {};            ///< that of textures, meshes and the environment
 
     const SceneCamera& camera(const std::string& name) const;  ///< "": the first; Error with a near miss if unknown
     size_t triangle_count() const;                             ///< over all instances
 };
+
+/// The sentences alone.
+std::vector<std::string> texts_of(const std::vector<SceneWarning>& warnings);
 
 /// The scene at one instant: what moves, in world space.
 struct ScenePose {

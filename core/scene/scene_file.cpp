@@ -50,6 +50,10 @@ void merge(Scene& scene, Scene other) {
     append(scene.animation, other.animation);
     append(scene.lights, other.lights);
     append(scene.cameras, other.cameras);
+    for (SceneWarning& warning : other.warnings) {
+        if (warning.material >= 0) warning.material += int(materials);
+        if (warning.node >= 0) warning.node += nodes;
+    }
     append(scene.warnings, other.warnings);
     scene.memory.take(other.memory);
     scene.frame_count = std::max(scene.frame_count, other.frame_count);

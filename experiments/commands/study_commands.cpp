@@ -68,8 +68,8 @@ void gbuffer_command(const GBufferCommandOptions& options, const CommonOptions& 
                             .extent = {options.shot.size[0], options.shot.size[1]},
                             .frames = {first}};
     const Shot shot = load_shot(config, scene_search_path(common.scene_path));
-    for (const std::string& warning : shot.scene.warnings)
-        std::fprintf(stderr, "warning: %s\n", shown_text(warning).c_str());
+    for (const SceneWarning& warning : shot.scene.warnings)
+        std::fprintf(stderr, "warning: %s\n", shown_text(warning.text).c_str());
     const DepthFormat format = options.depth_format == "d16"   ? DepthFormat::d16
                                : options.depth_format == "d24" ? DepthFormat::d24
                                                                : DepthFormat::d32f;

@@ -75,8 +75,8 @@ void print_ladder(const LadderSummary& ladder) {
 
 void reference_command(const ReferenceCommandOptions& options, const CommonOptions& common) {
     const Shot shot = load_single_shot(options.shot, common);
-    for (const std::string& warning : shot.scene.warnings)
-        std::fprintf(stderr, "warning: %s\n", shown_text(warning).c_str());
+    for (const SceneWarning& warning : shot.scene.warnings)
+        std::fprintf(stderr, "warning: %s\n", shown_text(warning.text).c_str());
     const ShotFrame frame = shot_frame(shot, options.shot.frame);
 
     Progress progress(1.0);

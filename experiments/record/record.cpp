@@ -184,7 +184,7 @@ RecordedPage record_page(Device& device, const RecordSettings& settings) {
              "; it holds ", most_pixels / 1'000'000, " million pixels: record fewer or smaller frames");
     require_replayable(device, settings.point);
     const Shot shot = load_shot(asked, settings.search_path);
-    for (const std::string& warning : shot.scene.warnings) settings.say("warning: " + warning);
+    for (const SceneWarning& warning : shot.scene.warnings) settings.say("warning: " + warning.text);
 
     Recording made(device, shot, settings);
     for (const FrameStep& step : shot.steps) made.add(step);

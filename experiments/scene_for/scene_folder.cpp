@@ -37,7 +37,7 @@ public:
         if (settings_.has_probe && shots.size() > 1)
             fail(settings_.scene, ": a probe is one camera's, and ", shots.size(),
                  " were named: write a folder for each");
-        done_.warnings = scene.warnings;
+        done_.warnings = texts_of(scene.warnings);
         json description = {{"scene", scene.name},
                             {"engine", settings_.engine.name},
                             {"samples", settings_.reference.max_samples},

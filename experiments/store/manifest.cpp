@@ -191,7 +191,7 @@ nlohmann::json shot_entry(const Shot& shot, const Config& config, bool keep_all)
                             {"measure", shot.config.measures_last_only ? "last" : "all"},
                             {"measure_from", std::max(shot.config.measure_from, shot.config.frames.front())},
                             {"exposure_ev", shot.camera.exposure_ev},
-                            {"warnings", shot.scene.warnings},
+                            {"warnings", texts_of(shot.scene.warnings)},
                             {"needs", needs},
                             {"left_out", keep_all ? nlohmann::json::array() : left_out_entries(shot, config)}};
     if (shot.config.change) entry["change"] = *shot.config.change;

@@ -29,8 +29,8 @@ struct Gltf : testing::Test {
     Scene load() { return load_gltf(writer.write_glb(folder / "a.glb")); }
 };
 
-inline bool mentions(const std::vector<std::string>& warnings, const std::string& text) {
-    return std::ranges::any_of(warnings, [&](const std::string& w) { return w.find(text) != std::string::npos; });
+inline bool mentions(const std::vector<SceneWarning>& warnings, const std::string& text) {
+    return std::ranges::any_of(warnings, [&](const SceneWarning& w) { return w.text.find(text) != std::string::npos; });
 }
 
 inline void expect_near(glm::vec3 a, glm::vec3 b, float tolerance) {

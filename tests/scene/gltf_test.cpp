@@ -249,7 +249,7 @@ TEST(ThirdPartyScenes, LoadWithWarningsThatAreUnderstood) {
             const Scene scene = load_scene(name, path);
             std::printf("%s: %zu triangles, %zu materials, %zu textures\n", name.c_str(), scene.triangle_count(),
                         scene.materials.size(), scene.textures.size());
-            for (const std::string& warning : scene.warnings) std::printf("  %s\n", warning.c_str());
+            for (const SceneWarning& warning : scene.warnings) std::printf("  %s\n", warning.text.c_str());
         } catch (const Error& e) {
             EXPECT_NE(std::string(e.what()).find("search path"), std::string::npos) << name << ": " << e.what();
         }

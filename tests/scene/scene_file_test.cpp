@@ -122,7 +122,7 @@ TEST(Scenes, AllOfOursLoadWithoutWarning) {
     for (const std::string& name : list_scenes({ours})) {
         if (!fs::exists(ours / name / "scene.glb") && name != "sky_only") continue;  // third-party files, not here
         const Scene scene = load_scene(name, {ours});
-        EXPECT_TRUE(scene.warnings.empty()) << name << ": " << scene.warnings.front();
+        EXPECT_TRUE(scene.warnings.empty()) << name << ": " << scene.warnings.front().text;
         ++loaded;
     }
     EXPECT_GE(loaded, 10u);

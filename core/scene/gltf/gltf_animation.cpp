@@ -41,7 +41,7 @@ void add_animation(GltfFile& file, const std::vector<int>& node_of, Scene& scene
             const auto& channel = animation.channels[i];
             const std::string what = "animation '" + animation.name + "' channel " + std::to_string(i);
             if (channel.target_path == "weights") {
-                file.warnings.insert("The animated morph weights of animation '" + animation.name + "' are ignored.");
+                file.warn("The animated morph weights of animation '" + animation.name + "' are ignored.");
                 continue;
             }
             if (channel.target_node < 0) continue;  // of an extension; glTF 2.0, section 3.11: to be ignored
@@ -51,7 +51,7 @@ void add_animation(GltfFile& file, const std::vector<int>& node_of, Scene& scene
                 animation.samplers[checked_index(file, channel.sampler, animation.samplers.size(), what + ": sampler")];
             const std::string& path = channel.target_path;
             if (path != "translation" && path != "rotation" && path != "scale") {
-                file.warnings.insert("The animated property '" + path + "' of animation '" + animation.name +
+                file.warn("The animated property '" + path + "' of animation '" + animation.name +
                                      "' is ignored.");
                 continue;
             }

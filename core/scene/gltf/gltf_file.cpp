@@ -72,7 +72,7 @@ void check_extensions(const json& root, GltfFile& file) {
             fail(file.name(), " requires the glTF extension ", extension, ", which ssrlab does not support");
     for (const std::string& extension : names("extensionsUsed"))
         if (!supported_extensions.contains(extension) && !opaque_extensions.contains(extension))
-            file.warnings.insert("The glTF extension " + extension + " is ignored.");
+            file.warn("The glTF extension " + extension + " is ignored.");
 }
 
 bool keep_encoded(tinygltf::Image* image, int, std::string*, std::string*, int, int, const unsigned char* bytes,

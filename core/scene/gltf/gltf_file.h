@@ -1,5 +1,6 @@
 #pragma once
 #include "core/reading_limits.h"
+#include "core/scene/scene.h"
 
 #include <tiny_gltf.h>
 #include <cstdint>
@@ -13,10 +14,11 @@
 struct GltfFile {
     std::filesystem::path path;
     tinygltf::Model model;
-    std::set<std::string> warnings;  ///< one sentence each
+    std::set<SceneWarning> warnings;
     MemoryShare memory = {};         ///< of the file, its buffers and encoded images, until they are a Scene
 
     std::string name() const { return path.string(); }
+    void warn(const std::string& text, int material = -1, int node = -1) { warnings.insert({text, material, node}); }
 };
 
 /// Reads and checks what tinygltf 2.7 takes on trust: the chunks of a .glb, and that buffer views and the images in

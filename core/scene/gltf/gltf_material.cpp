@@ -19,7 +19,7 @@ void read_alpha(GltfFile& file, const tinygltf::Material& source, const std::str
     if (source.alphaMode == "MASK")
         material.alpha_mode = AlphaMode::mask;
     else if (source.alphaMode == "BLEND")
-        file.warnings.insert("The " + what + " is blended (alphaMode BLEND) and drawn opaque.");
+        file.warn("The " + what + " is blended (alphaMode BLEND) and drawn opaque.");
     else if (source.alphaMode != "OPAQUE")
         fail(file.name(), ": ", what, " has the unknown alphaMode '", source.alphaMode,
              "'; allowed are OPAQUE, MASK and BLEND");
@@ -39,12 +39,12 @@ void read_extensions(GltfFile& file, const tinygltf::Material& source, const std
         material.specular = checked_number(file, factor, 0.0, 1.0, what + ": specularFactor");
         for (const char* key : {"specularTexture", "specularColorFactor", "specularColorTexture"})
             if (specular->IsObject() && specular->Has(key))
-                file.warnings.insert("The " + what + " has a " + key + " (KHR_materials_specular), which is ignored.");
+                file.warn("The " + what + " has a " + key + " (KHR_materials_specular), which is ignored.");
     }
     material.is_unlit = source.extensions.contains("KHR_materials_unlit");
     if (const auto* transmission = find_extension(source.extensions, "KHR_materials_transmission"))
         if (number_member(file, *transmission, "transmissionFactor", 0.0f, what) > 0.0f)
-            file.warnings.insert("The " + what + " transmits light (KHR_materials_transmission) and is drawn opaque.");
+            file.warn("The " + what + " transmits light (KHR_materials_transmission) and is drawn opaque.");
 }
 
 Material read_material(GltfFile& file, const tinygltf::Material& source, size_t index, GltfTextures& textures) {

@@ -138,22 +138,22 @@ Mesh read_mesh(const GltfFile& file, Scene& scene, size_t mesh_index, size_t pri
 bool is_drawn(GltfFile& file, size_t mesh_index, size_t primitive_index) {
     const tinygltf::Primitive& primitive = primitive_of(file, mesh_index, primitive_index);
     const std::string name = file.model.meshes[mesh_index].name;
-    if (!primitive.targets.empty()) file.warnings.insert("The morph targets of mesh '" + name + "' are ignored.");
+    if (!primitive.targets.empty()) file.warn("The morph targets of mesh '" + name + "' are ignored.");
     for (const auto& [attribute, accessor] : primitive.attributes) {
         static const std::set<std::string> known = {"POSITION",   "NORMAL",     "TANGENT",
                                                     "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"};
         if (!known.contains(attribute))
-            file.warnings.insert("The vertex attribute " + attribute + " of mesh '" + name + "' is ignored.");
+            file.warn("The vertex attribute " + attribute + " of mesh '" + name + "' is ignored.");
     }
     const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
     if (mode > TINYGLTF_MODE_TRIANGLE_FAN)
         fail(file.name(), ": mesh ", mesh_index, " has the unknown primitive mode ", mode);
     if (mode < TINYGLTF_MODE_TRIANGLES) {
-        file.warnings.insert("Points or lines of mesh '" + name + "' are not drawn.");
+        file.warn("Points or lines of mesh '" + name + "' are not drawn.");
         return false;
     }
     if (!primitive.attributes.contains("POSITION")) {
-        file.warnings.insert("A primitive of mesh '" + name + "' is not drawn, since it has no positions.");
+        file.warn("A primitive of mesh '" + name + "' is not drawn, since it has no positions.");
         return false;
     }
     return true;

@@ -114,7 +114,7 @@ void add_contents(GltfFile& file, const tinygltf::Node& source, const std::vecto
             scene.instances.push_back({mesh, node});
     if (source.camera >= 0) scene.cameras.push_back(read_camera(file, source.camera, int(node)));
     if (source.skin >= 0)
-        file.warnings.insert("The skin of node '" + source.name + "' is ignored: its mesh is drawn in bind pose.");
+        file.warn("The skin of node '" + source.name + "' is ignored: its mesh is drawn in bind pose.");
     if (const auto light = source.extensions.find("KHR_lights_punctual"); light != source.extensions.end())
         scene.lights.push_back(
             read_light(file, index_member(file, light->second, "light", "node '" + source.name + "'"), int(node)));

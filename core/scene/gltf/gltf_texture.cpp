@@ -78,7 +78,7 @@ TextureSlot GltfTextures::slot(int texture, int texcoord, const tinygltf::Extens
     const auto& model = file_.model;
     const auto& source = model.textures[checked_index(file_, texture, model.textures.size(), what + ": texture")];
     if (source.source < 0) {
-        file_.warnings.insert("The " + what + " is ignored, since its image is of a kind that ssrlab cannot decode.");
+        file_.warn("The " + what + " is ignored, since its image is of a kind that ssrlab cannot decode.");
         return slot;
     }
     if (texcoord < 0) fail(file_.name(), ": the ", what, " has the negative texCoord ", texcoord);
@@ -89,7 +89,7 @@ TextureSlot GltfTextures::slot(int texture, int texcoord, const tinygltf::Extens
         if (replacement >= 0) slot.texcoord = unsigned(replacement);
     }
     if (slot.texcoord > 1) {
-        file_.warnings.insert("The " + what + " uses the texture coordinates TEXCOORD_" +
+        file_.warn("The " + what + " uses the texture coordinates TEXCOORD_" +
                               std::to_string(slot.texcoord) + ", which are replaced by TEXCOORD_0.");
         slot.texcoord = 0;
     }

@@ -81,7 +81,7 @@ TEST_F(SceneForTest, GlbIsDrawnAsTheSceneIs) {
                           .world_from_camera = pose_camera(camera, pose, float(frame)).world_from_view,
                           .aspect = 16.0f / 9}});
         const Scene read = load_scene(file.string(), {});
-        EXPECT_EQ(read.warnings, std::vector<std::string>());
+        EXPECT_TRUE(read.warnings.empty());
         ASSERT_EQ(read.cameras.size(), 1u);
         EXPECT_EQ(read.cameras[0].name, camera.name);
         EXPECT_EQ(read.cameras[0].vertical_fov, camera.vertical_fov);
@@ -214,7 +214,7 @@ TEST_F(SceneForTest, GlbKeepsWhatMaterialsAndLightsSay) {
     const SceneCamera lens{.name = "flat", .is_orthographic = true, .orthographic_height = 3, .near = 0, .far = 9};
     write_scene_glb(folder / "s.glb", scene, pose_scene(scene, 0), {{.lens = lens}});
     const Scene read = load_scene((folder / "s.glb").string(), {});
-    EXPECT_EQ(read.warnings, std::vector<std::string>());
+    EXPECT_TRUE(read.warnings.empty());
     const Texture& texture = read.textures.at(0);
     EXPECT_EQ(*texture.rgba, *scene.textures[0].rgba);
     EXPECT_TRUE(texture.is_srgb && texture.is_nearest);
