@@ -95,7 +95,9 @@ class Proposals:
 
     Optuna's TPE, of whose samplers its documentation recommends this one from 100 trials on, with several objectives, numbers and
     categories mixed, conditions and batches; NSGA-II takes numbers and conditions less well and spends 50 trials on its
-    first generation alone. Parameters are sampled jointly (multivariate, by groups of those that are active together)."""
+    first generation alone. Parameters are sampled jointly (multivariate, by groups of those that are active together).
+    Points of a batch do not know of one another: `constant_liar`, which keeps those of one batch apart, does nothing with
+    several objectives (Optuna 3.1.0)."""
 
     STARTUP = 16  # trials that are drawn at random before there is anything to learn from
 
@@ -107,7 +109,6 @@ class Proposals:
             n_startup_trials=self.STARTUP,
             multivariate=True,
             group=True,
-            constant_liar=True,
             constraints_func=lambda trial: (trial.user_attrs["excess"],),
         )
         self.space = space
