@@ -17,14 +17,14 @@ from mathutils import Matrix
 
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "python")]
-from blender_passes import PANORAMA_CAMERA, camera_of, layers_of, with_previous  # noqa: E402
+from blender_passes import OLDER_NAMES, PANORAMA_CAMERA, camera_of, layers_of, with_previous  # noqa: E402
 from capture_files import write_environment, write_frame  # noqa: E402
 from ssrlab.exr import read_exr_planes  # noqa: E402
 from ssrlab.mistakes import ResultsError, exit_code, shown  # noqa: E402
 
 COLOR_AOVS = ("base_color", "true_normal", "emission")
 VALUE_AOVS = ("roughness", "metallic", "specular")
-# The inputs of the Principled BSDF, as Blender 3 and 4 call them.
+# The inputs of the Principled BSDF, as Blender 3 calls them, and 4 and 5.
 PRINCIPLED = {
     "base_color": ("Base Color",),
     "roughness": ("Roughness",),
@@ -35,6 +35,9 @@ PRINCIPLED = {
 OTHER_SHADERS = {  # what is not an input of theirs
     "ShaderNodeBsdfDiffuse": {"metallic": 0.0, "specular": 0.0, "roughness": 1.0, "emission": (0, 0, 0, 1)},
     "ShaderNodeBsdfGlossy": {"metallic": 1.0, "specular": 0.5, "emission": (0, 0, 0, 1)},
+    # "Glossy BSDF" since Blender 4.0, which turns those of older files into it; "Anisotropic BSDF" before.
+    "ShaderNodeBsdfAnisotropic": {"metallic": 1.0, "specular": 0.5, "emission": (0, 0, 0, 1)},
+    "ShaderNodeBsdfMetallic": {"metallic": 1.0, "specular": 0.5, "emission": (0, 0, 0, 1)},  # since Blender 4.3
     "ShaderNodeEmission": {"metallic": 0.0, "specular": 0.0, "roughness": 1.0, "base_color": (0, 0, 0, 1)},
 }
 
@@ -56,38 +59,95 @@ def _arguments():
 
 
 def surface_shader(material):
-    """The node whose inputs describe the surface: the first that is known, from the material's output on."""
+    """The node whose inputs describe the surface: the first that is known, from the material's output on. It may lie in
+    a group, whose inputs and outputs are followed."""
     output = material.node_tree.get_output_node("CYCLES")
-    waiting = [output.inputs["Surface"]] if output else []
+    waiting = [(output.inputs["Surface"], ())] if output else []  # inputs, and the nodes of the groups that they lie in
     while waiting:
-        for link in waiting.pop(0).links:
-            if link.from_node.bl_idname == "ShaderNodeBsdfPrincipled" or link.from_node.bl_idname in OTHER_SHADERS:
-                return link.from_node
-            waiting += [i for i in link.from_node.inputs if i.type == "SHADER"]
+        socket, groups = waiting.pop(0)
+        for link in socket.links:
+            node = link.from_node
+            if node.bl_idname == "ShaderNodeBsdfPrincipled" or node.bl_idname in OTHER_SHADERS:
+                return node
+            if node.bl_idname == "NodeGroupInput":
+                waiting += [(i, groups[:-1]) for i in groups[-1].inputs if i.identifier == link.from_socket.identifier]
+            elif node.bl_idname == "ShaderNodeGroup":
+                ends = [n for n in node.node_tree.nodes if n.bl_idname == "NodeGroupOutput" and n.is_active_output] if node.node_tree else []
+                waiting += [(i, (*groups, node)) for end in ends for i in end.inputs if i.identifier == link.from_socket.identifier]
+            else:
+                waiting += [(i, groups) for i in node.inputs if i.type == "SHADER"]
     return None
 
 
+def own_groups(tree):
+    """Gives a tree groups of its own, in which outputs can be added without changing other materials."""
+    for node in tree.nodes:
+        if node.bl_idname == "ShaderNodeGroup" and node.node_tree:
+            node.node_tree = node.node_tree.copy()
+            own_groups(node.node_tree)
+
+
 def _feed(tree, source, target):
-    """Gives an input what another input has: its link, or its value (of a colour, as many parts as there are)."""
-    if source.is_linked:
+    """Gives an input what another input has: its link, or its value (of a colour, as many parts as there are); what is no
+    input is the value itself."""
+    if getattr(source, "is_linked", False):
         tree.links.new(source.links[0].from_socket, target)
         return
-    value = source.default_value
+    value = getattr(source, "default_value", source)
     target.default_value = tuple(value)[: len(target.default_value)] if hasattr(value, "__len__") else value
+
+
+def _math(tree, kind, operation, *arguments):
+    """The output of a node that calculates; arguments: inputs, outputs or values."""
+    node = tree.nodes.new(kind)
+    node.operation = operation
+    for target, source in zip(node.inputs, arguments):
+        if getattr(source, "is_output", False):
+            tree.links.new(source, target)
+        else:
+            _feed(tree, source, target)
+    return node.outputs[0]
+
+
+def reflectance(tree, n, k=None):
+    """The output of nodes for ((n - 1)^2 + k^2) / ((n + 1)^2 + k^2), Fresnel's reflectance at normal incidence. n: an input,
+    of a number; with k both are of vectors."""
+    is_color = k is not None
+    kind = "ShaderNodeVectorMath" if is_color else "ShaderNodeMath"
+    one = (1.0, 1.0, 1.0) if is_color else 1.0
+    parts = [_math(tree, kind, operation, n, one) for operation in ("SUBTRACT", "ADD")]
+    parts = [_math(tree, kind, "MULTIPLY", part, part) for part in parts]
+    if is_color:
+        square = _math(tree, kind, "MULTIPLY", k, k)
+        parts = [_math(tree, kind, "ADD", part, square) for part in parts]
+    return _math(tree, kind, "DIVIDE", *parts)
+
+
+def _calculated(name, shader, tree):
+    """The output of what no input holds; None for the others."""
+    if name == "specular" and "Specular IOR Level" in shader.inputs:  # since Blender 4 it scales what IOR says
+        ratio = _math(tree, "ShaderNodeMath", "DIVIDE", reflectance(tree, shader.inputs["IOR"]), 0.04)
+        return _math(tree, "ShaderNodeMath", "MULTIPLY", ratio, shader.inputs["Specular IOR Level"])
+    if name == "base_color" and getattr(shader, "fresnel_type", "") == "PHYSICAL_CONDUCTOR":
+        return reflectance(tree, shader.inputs["IOR"], shader.inputs["Extinction"])
+    return None
 
 
 def add_outputs(material):
     """Gives the material outputs of its parameters. False if it has no surface that is understood."""
-    if not material.use_nodes:
+    if not getattr(material, "use_nodes", True):  # Blender 5 has no materials without nodes
         color, roughness, metallic = material.diffuse_color[:], material.roughness, material.metallic
         material.use_nodes = True
         for name, value in (("Base Color", color), ("Roughness", roughness), ("Metallic", metallic)):
             surface_shader(material).inputs[name].default_value = value
-    tree = material.node_tree
+    own_groups(material.node_tree)
     shader = surface_shader(material)
     if shader is None:
         return False
-    constants = OTHER_SHADERS.get(shader.bl_idname, {})
+    tree = shader.id_data  # the material's, or that of a group
+    constants = dict(OTHER_SHADERS.get(shader.bl_idname, {}))
+    if getattr(shader, "distribution", "") == "SHARP":  # of Blender 3: its roughness counts for nothing
+        constants["roughness"] = 0.0
 
     def output(name, is_color):
         node = tree.nodes.new("ShaderNodeOutputAOV")
@@ -102,6 +162,9 @@ def add_outputs(material):
         target = output(name, name in COLOR_AOVS)
         if name in constants:
             target.default_value = constants[name]
+            continue
+        if calculated := _calculated(name, shader, tree):
+            tree.links.new(calculated, target)
             continue
         found = [shader.inputs[i] for i in inputs + ("Color",) if i in shader.inputs]
         if not found:
@@ -121,7 +184,8 @@ def add_outputs(material):
 def prepare_materials():
     """Numbers all materials and gives them outputs; what has none gets Cycles' default, diffuse with albedo 0.8."""
     plain = bpy.data.materials.new("ssrlab_default")
-    plain.use_nodes = True
+    if plain.node_tree is None:  # Blender 5 makes one
+        plain.use_nodes = True
     plain.node_tree.nodes.clear()
     diffuse = plain.node_tree.nodes.new("ShaderNodeBsdfDiffuse")
     diffuse.inputs["Color"].default_value = (0.8, 0.8, 0.8, 1)
@@ -156,7 +220,11 @@ def prepare_scene(scene, size):
     cycles.pixel_filter_type, cycles.filter_width = "GAUSSIAN", 0.01
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
     settings = render.image_settings
+    if hasattr(settings, "media_type"):  # Blender 5, which offers the formats of this kind alone
+        settings.media_type = "MULTI_LAYER_IMAGE"
     settings.file_format, settings.color_depth, settings.exr_codec = "OPEN_EXR_MULTILAYER", "32", "ZIPS"
+    if hasattr(settings, "use_exr_interleave"):  # else Blender 5 writes a part for each pass
+        settings.use_exr_interleave = True
     settings.color_mode = "RGBA"
     layer = scene.view_layers[0]
     for other in scene.view_layers:
@@ -179,8 +247,9 @@ def rendered(scene, layer, samples, place):
     passes = {}
     for name, plane in read_exr_planes(place / "passes.exr").items():
         of_pass, channel = name.removeprefix(layer.name + ".").rsplit(".", 1)
+        of_pass = OLDER_NAMES.get(of_pass, of_pass)
         passes.setdefault(of_pass.removeprefix("ssrlab_"), {})[channel] = plane
-    order = "RGBXYZW"
+    order = "RGBXYZWV"
     return {
         name: np.stack([planes[c] for c in order if c in planes], axis=-1).astype(float)
         for name, planes in passes.items()
@@ -205,7 +274,7 @@ def world_radiance(scene):
     world = scene.world
     if world is None:
         return (0.0, 0.0, 0.0)
-    if not world.use_nodes:
+    if not getattr(world, "use_nodes", True):  # Blender 5 has no worlds without nodes
         return tuple(world.color)
     output = world.node_tree.get_output_node("CYCLES")
     links = output.inputs["Surface"].links if output else ()

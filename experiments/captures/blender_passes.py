@@ -8,6 +8,17 @@ from capture_files import pixel_uv, sky_motion, vulkan_clip
 OURS_FROM_BLENDER = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
 
 
+# Passes by the names of Blender 5, and of those before.
+OLDER_NAMES = {
+    "Diffuse Direct": "DiffDir",
+    "Diffuse Indirect": "DiffInd",
+    "Diffuse Color": "DiffCol",
+    "Emission": "Emit",
+    "Environment": "Env",
+    "Material Index": "IndexMA",
+}
+
+
 def camera_of(matrix_world, projection, extent, near, far, is_orthographic, frame):
     """camera.json of a Blender camera; `matrix_world` and `projection` (calc_matrix_camera()): arrays (4, 4)."""
     world_from_view = OURS_FROM_BLENDER @ np.asarray(matrix_world, float)

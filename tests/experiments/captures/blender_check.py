@@ -3,9 +3,11 @@ is no part of the suite.
 
 usage: blender_check.py SSRLAB [FOLDER]      FOLDER keeps both captures
 
-Scenes are our glTFs, by Blender's importer: one in which two objects move, one in which the camera does.
+Scenes are our glTFs, by Blender's importer: one in which two objects move, one in which the camera does. A row of materials
+(blender_materials.py) has values in closed form: with Blender 4 and 5 it has shaders of theirs, too.
 """
 
+import json
 import subprocess
 import sys
 import tempfile
@@ -85,6 +87,27 @@ def check(ssrlab, name, camera, place):
     return failures
 
 
+def check_materials(place):
+    """What is wrong with the row of materials, as sentences."""
+    place.mkdir(parents=True, exist_ok=True)
+    pixels = 8  # a side of each square
+    run(["blender", "-b", "--factory-startup", "-P", Path(__file__).parent / "blender_materials.py", "--",
+         place / "scene.blend", place / "expected.json"])  # fmt: skip
+    expected = json.loads((place / "expected.json").read_text())
+    run(["blender", "-b", place / "scene.blend", "-P", ROOT / "experiments" / "captures" / "blender_export.py", "--",
+         "--out", place / "theirs", "--size", pixels * len(expected), pixels, "--no-lit"])  # fmt: skip
+    planes = read_exr_planes(next((place / "theirs").glob("frame_*/gbuffer.exr")))
+    failures = []
+    for i, row in enumerate(expected):
+        for name, value in row.items():
+            channels = [f"{name}.{c}" for c in ("RGB" if name == "base_color" else "Y")]
+            found = [float(planes[c][pixels // 2, pixels * i + pixels // 2]) for c in channels]
+            if not np.allclose(found, value, rtol=1e-5, atol=1e-6):  # through float32, and divisions of it
+                failures.append(f"material {i}: {name} is {found}, not {value}")
+    print(f"{len(expected)} materials: {len(failures)} values are wrong")
+    return failures
+
+
 def main():
     ssrlab, folder = Path(sys.argv[1]).resolve(), sys.argv[2] if len(sys.argv) > 2 else None
     failures = []
@@ -93,6 +116,7 @@ def main():
             of_scene = Path(folder or place) / name
             of_scene.mkdir(parents=True, exist_ok=True)
             failures += check(ssrlab, name, camera, of_scene)
+        failures += check_materials(Path(folder or place) / "materials")
     for failure in failures:
         print("failed:", failure)
     sys.exit(bool(failures))
