@@ -19,7 +19,7 @@ sys.path[:0] = [str(HERE), str(HERE.parent / "python")]
 from capture_files import CHANNELS, write_environment, write_frame  # noqa: E402
 from ssrlab.json_files import read_json  # noqa: E402
 from ssrlab.mistakes import ResultsError, exit_code, say  # noqa: E402
-from renderdoc_layers import camera_value, decoded, layer_of  # noqa: E402
+from renderdoc_layers import camera_value, decoded, from_the_top, layer_of  # noqa: E402
 from ssrlab.text_files import path_inside  # noqa: E402
 
 KINDS = {"Float": "float", "UNorm": "unorm", "UNormSRGB": "srgb", "SNorm": "snorm", "UInt": "uint", "Depth": "depth"}
@@ -83,7 +83,13 @@ class Replay:
         self.controller.SetFrameEvent(action.eventId, True)
         about = self.textures[texture]
         data = self.controller.GetTextureData(texture, rd.Subresource(entry.get("mip", 0), entry.get("slice", 0), 0))
-        return decoded(data, (about.width, about.height), texture_format(about.format))
+        texels = decoded(data, (about.width, about.height), texture_format(about.format))
+        return from_the_top(texels, self.controller.GetAPIProperties().pipelineType.name, self._origin_is_lower_left())
+
+    def _origin_is_lower_left(self):
+        """Of OpenGL's clip space at the event; of other programs nothing is said."""
+        state = self.controller.GetGLPipelineState()
+        return state is None or state.vertexProcessing.clipOriginLowerLeft
 
     def variable(self, entry):
         """A float variable of a shader's constant buffers ("camera.view" of a member), of shape (rows, columns)."""

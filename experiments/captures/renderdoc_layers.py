@@ -56,6 +56,12 @@ def decoded(data, extent, texture_format):
     return np.stack(parts, axis=-1).reshape(shape)
 
 
+def from_the_top(texels, api, origin_is_lower_left):
+    """Texels with the highest row first. `api`: "OpenGL", which stores images from the lowest row on (OpenGL 4.6, 8.4.4 and 18.2)
+    unless glClipControl moves the origin; or another, which stores the highest first."""
+    return texels[::-1] if api == "OpenGL" and origin_is_lower_left else texels
+
+
 def srgb_to_linear(v):
     """IEC 61966-2-1."""
     return np.where(v <= 0.04045, v / 12.92, ((np.maximum(v, 0) + 0.055) / 1.055) ** 2.4)
@@ -87,6 +93,7 @@ DECODERS = {
     "negate": lambda v, camera: -v,
     "y_up": lambda v, camera: v * (1, -1),
     "clip_to_uv": lambda v, camera: v * 0.5,
+    "turn_rows": lambda v, camera: v[::-1],
     "pixels_to_uv": lambda v, camera: v / np.asarray(camera["extent"], float),
 }
 

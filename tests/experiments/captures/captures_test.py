@@ -197,6 +197,32 @@ class CapturesTest(unittest.TestCase):
         with self.assertRaisesRegex(ResultsError, "layout 'BC7' are not read"):
             first(b"", "BC7", "", 0, 0)
 
+    def test_rows_begin_at_the_top(self):
+        # 2 x 3 texels, as the graphics interface stores them: OpenGL the lowest row first.
+        rows = np.arange(6, dtype="<f4").reshape(3, 2)
+        kinds = {name: SimpleNamespace(name=name) for name in ("Regular", "Float", "OpenGL", "Vulkan", "D3D11")}
+        rd = SimpleNamespace(ResourceFormatType=SimpleNamespace(Regular=kinds["Regular"]), ResourceId=SimpleNamespace(Null=lambda: 0), Subresource=lambda *_: None)
+
+        def texels(api, gl_state):
+            with mock.patch.dict(sys.modules, {"renderdoc": rd}):
+                export = runpy.run_path(str(EXPERIMENTS / "captures/renderdoc_export.py"))
+            replay = object.__new__(export["Replay"])
+            texel = SimpleNamespace(type=kinds["Regular"], compType=kinds["Float"], compByteWidth=4, compCount=1, BGRAOrder=lambda: False)
+            replay.names, replay.textures = {7: "normals"}, {7: SimpleNamespace(width=2, height=3, format=texel)}
+            replay.actions = [(SimpleNamespace(eventId=1, outputs=[7], depthOut=0), "draw")]
+            replay.controller = SimpleNamespace(
+                SetFrameEvent=lambda *_: None, GetTextureData=lambda *_: rows.tobytes(), GetGLPipelineState=lambda: gl_state,
+                GetAPIProperties=lambda: SimpleNamespace(pipelineType=kinds[api]))  # fmt: skip
+            return replay.texels({"texture": "normals"})[..., 0]
+
+        origin = {is_low: SimpleNamespace(vertexProcessing=SimpleNamespace(clipOriginLowerLeft=is_low)) for is_low in (True, False)}
+        np.testing.assert_array_equal(texels("OpenGL", origin[True]), rows[::-1])
+        np.testing.assert_array_equal(texels("OpenGL", origin[False]), rows)
+        np.testing.assert_array_equal(texels("Vulkan", None), rows)
+        np.testing.assert_array_equal(texels("D3D11", None), rows)
+        turned = layer_of("roughness", rows[..., None], {"decode": ["turn_rows"]}, {})
+        np.testing.assert_array_equal(turned[..., 0], rows[::-1])
+
     def test_a_mapping_decodes_layers_and_matrices(self):
         _, _, camera = blender_camera(0.0, 0)
 
