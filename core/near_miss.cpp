@@ -1,6 +1,7 @@
 #include "core/near_miss.h"
 
 #include <algorithm>
+#include <cctype>
 #include <vector>
 
 namespace {
@@ -20,12 +21,30 @@ size_t edit_distance(std::string_view a, std::string_view b) {
     return cost[a.size()][b.size()];
 }
 
+/// The text without what data URIs hold: the letters behind ";base64," up to a quote, a blank or the end.
+std::string without_data(const std::string& text) {
+    constexpr std::string_view mark = ";base64,";
+    const auto equals = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
+    std::string shown;
+    for (auto at = text.begin();;) {
+        const auto found = std::search(at, text.end(), mark.begin(), mark.end(), equals);
+        if (found == text.end()) return shown.append(at, text.end());
+        const auto data = found + long(mark.size());
+        shown.append(at, data).append("...");
+        at = std::find_if(data, text.end(), [](char c) {
+            return !std::isalnum(static_cast<unsigned char>(c)) &&
+                   std::string_view("+/=%-_").find(c) == std::string_view::npos;
+        });
+    }
+}
+
 constexpr size_t longest_name = 100;  ///< bytes: the distance takes time and memory of the product of both lengths
 
 }  // namespace
 
-std::string shortened(const std::string& text) {
+std::string shortened(const std::string& whole) {
     constexpr size_t longest = 300, end = 80;
+    const std::string text = without_data(whole);
     if (text.size() <= longest) return text;
     const auto begins_character = [&](size_t i) { return (static_cast<unsigned char>(text[i]) & 0xC0) != 0x80; };
     size_t head = longest - end, tail = text.size() - end;

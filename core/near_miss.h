@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-/// The text as messages show it: the middle of a long one is left out.
+/// The text as messages show it: the middle of a long one is left out, and so are the data of data URIs.
 std::string shortened(const std::string& text);
 
 /// The member of `choices` nearest to `name` by Damerau-Levenshtein distance (optimal string alignment), if none is

@@ -6,6 +6,8 @@
 #include "core/scene/scene_family.h"
 #include "core/scene/scene_file.h"
 
+#include <algorithm>
+#include <cctype>
 #include <climits>
 #include <cmath>
 #include <cstdlib>
@@ -37,6 +39,11 @@ std::vector<std::string> list_scenes(const std::vector<fs::path>& search_path) {
 
 namespace {
 
+std::string lower_case(std::string text) {
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    return text;
+}
+
 /// A camera before the scene, far enough off to see all of it.
 SceneCamera camera_that_sees_all(const Scene& scene) {
     const auto [low, high] = scene_bounds(scene, pose_scene(scene, 0.0f));
@@ -62,13 +69,22 @@ Scene load_bare_gltf(const fs::path& file) {
 Scene load_scene(const std::string& name, const std::vector<fs::path>& search_path) {
     if (name.size() >= PATH_MAX) fail("unknown scene '", shortened(name), "': no path is as long");
     if (is_of_family(name)) return load_scene_file(scene_file_of_family(name), search_path);
-    const fs::path direct = name;
-    const std::string extension = direct.extension().string();
-    if (extension == ".gltf" || extension == ".glb") return load_bare_gltf(direct);
-    if (extension == ".json") return load_scene_file(direct, search_path);
     std::error_code error;  // a name too long for the file system is just unknown
+    const fs::path direct = name;
+    const std::string ending = lower_case(direct.extension().string());
+    const bool is_scene = ending == ".json", is_gltf = ending == ".gltf" || ending == ".glb";
+    const auto load = [&](const fs::path& file) {
+        return is_gltf ? load_bare_gltf(file) : load_scene_file(file, search_path);
+    };
+    if ((is_scene || is_gltf) && fs::exists(direct, error) && !fs::is_directory(direct, error)) return load(direct);
     for (const fs::path& folder : search_path)
         if (!name.empty() && fs::exists(folder / name / "scene.json", error))
             return load_scene_file(folder / name / "scene.json", search_path);
+    if (!name.empty() && fs::exists(direct / "scene.json", error))
+        return load_scene_file(direct / "scene.json", search_path);
+    if (is_scene || is_gltf) return load(direct);  // which says what is wrong with it
+    if (!name.empty() && fs::exists(direct, error))
+        fail(shortened(name), fs::is_directory(direct, error) ? " is a folder without a scene.json" : " is no scene",
+             ": scenes end in .json, .gltf or .glb");
     fail("unknown scene '", shortened(name), "'", suggestion(name, list_scenes(search_path)));
 }

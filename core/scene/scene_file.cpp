@@ -50,6 +50,7 @@ void merge(Scene& scene, Scene other) {
     append(scene.animation, other.animation);
     append(scene.lights, other.lights);
     append(scene.cameras, other.cameras);
+    make_names_unique(scene.cameras);
     for (SceneWarning& warning : other.warnings) {
         if (warning.material >= 0) warning.material += int(materials);
         if (warning.node >= 0) warning.node += nodes;

@@ -2,6 +2,17 @@
 
 #include <fstream>
 
+std::string base64(const std::string& bytes) {
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (size_t i = 0; i < bytes.size(); i += 3) {
+        uint32_t group = 0;
+        for (size_t k = 0; k < 3; ++k) group = group << 8 | (i + k < bytes.size() ? uint8_t(bytes[i + k]) : 0u);
+        for (size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? digits[group >> (18 - 6 * k) & 63] : '=';
+    }
+    return text;
+}
+
 std::filesystem::path GltfWriter::write_glb(const std::filesystem::path& file) {
     const bool has_bytes = !bytes.empty();  // an empty chunk should be omitted (glTF 2.0, section 4.4.3.3)
     if (has_bytes) json["buffers"] = {{{"byteLength", bytes.size()}}};

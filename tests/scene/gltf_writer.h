@@ -5,6 +5,9 @@
 #include <string>
 #include <vector>
 
+/// RFC 4648, section 4.
+std::string base64(const std::string& bytes);
+
 /// Builds small glTF files for tests: a JSON document and one buffer.
 struct GltfWriter {
     nlohmann::json json = {{"asset", {{"version", "2.0"}}},         {"scene", 0},

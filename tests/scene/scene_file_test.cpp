@@ -162,6 +162,51 @@ TEST_F(SceneFile, UnknownScenesAndBareFiles) {
     }
 }
 
+TEST_F(SceneFile, EndingsAreOfAnyCaseAndNamesOfAnyLetters) {
+    const std::string whole = R"({"gltf": "room.glb", )" + camera + "}";
+    const std::string hash = load(whole).content_hash;
+    const fs::path folder = root / "take#2 (a.b.c)";
+    fs::create_directories(folder);
+    for (const char* name : {"MODEL.GLB", "Model.Gltf", "v1.2.GLB", "x#y.glb"}) {
+        fs::copy(root / "room/room.glb", folder / name);
+        EXPECT_EQ(load_scene((folder / name).string(), {}).triangle_count(), 4u) << name;
+    }
+    fs::copy(root / "room/room.glb", folder / "room.glb");
+    write_text(folder / "Scene.JSON", whole);
+    EXPECT_EQ(load_scene((folder / "Scene.JSON").string(), {}).content_hash, hash);
+    for (const char* name : {"street_42", "a.b.c", "Lamp_v1.2", "chair.glb", "take#3 x"}) {
+        fs::copy(root / "room", root / name);
+        EXPECT_EQ(load_scene(name, {root}).name, name);
+        EXPECT_EQ(load_scene((root / name).string(), {}).name, name);  // by its path
+    }
+    const auto said = [&](const std::string& name) { return error_message([&] { load_scene(name, {root}); }); };
+    write_text(root / "model.obj", "v 0 0 0");
+    EXPECT_NE(said((root / "model.obj").string()).find("model.obj is no scene: scenes end in .json, .gltf or .glb"),
+              std::string::npos);
+    fs::create_directories(root / "empty");
+    EXPECT_NE(said((root / "empty").string()).find("is a folder without a scene.json"), std::string::npos);
+    EXPECT_NE(said("missing.GLB").find("missing.GLB: no such file"), std::string::npos);
+}
+
+TEST_F(SceneFile, CamerasOfOneNameInSeveralFilesAreToldApart) {
+    for (const char* file : {"a.glb", "b.glb", "c.glb"}) {
+        GltfWriter writer;
+        writer.add_mesh_node(writer.quad());
+        writer.json["cameras"] = {
+            {{"name", "main"}, {"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}};
+        writer.json["nodes"][0]["camera"] = 0;
+        writer.write_glb(root / "room" / file);
+    }
+    const Scene scene = load(R"({"gltf": "a.glb", "also": ["b.glb", "c.glb"]})");
+    std::vector<std::string> names;
+    for (const SceneCamera& c : scene.cameras) names.push_back(c.name);
+    EXPECT_EQ(names, (std::vector<std::string>{"main", "main_2", "main_3"}));
+    EXPECT_NE(scene.cameras[0].node, scene.cameras[1].node);
+    const std::string twice = R"({"name": "m", "position": [0, 0, 3], "target": [0, 0, 0], "vfov_deg": 60})";
+    EXPECT_NE(mistake(R"({"gltf": "a.glb", "cameras": [)" + twice + ", " + twice + "]}").find("two cameras named 'm'"),
+              std::string::npos);
+}
+
 TEST_F(SceneFile, NumbersThatOverflowAreRefusedByKey) {
     const auto refuses = [&](const std::string& json, const std::string& what) {
         const std::string said = mistake(R"({"gltf": "room.glb", )" + json + "}");

@@ -1,5 +1,7 @@
 #include "core/scene/gltf/encoded_image.h"
 
+#include "core/webp.h"
+
 #include <algorithm>
 #include <array>
 
@@ -47,5 +49,5 @@ bool is_png(std::span<const uint8_t> bytes) {
 glm::uvec2 encoded_extent(std::span<const uint8_t> bytes) {
     if (is_png(bytes)) return png_extent(bytes);
     if (begins_with(bytes, std::array<uint8_t, 3>{0xFF, 0xD8, 0xFF})) return jpeg_extent(bytes);
-    return {0, 0};
+    return webp_extent(bytes);
 }

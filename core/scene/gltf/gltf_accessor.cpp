@@ -25,15 +25,15 @@ Elements elements(const GltfFile& file, int view_index, size_t offset, size_t co
     const tinygltf::Model& model = file.model;
     const auto& view =
         model.bufferViews[checked_index(file, view_index, model.bufferViews.size(), what + ": buffer view")];
-    const auto& buffer = model.buffers[checked_index(file, view.buffer, model.buffers.size(), what + ": buffer")];
+    const auto buffer = file.buffers[checked_index(file, view.buffer, file.buffers.size(), what + ": buffer")];
     const size_t stride = view.byteStride ? view.byteStride : element_size;
     const bool fits = count == 0 || (offset <= view.byteLength && element_size <= view.byteLength - offset &&
                                      (count - 1) <= (view.byteLength - offset - element_size) / stride);
-    if (!fits || stride < element_size || view.byteOffset > buffer.data.size() ||
-        view.byteLength > buffer.data.size() - view.byteOffset)
+    if (!fits || stride < element_size || view.byteOffset > buffer.size() ||
+        view.byteLength > buffer.size() - view.byteOffset)
         fail(file.name(), ": ", what, ": ", count, " elements of ", element_size, " bytes pass the end of buffer view ",
              view_index);
-    return {buffer.data.data() + view.byteOffset + offset, stride, count};
+    return {buffer.data() + view.byteOffset + offset, stride, count};
 }
 
 template <class T>
@@ -43,7 +43,12 @@ T read_as(const unsigned char* at) {
     return value;
 }
 
-float component(const unsigned char* at, int type, bool is_normalized) {
+/// A component as the reader wants it: as a float, or as the unsigned integer that it is.
+template <class T>
+T component(const unsigned char* at, int type, bool is_normalized);
+
+template <>
+float component<float>(const unsigned char* at, int type, bool is_normalized) {
     const auto scaled = [&](float value, float max) { return is_normalized ? std::max(value / max, -1.0f) : value; };
     switch (type) {
         case TINYGLTF_COMPONENT_TYPE_BYTE:
@@ -63,7 +68,8 @@ float component(const unsigned char* at, int type, bool is_normalized) {
     }
 }
 
-uint32_t unsigned_component(const unsigned char* at, int type) {
+template <>
+uint32_t component<uint32_t>(const unsigned char* at, int type, bool) {
     switch (type) {
         case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
             return read_as<uint8_t>(at);
@@ -74,38 +80,61 @@ uint32_t unsigned_component(const unsigned char* at, int type) {
     }
 }
 
-std::vector<uint32_t> read_unsigned(const GltfFile& file, int view, size_t offset, size_t count, int type,
-                                    const std::string& what) {
+void check_unsigned(const GltfFile& file, int type, const std::string& what) {
     if (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE && type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
         type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
         fail(file.name(), ": ", what, " must be unsigned integers, not component type ", type);
-    const Elements source = elements(file, view, offset, count, component_size(file, type, what), what);
-    MemoryShare memory;
-    memory.add(double(count) * sizeof(uint32_t),
-               file.name() + ": " + what + " of " + std::to_string(count) + " elements");
-    std::vector<uint32_t> values(count);
-    for (size_t i = 0; i < count; ++i) values[i] = unsigned_component(source.data + i * source.stride, type);
+}
+
+/// What an accessor, or the sparse part of one, says of its elements.
+struct ElementType {
+    int component_type;
+    bool is_normalized;
+    unsigned components;
+};
+
+/// Elements that lie in a buffer view one after the other.
+template <class T>
+std::vector<T> read_view(const GltfFile& file, int view, size_t offset, size_t count, ElementType element,
+                         const std::string& what) {
+    const size_t size = component_size(file, element.component_type, what);
+    const Elements source = elements(file, view, offset, count, size * element.components, what);
+    std::vector<T> values(count * element.components);
+    if (std::is_same_v<T, float> && element.component_type == TINYGLTF_COMPONENT_TYPE_FLOAT) {
+        for (size_t i = 0; i < count; ++i)
+            std::memcpy(&values[i * element.components], source.data + i * source.stride, size * element.components);
+        return values;
+    }
+    for (size_t i = 0; i < count; ++i)
+        for (unsigned k = 0; k < element.components; ++k)
+            values[i * element.components + k] =
+                component<T>(source.data + i * source.stride + k * size, element.component_type, element.is_normalized);
     return values;
 }
 
 /// Replaces the elements which the sparse part names (glTF 2.0, section 3.6.2.3).
-void apply_sparse(const GltfFile& file, const tinygltf::Accessor& accessor, unsigned components,
-                  const std::string& what, std::vector<float>& values) {
+template <class T>
+void apply_sparse(const GltfFile& file, const tinygltf::Accessor& accessor, ElementType element,
+                  const std::string& what, std::vector<T>& values) {
     const auto& sparse = accessor.sparse;
     if (sparse.count < 0 || size_t(sparse.count) > accessor.count || sparse.indices.byteOffset < 0 ||
         sparse.values.byteOffset < 0)
-        fail(file.name(), ": ", what, " has a malformed sparse part");
-    const auto indices = read_unsigned(file, sparse.indices.bufferView, size_t(sparse.indices.byteOffset),
-                                       size_t(sparse.count), sparse.indices.componentType, what + " (sparse indices)");
-    const size_t size = component_size(file, accessor.componentType, what);
-    const Elements source = elements(file, sparse.values.bufferView, size_t(sparse.values.byteOffset), indices.size(),
-                                     size * components, what);
-    for (size_t i = 0; i < indices.size(); ++i) {
+        fail(file.name(), ": ", what, " has a malformed sparse part: ", sparse.count, " of ", accessor.count,
+             " elements");
+    const auto count = size_t(sparse.count);
+    check_unsigned(file, sparse.indices.componentType, what + " (sparse indices)");
+    MemoryShare memory;
+    memory.add(double(count) * double(sizeof(uint32_t) + element.components * sizeof(T)),
+               file.name() + ": " + what + ": a sparse part of " + std::to_string(count) + " elements");
+    const auto indices = read_view<uint32_t>(file, sparse.indices.bufferView, size_t(sparse.indices.byteOffset), count,
+                                             {sparse.indices.componentType, false, 1}, what + " (sparse indices)");
+    const auto replaced = read_view<T>(file, sparse.values.bufferView, size_t(sparse.values.byteOffset), count, element,
+                                       what + " (sparse values)");
+    for (size_t i = 0; i < count; ++i) {
         if (indices[i] >= accessor.count)
             fail(file.name(), ": ", what, " has the sparse index ", indices[i], " of ", accessor.count);
-        for (unsigned k = 0; k < components; ++k)
-            values[size_t(indices[i]) * components + k] =
-                component(source.data + i * source.stride + k * size, accessor.componentType, accessor.normalized);
+        std::copy_n(&replaced[i * element.components], element.components,
+                    &values[indices[i] * size_t(element.components)]);
     }
 }
 
@@ -119,34 +148,34 @@ const tinygltf::Accessor& checked_accessor(const GltfFile& file, int index, unsi
         fail(file.name(), ": ", what, " has ", accessor.count, " elements, more than ", UINT32_MAX);
     return accessor;
 }
+
+/// The one reader of accessors: zeros without a buffer view, and what a sparse part replaces.
+template <class T>
+std::vector<T> read_accessor(const GltfFile& file, const tinygltf::Accessor& accessor, unsigned components,
+                             const std::string& what) {
+    const ElementType element{accessor.componentType, accessor.normalized, components};
+    component_size(file, accessor.componentType, what);
+    MemoryShare memory;
+    memory.add(double(accessor.count) * components * sizeof(T),
+               file.name() + ": " + what + " of " + std::to_string(accessor.count) + " elements");
+    std::vector<T> values = accessor.bufferView < 0 ? std::vector<T>(accessor.count * components)
+                                                    : read_view<T>(file, accessor.bufferView, accessor.byteOffset,
+                                                                   accessor.count, element, what);
+    if (accessor.sparse.isSparse) apply_sparse(file, accessor, element, what, values);
+    return values;
+}
 }  // namespace
 
 std::vector<float> read_floats(const GltfFile& file, int index, unsigned components, const std::string& what) {
-    const auto& accessor = checked_accessor(file, index, components, what);
-    const size_t size = component_size(file, accessor.componentType, what);
-    MemoryShare memory;
-    memory.add(double(accessor.count) * components * sizeof(float),
-               file.name() + ": " + what + " of " + std::to_string(accessor.count) + " elements");
-    std::vector<float> values;
-    if (accessor.bufferView >= 0) {
-        const Elements source =
-            elements(file, accessor.bufferView, accessor.byteOffset, accessor.count, size * components, what);
-        values.resize(accessor.count * components);
-        for (size_t i = 0; i < accessor.count; ++i)
-            for (unsigned k = 0; k < components; ++k)
-                values[i * components + k] =
-                    component(source.data + i * source.stride + k * size, accessor.componentType, accessor.normalized);
-    } else {
-        values.assign(accessor.count * components, 0.0f);
-    }
-    if (accessor.sparse.isSparse) apply_sparse(file, accessor, components, what, values);
+    const auto values = read_accessor<float>(file, checked_accessor(file, index, components, what), components, what);
     const auto bad = std::ranges::find_if(values, [](float v) { return !std::isfinite(v); });
     if (bad != values.end())
         fail(file.name(), ": ", what, ": element ", (bad - values.begin()) / components, " is not finite");
     return values;
 }
 
-std::vector<uint32_t> read_indices(const GltfFile& file, int index, const std::string& what) {
-    const auto& accessor = checked_accessor(file, index, 1, what);
-    return read_unsigned(file, accessor.bufferView, accessor.byteOffset, accessor.count, accessor.componentType, what);
+std::vector<uint32_t> read_indices(const GltfFile& file, int index, const std::string& what, unsigned components) {
+    const auto& accessor = checked_accessor(file, index, components, what);
+    check_unsigned(file, accessor.componentType, what);
+    return read_accessor<uint32_t>(file, accessor, components, what);
 }

@@ -3,59 +3,23 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "core/scene/gltf/gltf_buffers.h"
+#include "core/scene/gltf/gltf_chunks.h"
+#include "core/scene/gltf/gltf_extensions.h"
 #include "core/scene/gltf/gltf_schema.h"
+#include "core/scene/gltf/gltf_uri.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 namespace {
 using nlohmann::json;
 
-const std::set<std::string> supported_extensions = {"KHR_lights_punctual",    "KHR_materials_emissive_strength",
-                                                    "KHR_materials_specular", "KHR_materials_unlit",
-                                                    "KHR_mesh_quantization",  "KHR_texture_transform"};
-// Drawn as if the extension were absent; the part that carries it says so in a warning of its own.
-const std::set<std::string> opaque_extensions = {"KHR_materials_transmission"};
-
-uint32_t little_endian(const std::string& bytes, size_t at) {
-    const auto byte = [&](size_t i) { return uint32_t(uint8_t(bytes[at + i])); };
-    return byte(0) | byte(1) << 8 | byte(2) << 16 | byte(3) << 24;
-}
-
-/// The JSON chunk of a .glb (glTF 2.0, section 4.4) after checking that both chunks lie within the file.
-std::string glb_json(const std::string& bytes, const std::string& name) {
-    const uint32_t json_chunk = 0x4E4F534A;
-    if (bytes.size() < 20) fail(name, ": truncated .glb: ", bytes.size(), " bytes are less than its header");
-    if (little_endian(bytes, 4) != 2)
-        fail(name, ": .glb version ", little_endian(bytes, 4), " is not supported, only 2");
-    const size_t length = little_endian(bytes, 8), json_length = little_endian(bytes, 12);
-    if (length > bytes.size())
-        fail(name, ": truncated .glb: its header says ", length, " bytes, the file has ", bytes.size());
-    if (little_endian(bytes, 16) != json_chunk) fail(name, ": the first chunk of the .glb is not JSON");
-    const size_t json_end = 20 + json_length;
-    if (json_end > length)
-        fail(name, ": truncated .glb: the JSON chunk of ", json_length, " bytes passes the end of the file");
-    if (json_end + 8 <= length && json_end + 8 + little_endian(bytes, json_end) > length)
-        fail(name, ": truncated .glb: the binary chunk of ", little_endian(bytes, json_end),
-             " bytes passes the end of the file");
-    return bytes.substr(20, json_length);
-}
-
-/// Whose parts tinygltf 2.7 does not compare: it would read behind the end of a buffer.
-void check_buffer_views(const json& root, const std::string& name) {
-    static const json none = json::array();
-    const auto list = [&](const char* key) -> const json& { return root.contains(key) ? root[key] : none; };
-    const json &buffers = list("buffers"), &views = list("bufferViews");
-    for (size_t i = 0; i < views.size(); ++i) {
-        const std::string where = name + ": bufferViews[" + std::to_string(i) + "]";
-        const auto buffer = views[i]["buffer"].get<size_t>();
-        if (buffer >= buffers.size()) fail(where, " names buffer ", buffer, ", but there are ", buffers.size());
-        const auto length = buffers[buffer]["byteLength"].get<uint64_t>(),
-                   begin = views[i].value("byteOffset", uint64_t(0)), size = views[i]["byteLength"].get<uint64_t>();
-        if (begin > length || size > length - begin || size > INT32_MAX)
-            fail(where, ": bytes ", begin, " to ", begin + size, " pass the end of its buffer of ", length, " bytes");
-    }
+/// Takes the list of that name out of the object; empty where there is none.
+json take_list(json& object, const char* key) {
+    json taken = json::array();
+    if (const auto found = object.find(key); found != object.end()) taken = std::move(*found), object.erase(found);
+    return taken;
 }
 
 size_t count_objects(const json& value) {
@@ -65,47 +29,57 @@ size_t count_objects(const json& value) {
     return count;
 }
 
-void check_extensions(const json& root, GltfFile& file) {
-    const auto names = [&](const char* key) { return root.value(key, std::set<std::string>()); };
-    for (const std::string& extension : names("extensionsRequired"))
-        if (!supported_extensions.contains(extension) && !opaque_extensions.contains(extension))
-            fail(file.name(), " requires the glTF extension ", extension, ", which ssrlab does not support");
-    for (const std::string& extension : names("extensionsUsed"))
-        if (!supported_extensions.contains(extension) && !opaque_extensions.contains(extension))
-            file.warn("The glTF extension " + extension + " is ignored.");
+/// What depends on another key, which the schema does not say.
+void check_types(const json& root, const std::string& file) {
+    const auto check = [&](const json& object, const std::string& part, const std::string& where) {
+        if (!object.contains(part))
+            fail(file, ": ", where, ": lacks the key '", part, "', which the type '", part, "' must have");
+    };
+    const json cameras = root.value("cameras", json::array());
+    for (size_t i = 0; i < cameras.size(); ++i)
+        check(cameras[i], cameras[i]["type"].get<std::string>(), "cameras[" + std::to_string(i) + "]");
+    const json::json_pointer place("/extensions/KHR_lights_punctual/lights");
+    if (!root.contains(place)) return;
+    for (size_t i = 0; i < root[place].size(); ++i)
+        if (const json& light = root[place][i]; light["type"] == "spot")
+            check(light, "spot", "extensions.KHR_lights_punctual.lights[" + std::to_string(i) + "]");
 }
 
-bool keep_encoded(tinygltf::Image* image, int, std::string*, std::string*, int, int, const unsigned char* bytes,
-                  int size, void*) {
-    image->image.assign(bytes, bytes + size);
-    image->as_is = true;
-    return true;
-}
+/// Parts of the JSON that tinygltf 2.7 would misread or refuse though they are valid, or harmless: it gets the JSON
+/// without them, and the model has them afterwards.
+struct PartsOfOurs {
+    json images;
+    std::vector<size_t> strides;            ///< of buffer views; 0: packed. tinygltf wants multiples of 4
+    std::vector<std::vector<int>> indices;  ///< per mesh and primitive. tinygltf wants a buffer view behind each
 
-/// What tinygltf asks of the file system. It looks beside the glTF, and then in the working folder, where a file of the
-/// same name is not the one that the glTF means.
-struct Neighbours {
-    GltfFile& file;
-    std::string folder;
+    explicit PartsOfOurs(json& root) : images(take_list(root, "images")) {
+        root.erase("buffers");
+        if (root.contains("bufferViews"))
+            for (json& view : root["bufferViews"]) {
+                strides.push_back(view.value("byteStride", size_t(0)));
+                view.erase("byteStride");
+            }
+        if (root.contains("meshes"))
+            for (json& mesh : root["meshes"]) {
+                indices.emplace_back();
+                for (json& primitive : mesh["primitives"]) {
+                    indices.back().push_back(primitive.value("indices", -1));
+                    primitive.erase("indices");
+                }
+            }
+    }
 
-    /// The neighbour of that name; none if the path is not in the folder.
-    std::optional<std::filesystem::path> at(const std::string& path) const {
-        if (!path.starts_with(folder + "/")) return {};
-        return file_below(folder, path.substr(folder.size() + 1), file.name());
+    void put_into(tinygltf::Model& model) const {
+        for (size_t i = 0; i < strides.size(); ++i) model.bufferViews[i].byteStride = strides[i];
+        for (size_t mesh = 0; mesh < indices.size(); ++mesh)
+            for (size_t i = 0; i < indices[mesh].size(); ++i)
+                model.meshes[mesh].primitives[i].indices = indices[mesh][i];
+        for (const json& source : images) {
+            tinygltf::Image& image = model.images.emplace_back();
+            image.name = source.value("name", ""), image.uri = source.value("uri", "");
+            image.mimeType = source.value("mimeType", ""), image.bufferView = source.value("bufferView", -1);
+        }
     }
-    static bool exists(const std::string& path, void* self) {
-        const auto neighbour = static_cast<Neighbours*>(self)->at(path);
-        std::error_code error;
-        return neighbour && std::filesystem::exists(*neighbour, error);
-    }
-    static bool read(std::vector<unsigned char>* bytes, std::string*, const std::string& path, void* self) {
-        const Neighbours& neighbours = *static_cast<Neighbours*>(self);
-        const std::string text = read_text(*neighbours.at(path));
-        neighbours.file.memory.add(copies * double(text.size()), path + ": " + std::to_string(text.size()) + " bytes");
-        bytes->assign(text.begin(), text.end());
-        return true;
-    }
-    static constexpr double copies = 2;  ///< of what is read: as text, and as the bytes of a buffer or an image
 };
 
 std::string one_line(std::string text) {
@@ -113,50 +87,73 @@ std::string one_line(std::string text) {
     std::ranges::replace(text, '\n', ';');
     return text;
 }
-}  // namespace
 
-GltfFile read_gltf(const std::filesystem::path& path) {
-    GltfFile file;
-    file.path = path;
-    const std::string bytes = read_text(path);
-    const bool is_binary = bytes.starts_with("glTF");
-    if (!is_binary && path.extension() == ".glb") fail(path.string(), " is not a .glb: it does not begin with 'glTF'");
-    // tinygltf parses it again, recursing into what it is given.
-    const json root = parse_json(is_binary ? glb_json(bytes, file.name()) : bytes, file.name());
-    check_gltf_schema(root, file.name());
-    check_buffer_views(root, file.name());
-    check_extensions(root, file);
-
-    // As text, in both documents, as a buffer and as an image; and each object as the largest of tinygltf's structures.
-    constexpr double copies = 5;
-    file.memory.add(copies * double(bytes.size()) + double(count_objects(root)) * sizeof(tinygltf::Material),
-                    file.name() + ": what it describes");
-    Neighbours neighbours{file, path.parent_path().empty() ? "." : path.parent_path().string()};
-    const std::string& folder = neighbours.folder;
+void parse_model(json& root, GltfFile& file) {
+    const PartsOfOurs ours(root);
+    const std::string text = root.dump();
     tinygltf::TinyGLTF loader;
-    loader.SetImageLoader(keep_encoded, nullptr);
-    loader.SetFsCallbacks({Neighbours::exists, [](const std::string& name, void*) { return name; }, Neighbours::read,
-                           tinygltf::WriteWholeFile, &neighbours});
     std::string error, warning;
     bool is_loaded = false;
     try {
-        const auto size = static_cast<unsigned>(bytes.size());
-        is_loaded =
-            is_binary ? loader.LoadBinaryFromMemory(&file.model, &error, &warning,
-                                                    reinterpret_cast<const unsigned char*>(bytes.data()), size, folder)
-                      : loader.LoadASCIIFromString(&file.model, &error, &warning, bytes.data(), size, folder);
-    } catch (const Error&) {
-        throw;
+        is_loaded = loader.LoadASCIIFromString(&file.model, &error, &warning, text.data(), unsigned(text.size()), "");
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& e) {
         fail(file.name(), ": malformed glTF: ", e.what());
     }
     if (!is_loaded) fail(file.name(), ": malformed glTF: ", one_line(error));
-    for (size_t i = 0; i < file.model.images.size(); ++i)
-        if (file.model.images[i].image.empty())
-            fail(file.name(), ": cannot read image ", i, " ('", file.model.images[i].uri, "')");
+    ours.put_into(file.model);
+}
+}  // namespace
+
+std::span<const uint8_t> GltfFile::keep(std::string text) {
+    bytes.push_back(std::make_shared<const std::string>(std::move(text)));
+    return {reinterpret_cast<const uint8_t*>(bytes.back()->data()), bytes.back()->size()};
+}
+
+GltfFile read_gltf(const std::filesystem::path& path) {
+    GltfFile file;
+    file.path = path;
+    file.keep(read_text(path));
+    const std::string& bytes = *file.bytes.front();
+    file.memory.add(double(bytes.size()), file.name() + ": " + std::to_string(bytes.size()) + " bytes");
+    const GltfChunks chunks = split_chunks(bytes, file.name());
+    json root = parse_json(chunks.json, file.name());
+    if (root.is_object()) make_integers_whole(root);
+    check_gltf_schema(root, file.name());
+    check_types(root, file.name());
+    check_required_extensions(root, file.name());
+    warn_of_extensions(root, file);
+
+    // As text and in both documents, and each object as the largest of tinygltf's structures.
+    constexpr double copies = 3;
+    file.memory.add(copies * double(chunks.json.size()) + double(count_objects(root)) * sizeof(tinygltf::Material),
+                    file.name() + ": what it describes");
+    BufferReader(root, chunks.binary, file).read_what_views_show();
+    parse_model(root, file);
     return file;
+}
+
+std::string image_title(const GltfFile& file, size_t index) {
+    const tinygltf::Image& image = file.model.images[index];
+    return file.name() + ": image " + std::to_string(index) + " ('" +
+           shown_uri(image.uri.empty() ? image.name : image.uri) + "')";
+}
+
+void read_image_file(const GltfFile& file, size_t index, ImageFile& image) {
+    const tinygltf::Image& source = file.model.images[index];
+    const std::string title = image_title(file, index);
+    if (source.uri.empty()) {
+        if (source.bufferView < 0) fail(title, " has neither a 'uri' nor a 'bufferView'");
+        const auto& views = file.model.bufferViews;
+        const auto& view = views[checked_index(file, source.bufferView, views.size(),
+                                               "image " + std::to_string(index) + ": buffer view")];
+        image.bytes = file.buffers[size_t(view.buffer)].subspan(view.byteOffset, view.byteLength);
+        return;
+    }
+    image.owned = read_uri(file.folder(), source.uri, title);
+    image.memory.add(double(image.owned.size()), title + ": " + std::to_string(image.owned.size()) + " bytes");
+    image.bytes = {reinterpret_cast<const uint8_t*>(image.owned.data()), image.owned.size()};
 }
 
 size_t checked_index(const GltfFile& file, int index, size_t count, const std::string& what) {

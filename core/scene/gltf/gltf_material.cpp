@@ -74,7 +74,9 @@ Material read_material(GltfFile& file, const tinygltf::Material& source, size_t 
     material.base_color_texture = slot(pbr.baseColorTexture, true, "base colour");
     material.metalness_roughness_texture = slot(pbr.metallicRoughnessTexture, false, "metallic-roughness");
     material.normal_texture = slot(source.normalTexture, false, "normal");
-    material.occlusion_texture = slot(source.occlusionTexture, false, "occlusion");
+    const auto& occlusion = source.occlusionTexture;  // nothing is drawn with it
+    material.occlusion_texture = textures.slot_if_used(occlusion.index, occlusion.texCoord, occlusion.extensions, false,
+                                                       "occlusion texture of " + what);
     material.emission_texture = slot(source.emissiveTexture, true, "emissive");
     return material;
 }

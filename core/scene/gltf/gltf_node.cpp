@@ -91,11 +91,19 @@ SceneCamera read_camera(const GltfFile& file, int index, int node) {
     return camera;
 }
 
-std::vector<int> roots(const GltfFile& file) {
+/// Of the scene that the file says to show, of the first if it says none, or of all nodes if it has no scenes.
+std::vector<int> roots(GltfFile& file) {
     const auto& model = file.model;
     if (!model.scenes.empty()) {
-        const int index = model.defaultScene < 0 ? 0 : model.defaultScene;
-        return model.scenes[checked_index(file, index, model.scenes.size(), "scene")].nodes;
+        const size_t index =
+            checked_index(file, model.defaultScene < 0 ? 0 : model.defaultScene, model.scenes.size(), "scene");
+        const auto& shown = model.scenes[index];
+        if (model.scenes.size() > 1)
+            file.warn(
+                "Of the " + std::to_string(model.scenes.size()) + " scenes of the file, " +
+                (shown.name.empty() ? "scenes[" + std::to_string(index) + "]" : "'" + shortened(shown.name) + "'") +
+                " is shown.");
+        return shown.nodes;
     }
     std::vector<bool> is_child(model.nodes.size(), false);
     for (const auto& node : model.nodes)

@@ -5,6 +5,7 @@
 #include "core/near_miss.h"
 
 #include <climits>
+#include <cmath>
 #include <memory>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
 #include <valijson/schema.hpp>
@@ -98,11 +99,11 @@ json materials() {
 
 json accessors() {
     const json sparse =
-        object({{"count", size},
+        object({{"count", index},
                 {"indices",
-                 object({{"bufferView", index}, {"byteOffset", size}, {"componentType", one_of({5121, 5123, 5125})}},
+                 object({{"bufferView", index}, {"byteOffset", index}, {"componentType", one_of({5121, 5123, 5125})}},
                         {"bufferView", "componentType"})},
-                {"values", object({{"bufferView", index}, {"byteOffset", size}}, {"bufferView"})}},
+                {"values", object({{"bufferView", index}, {"byteOffset", index}}, {"bufferView"})}},
                {"count", "indices", "values"});
     return objects({{"name", text},
                     {"bufferView", index},
@@ -245,14 +246,41 @@ std::string complaint(const json& schema, const json& root, const std::vector<st
     if (!allowed->contains("description")) return where + fallback;
     return where + "must be " + allowed->at("description").get<std::string>() + ", not " + shown(*found);
 }
+
+bool takes_integers(const json& schema) {
+    return schema.value("type", "") == "integer" || (schema.contains("enum") && schema["enum"][0].is_number_integer());
+}
+
+void make_whole(json& value, const json& schema) {
+    constexpr double exact = 9007199254740992.0;  // 2^53: float64 holds all integers up to it
+    if (value.is_number_float() && takes_integers(schema)) {
+        const auto number = value.get<double>();
+        if (std::abs(number) <= exact && number == std::floor(number)) value = int64_t(number);
+    } else if (value.is_array() && schema.contains("items")) {
+        for (json& element : value) make_whole(element, schema["items"]);
+    } else if (value.is_object()) {
+        for (auto& [key, member] : value.items())
+            if (schema.contains("properties") && schema["properties"].contains(key))
+                make_whole(member, schema["properties"][key]);
+            else if (schema.contains("additionalProperties"))
+                make_whole(member, schema["additionalProperties"]);
+    }
+}
+
+const json& declared_schema() {
+    static const json declared = gltf_schema();
+    return declared;
+}
 }  // namespace
+
+void make_integers_whole(json& root) { make_whole(root, declared_schema()); }
 
 void check_gltf_schema(const json& root, const std::string& file) {
     using valijson::ValidationResults, valijson::Validator, valijson::adapters::NlohmannJsonAdapter;
-    static const json declared = gltf_schema();
+    const json& declared = declared_schema();
     static const std::unique_ptr<const valijson::Schema> schema = [] {
         auto parsed = std::make_unique<valijson::Schema>();
-        valijson::SchemaParser().populateSchema(NlohmannJsonAdapter(declared), *parsed);
+        valijson::SchemaParser().populateSchema(NlohmannJsonAdapter(declared_schema()), *parsed);
         return parsed;
     }();
     ValidationResults results;

@@ -5,8 +5,10 @@
 #include "core/near_miss.h"
 #include "core/png.h"
 #include "core/scene/gltf/encoded_image.h"
+#include "core/scene/gltf/gltf_uri.h"
 #include "core/scene/gltf/gltf_value.h"
 #include "core/scene/ranges.h"
+#include "core/webp.h"
 
 #include <tbb/parallel_for.h>
 #include <algorithm>
@@ -44,28 +46,31 @@ struct Decoded {
     Texels rgba;
 };
 
-/// Only PNG and JPEG, as glTF 2.0 has it, by libpng and libjpeg-turbo: Debian's stb_image, which tinygltf calls,
-/// inflates a few bytes to gigabytes without a look at the header, and writes outside its memory for some broken JPEGs.
-/// What stays is taken from `kept`.
+/// PNG and JPEG, as glTF 2.0 has it, and WebP (EXT_texture_webp), by the libraries of these formats: Debian's
+/// stb_image, which tinygltf calls, inflates a few bytes to gigabytes without a look at the header, and writes outside
+/// its memory for some broken JPEGs. What stays is taken from `kept`.
 Decoded decode_image(const GltfFile& file, size_t index, MemoryShare& kept) {
-    const tinygltf::Image& encoded = file.model.images[index];
-    const std::string name = encoded.uri.empty() ? encoded.name : encoded.uri,
-                      what = file.name() + ": image " + std::to_string(index) + " ('" + shortened(name) + "')";
-    const auto broken = [&] { fail(what, " cannot be decoded: it is neither an intact PNG nor JPEG"); };
-    const glm::uvec2 extent = encoded_extent(encoded.image);
+    const std::string what = image_title(file, index);
+    ImageFile image;
+    read_image_file(file, index, image);
+    const std::span<const uint8_t> encoded = image.bytes;
+    const auto broken = [&] { fail(what, " cannot be decoded: it is neither an intact PNG nor JPEG nor WebP"); };
+    const glm::uvec2 extent = encoded_extent(encoded);
     if (extent.x == 0 || extent.y == 0) broken();
     if (std::max(extent.x, extent.y) > any_texture_side)
         fail(what, " has ", extent.x, " x ", extent.y, " pixels; allowed are sides of ", any_texture_side);
     // Per pixel: of RGBA, and what is there beside it: 16-bit codes of a PNG; planes, coefficients and a copy of a
-    // JPEG.
-    constexpr double bytes_kept = 4, bytes_of_png = 8, bytes_of_jpeg = 14;
-    const double bytes_of_decoder = is_png(encoded.image) ? bytes_of_png : bytes_of_jpeg;
+    // JPEG; pixels and caches of a WebP.
+    constexpr double bytes_kept = 4, bytes_of_png = 8, bytes_of_jpeg = 14, bytes_of_webp = 12;
+    const double bytes_of_decoder = is_png(encoded) ? bytes_of_png : is_webp(encoded) ? bytes_of_webp : bytes_of_jpeg;
     const double pixels = double(extent.x) * double(extent.y);
     const std::string sized = what + " of " + std::to_string(extent.x) + " x " + std::to_string(extent.y) + " pixels";
     MemoryShare decoder;
     kept.add(pixels * bytes_kept, sized), decoder.add(pixels * bytes_of_decoder, sized);
 
-    auto rgba = is_png(encoded.image) ? decode_png_rgba(encoded.image) : decode_jpeg_rgba(encoded.image, extent);
+    auto rgba = is_png(encoded)    ? decode_png_rgba(encoded)
+                : is_webp(encoded) ? decode_webp_rgba(encoded, extent)
+                                   : decode_jpeg_rgba(encoded, extent);
     if (!rgba) broken();
     return {extent, make_texels(std::move(*rgba))};
 }
@@ -77,10 +82,8 @@ TextureSlot GltfTextures::slot(int texture, int texcoord, const tinygltf::Extens
     if (texture < 0) return slot;
     const auto& model = file_.model;
     const auto& source = model.textures[checked_index(file_, texture, model.textures.size(), what + ": texture")];
-    if (source.source < 0) {
-        file_.warn("The " + what + " is ignored, since its image is of a kind that ssrlab cannot decode.");
-        return slot;
-    }
+    const Candidates images = images_of(source, what);
+    if (images.empty()) return slot;
     if (texcoord < 0) fail(file_.name(), ": the ", what, " has the negative texCoord ", texcoord);
     slot.texcoord = unsigned(texcoord);
     if (const auto found = extensions.find("KHR_texture_transform"); found != extensions.end()) {
@@ -89,8 +92,8 @@ TextureSlot GltfTextures::slot(int texture, int texcoord, const tinygltf::Extens
         if (replacement >= 0) slot.texcoord = unsigned(replacement);
     }
     if (slot.texcoord > 1) {
-        file_.warn("The " + what + " uses the texture coordinates TEXCOORD_" +
-                              std::to_string(slot.texcoord) + ", which are replaced by TEXCOORD_0.");
+        file_.warn("The " + what + " uses the texture coordinates TEXCOORD_" + std::to_string(slot.texcoord) +
+                   ", which are replaced by TEXCOORD_0.");
         slot.texcoord = 0;
     }
     const auto [found, is_new] = index_of_.try_emplace({texture, is_srgb}, int(scene_.textures.size()));
@@ -98,9 +101,9 @@ TextureSlot GltfTextures::slot(int texture, int texcoord, const tinygltf::Extens
     if (!is_new) return slot;
 
     Texture& added = scene_.textures.emplace_back();
-    image_of_.push_back(checked_index(file_, source.source, model.images.size(), what + ": image"));
-    const tinygltf::Image& image = model.images[image_of_.back()];
-    added.name = !image.uri.empty() && !tinygltf::IsDataURI(image.uri) ? image.uri : image.name;
+    images_of_.push_back(images);
+    const tinygltf::Image& image = model.images[images.front()];
+    added.name = !image.uri.empty() && !is_data_uri(image.uri) ? image.uri : image.name;
     added.is_srgb = is_srgb;
     if (source.sampler >= 0) {
         const auto& sampler =
@@ -112,15 +115,57 @@ TextureSlot GltfTextures::slot(int texture, int texcoord, const tinygltf::Extens
     return slot;
 }
 
+TextureSlot GltfTextures::slot_if_used(int texture, int texcoord, const tinygltf::ExtensionMap& extensions,
+                                       bool is_srgb, const std::string& what) {
+    return index_of_.contains({texture, is_srgb}) ? slot(texture, texcoord, extensions, is_srgb, what) : TextureSlot();
+}
+
+GltfTextures::Candidates GltfTextures::images_of(const tinygltf::Texture& texture, const std::string& what) {
+    const size_t count = file_.model.images.size();
+    Candidates images;
+    if (const auto webp = texture.extensions.find("EXT_texture_webp"); webp != texture.extensions.end())
+        if (const int source = index_member(file_, webp->second, "source", what); source >= 0)
+            images.push_back(checked_index(file_, source, count, what + ": image"));
+    if (texture.source >= 0) images.push_back(checked_index(file_, texture.source, count, what + ": image"));
+    if (!images.empty()) return images;
+    const std::pair<const char*, const char*> others[] = {
+        {"KHR_texture_basisu",
+         "KTX2 (KHR_texture_basisu), which ssrlab cannot decode; `gltf-transform ktxdecompress "
+         "IN.glb OUT.glb` makes PNG of it"},
+        {"MSFT_texture_dds",
+         "DDS (MSFT_texture_dds), which ssrlab cannot decode; `oiiotool IN.dds -o OUT.png` makes PNG "
+         "of it, which the texture's 'source' may name"},
+        {"EXT_texture_avif",
+         "AVIF (EXT_texture_avif), which ssrlab cannot decode; `gltf-transform png IN.glb OUT.glb` "
+         "makes PNG of it"}};
+    std::string reason = "the texture names no image";
+    for (const auto& [extension, kind] : others)
+        if (texture.extensions.contains(extension)) reason = std::string("its only image is ") + kind;
+    file_.warn("The " + what + " is ignored, since " + reason + ".");
+    return images;
+}
+
 void GltfTextures::decode() {
-    std::vector<size_t> images(image_of_);
-    std::ranges::sort(images);
-    images.erase(std::unique(images.begin(), images.end()), images.end());
-    std::vector<Decoded> decoded(file_.model.images.size());
-    tbb::parallel_for(size_t(0), images.size(),
-                      [&](size_t i) { decoded[images[i]] = decode_image(file_, images[i], scene_.memory); });
+    std::vector<Candidates> shown(images_of_);
+    std::ranges::sort(shown);
+    shown.erase(std::unique(shown.begin(), shown.end()), shown.end());
+    std::vector<Decoded> decoded(shown.size());
+    std::vector<std::string> warnings(shown.size());
+    tbb::parallel_for(size_t(0), shown.size(), [&](size_t i) {
+        for (size_t k = 0; k < shown[i].size(); ++k) try {
+                decoded[i] = decode_image(file_, shown[i][k], scene_.memory);
+                break;
+            } catch (const MachineError&) {
+                throw;
+            } catch (const Error& e) {
+                if (k + 1 == shown[i].size()) throw;
+                warnings[i] = image_title(file_, shown[i][k + 1]) + " is shown in place of another: " + e.what() + ".";
+            }
+    });
+    for (const std::string& warning : warnings)
+        if (!warning.empty()) file_.warn(warning);
     for (size_t i = 0; i < scene_.textures.size(); ++i) {
-        const Decoded& image = decoded[image_of_[i]];
+        const Decoded& image = decoded[size_t(std::ranges::lower_bound(shown, images_of_[i]) - shown.begin())];
         scene_.textures[i].extent = image.extent, scene_.textures[i].rgba = image.rgba;
     }
 }

@@ -5,8 +5,8 @@
 #include <map>
 #include <tuple>
 
-/// Collects the textures that materials ask for: each glTF texture once per use as colour or data, then decodes their
-/// images.
+/// Collects the textures that materials ask for: each glTF texture once per use as colour or data, then decodes the
+/// images that these show. Images that no texture shows are not touched.
 class GltfTextures {
 public:
     GltfTextures(GltfFile& file, Scene& scene) : file_(file), scene_(scene) {}
@@ -15,12 +15,20 @@ public:
     TextureSlot slot(int texture, int texcoord, const tinygltf::ExtensionMap& extensions, bool is_srgb,
                      const std::string& what);
 
-    /// Decodes all images on all cores. Fails with Error if one cannot be decoded.
+    /// The same of a texture that nothing is drawn with: empty unless another use asked for it already.
+    TextureSlot slot_if_used(int texture, int texcoord, const tinygltf::ExtensionMap& extensions, bool is_srgb,
+                             const std::string& what);
+
+    /// Decodes all images on all cores. Fails with Error if one is missing or cannot be decoded.
     void decode();
 
 private:
+    /// The images that a texture names, the one to be shown first; the others take its place where it cannot be read.
+    using Candidates = std::vector<size_t>;
+    Candidates images_of(const tinygltf::Texture& texture, const std::string& what);
+
     GltfFile& file_;
     Scene& scene_;
     std::map<std::tuple<int, bool>, int> index_of_;  // glTF texture and its use -> index into scene_.textures
-    std::vector<size_t> image_of_;                   // per element of scene_.textures
+    std::vector<Candidates> images_of_;              // per element of scene_.textures
 };

@@ -2,12 +2,18 @@
 
 #include "core/error.h"
 
+#include <algorithm>
 #include <cfloat>
+#include <cmath>
+#include <limits>
 
 float checked_number(const GltfFile& file, double value, double min, double max, const std::string& what) {
-    if (!(value >= min && value <= max))
-        fail(file.name(), ": ", what, " = ", value, " is outside [", min, ", ", max, "]");
-    return float(value);
+    // Exporters compute in float32: what is one rounding of it beyond a limit is the limit.
+    const float infinity = std::numeric_limits<float>::infinity();
+    const bool is_in_reach =
+        value >= double(std::nextafter(float(min), -infinity)) && value <= double(std::nextafter(float(max), infinity));
+    if (!is_in_reach) fail(file.name(), ": ", what, " = ", value, " is outside [", min, ", ", max, "]");
+    return float(std::clamp(value, min, max));
 }
 
 float number_member(const GltfFile& file, const tinygltf::Value& object, const char* key, float fallback,

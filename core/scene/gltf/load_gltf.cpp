@@ -7,8 +7,6 @@
 #include <map>
 #include <set>
 
-namespace {
-/// glTF lets cameras share a name, and nodes a camera; here a name means one camera.
 void make_names_unique(std::vector<SceneCamera>& cameras) {
     std::set<std::string> taken;
     std::map<std::string, int> count;
@@ -18,7 +16,6 @@ void make_names_unique(std::vector<SceneCamera>& cameras) {
         while (!taken.insert(camera.name).second) camera.name = name + "_" + std::to_string(++number + 1);
     }
 }
-}  // namespace
 
 Scene load_gltf(const std::filesystem::path& path) {
     GltfFile file = read_gltf(path);
