@@ -1,9 +1,9 @@
 #include "core/scene/scene_file.h"
 
 #include "core/error.h"
-#include "core/exr.h"
 #include "core/json.h"
 #include "core/near_miss.h"
+#include "core/radiance_file.h"
 #include "core/scene/camera_planes.h"
 #include "core/scene/camera_reader.h"
 #include "core/scene/content_hash.h"
@@ -89,7 +89,8 @@ glm::vec3 read_color(JsonObject& object, const std::string& key, glm::vec3 fallb
 }
 
 HostImage read_latlong(const fs::path& file, float scale) {
-    HostImage image = read_exr_rgb(file);
+    std::vector<std::string> notes;
+    HostImage image = read_radiance(file, "", notes);
     for (float& v : image.values) {
         v *= scale;
         if (!(v >= 0.0f && v <= any_radiance))

@@ -4,6 +4,7 @@
 #include "core/gbuffer/camera_file.h"
 #include "core/gbuffer/gbuffer_file.h"
 #include "core/png.h"
+#include "core/radiance_hdr.h"
 #include "core/scene/load_scene.h"
 #include "tests/fuzz/targets.h"
 
@@ -55,6 +56,11 @@ const FuzzTarget targets[] = {
      [](const fs::path& file) {
          correct_checksums(file);
          read_png_codes(file);
+     }},
+    {"radiance", "input.hdr",
+     [](const fs::path& file) {
+         std::vector<std::string> notes;
+         read_radiance_hdr(file, notes);
      }},
     {"camera", "camera.json", [](const fs::path& file) { read_camera(file); }},
     {"environment", "environment.json", [](const fs::path& file) { load_environment(file.parent_path()); },
