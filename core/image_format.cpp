@@ -37,7 +37,6 @@ constexpr KnownFormat formats[] = {
     {0, "\xABKTX 11\xBB\r\n\x1A\n"sv, "a KTX texture", "ktx2ktx2 -o {ktx2} {in} && ktx extract {ktx2} {png}"},
     {0, "sB\x13\0"sv, "a Basis Universal texture", "basisu -unpack {in}"},
     {0, "DDS "sv, "a DDS texture", by_oiiotool, true},
-    {8, "WEBP"sv, "a WebP image"},
     {4, "ftypavif"sv, "an AVIF image", of_avif}, {4, "ftypavis"sv, "an AVIF image", of_avif},
     {4, "ftyphei"sv, "a HEIC image", of_heif}, {4, "ftyphev"sv, "a HEIC image", of_heif},
     {4, "ftypmif1"sv, "a HEIF image", of_heif}, {4, "ftypmsf1"sv, "a HEIF image", of_heif},
@@ -141,6 +140,7 @@ ImageFormat image_format(std::span<const uint8_t> bytes) {
     if (start.starts_with("\x76\x2F\x31\x01"sv)) return ImageFormat::exr;
     if (start.starts_with("\x89PNG\r\n\x1A\n"sv)) return ImageFormat::png;
     if (start.starts_with("\xFF\xD8\xFF"sv)) return ImageFormat::jpeg;
+    if (start.starts_with("RIFF"sv) && has_mark(start, 8, "WEBP")) return ImageFormat::webp;
     if (start.starts_with("#?"sv)) return ImageFormat::radiance;
     return ImageFormat::none;
 }
@@ -151,9 +151,12 @@ std::string why_unreadable(std::span<const uint8_t> bytes, const std::string& fi
     if (format == ImageFormat::none) {
         why = why_no_image_at_all(text_of(bytes));
         if (why.empty()) why = named_format(text_of(bytes), file, use);
-    } else if (format == ImageFormat::png || format == ImageFormat::jpeg) {
+    } else if (format == ImageFormat::png || format == ImageFormat::jpeg || format == ImageFormat::webp) {
         if (use == ImageUse::radiance)
-            why = std::string("is a ") + (format == ImageFormat::png ? "PNG" : "JPEG") +
+            why = std::string("is a ") +
+                  (format == ImageFormat::png    ? "PNG"
+                   : format == ImageFormat::jpeg ? "JPEG"
+                                                 : "WebP") +
                   ", whose display codes are no radiance; give an OpenEXR or Radiance file, or, if no light is "
                   "brighter than 1, convert it: oiiotool {in} -d float --colorconvert sRGB linear -o {exr}";
     } else if (use == ImageUse::codes) {

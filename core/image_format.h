@@ -4,7 +4,7 @@
 #include <string>
 
 /// The formats of images that ssrlab reads.
-enum class ImageFormat { none, exr, png, jpeg, radiance };
+enum class ImageFormat { none, exr, png, jpeg, webp, radiance };
 
 /// That of a file by its first bytes, whatever its name ends with. `bytes`: the file's, or its first 512.
 ImageFormat image_format(std::span<const uint8_t> bytes);

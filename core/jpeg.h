@@ -1,11 +1,8 @@
 #pragma once
-#include <cstdint>
-#include <glm/glm.hpp>
-#include <optional>
-#include <span>
-#include <vector>
+#include "core/decoded_image.h"
 
-/// The codes of a JPEG in memory as 8-bit RGBA, row by row; alpha is 255. None if it is no intact JPEG, has another
-/// extent than the given one (pixels), or is one that no RGB can be made of without a profile (CMYK). Takes 14 bytes
-/// per pixel at most.
-std::optional<std::vector<uint8_t>> decode_jpeg_rgba(std::span<const uint8_t> file, glm::uvec2 extent);
+/// See decode_image() of decoded_image.h: baseline and progressive JPEGs of grey or three components, of 8 bits; alpha
+/// is 255. What libjpeg complains of without harm to the picture becomes a warning: bytes that belong to nothing, a
+/// missing end behind whole data. Fails with Error where data are missing or broken, and, with what the file is and a
+/// command that converts it, for CMYK and YCCK, 12 bits, and lossless or hierarchical JPEGs.
+DecodedImage decode_jpeg(const EncodedImage& image, unsigned longest_side);

@@ -394,7 +394,7 @@ int parse_and_run(int argc, char** argv) {
     tune_command_.callback([&] { status = tune_command(tune, run_options(tune_command_, common)); });
 
     CompareCommandOptions compare;
-    CLI::App& compare_command_ = *app.add_subcommand("compare", "Compare two images (EXR or PNG): one number per line");
+    CLI::App& compare_command_ = *app.add_subcommand("compare", "Compare two images (OpenEXR, Radiance or PNG): one number per line");
     compare_command_.add_option("reference", compare.reference, "What is right: .exr (linear radiance) or .png (sRGB)")
         ->required()
         ->type_name("REFERENCE");

@@ -3,8 +3,10 @@
 #include "core/digits.h"
 #include "core/error.h"
 #include "core/exr.h"
+#include "core/image_format.h"
 #include "core/near_miss.h"
 #include "core/png.h"
+#include "core/radiance_file.h"
 #include "core/reading_limits.h"
 #include "core/shown_text.h"
 #include "metrics/color_map.h"
@@ -23,18 +25,27 @@ std::string extension(const std::filesystem::path& file) {
 
 struct Source {
     HostImage linear, codes;
+    bool is_radiance = true;  ///< else display codes
 };
 
-Source read_source(const std::filesystem::path& file, const CompareOptions& options) {
+bool is_png(const std::filesystem::path& file) {
+    check_regular_file(file);
+    const std::string start = first_bytes(file.string());
+    return image_format({reinterpret_cast<const uint8_t*>(start.data()), start.size()}) == ImageFormat::png;
+}
+
+/// Of radiance, or of codes, whichever the file's bytes say.
+Source read_source(const std::filesystem::path& file, const CompareOptions& options,
+                   std::vector<std::string>& warnings) {
     const MetricSettings& settings = options.settings;
-    if (extension(file) == ".exr") {
-        const HostImage linear = read_exr_rgb(file, options.layer);
+    if (!is_png(file)) {
+        const HostImage linear = read_radiance(file, options.layer, warnings);
         return {linear, display_codes(linear, settings.exposure_ev, settings.tone_map)};
     }
-    if (extension(file) != ".png") fail("cannot compare ", file.string(), ": images are read from .exr and .png files");
-    Source source;
-    source.codes = source.linear = read_png_codes(file);
+    Source source{.is_radiance = false};
+    source.codes = source.linear = read_png_codes(file, warnings);
     for (float& v : source.linear.values) v = linear_from_srgb(v);
+    for (float& v : source.codes.values) v = std::clamp(v, 0.0f, 1.0f);  // as a display shows what it has not
     return source;
 }
 
@@ -49,14 +60,14 @@ std::vector<std::string> default_metrics(glm::uvec2 extent, bool has_flip_exposu
     return names;
 }
 
-void choose_flip_exposures(Comparison& comparison, const HostImage& reference) {
+void choose_flip_exposures(Comparison& comparison, const Source& reference) {
     CompareOptions& options = comparison.options;
     if (options.settings.flip_exposures) return;
     const bool is_asked_for = std::ranges::find(options.metrics, "hdr_flip") != options.metrics.end();
-    const bool is_default = options.metrics.empty() && extension(options.reference) == ".exr";
+    const bool is_default = options.metrics.empty() && reference.is_radiance;
     if (!is_asked_for && !is_default) return;
     try {
-        options.settings.flip_exposures = flip_exposure_range(reference, options.settings.hdr_flip_tone_map);
+        options.settings.flip_exposures = flip_exposure_range(reference.linear, options.settings.hdr_flip_tone_map);
     } catch (const Error& error) {
         if (is_asked_for) throw;
         comparison.warnings.push_back(std::string("hdr_flip is left out: ") + error.what());
@@ -119,13 +130,13 @@ void check(const CompareOptions& options) {
 Comparison compare(const CompareOptions& options) {
     check(options);
     Comparison comparison{.options = options};
-    const Source reference = read_source(options.reference, options);
+    const Source reference = read_source(options.reference, options, comparison.warnings);
     constexpr double bytes_per_pixel = 300;  // of both images and all maps, as measured with the default metrics
     MemoryShare memory;
     memory.add(double(reference.linear.pixel_count()) * bytes_per_pixel,
                options.reference.string() + ": the comparison of its " +
                    std::to_string(reference.linear.pixel_count()) + " pixels");
-    const Source test = read_source(options.test, options);
+    const Source test = read_source(options.test, options, comparison.warnings);
     if (reference.linear.extent != test.linear.extent)
         fail(options.reference.string(), " has ", reference.linear.extent.x, "x", reference.linear.extent.y,
              " pixels, but ", options.test.string(), " has ", test.linear.extent.x, "x", test.linear.extent.y,
@@ -135,7 +146,7 @@ Comparison compare(const CompareOptions& options) {
     comparison.test_counts = count_bad_pixels(test.linear);
     report_bad_pixels(comparison);
 
-    choose_flip_exposures(comparison, reference.linear);
+    choose_flip_exposures(comparison, reference);
     CompareOptions& used = comparison.options;
     if (used.metrics.empty())
         used.metrics = default_metrics(comparison.extent, used.settings.flip_exposures.has_value());

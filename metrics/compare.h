@@ -9,7 +9,7 @@
 
 /// The options of `ssrlab compare REFERENCE TEST`.
 struct CompareOptions {
-    std::filesystem::path reference, test;  ///< EXR: linear radiance; PNG: sRGB codes, decoded for linear metrics
+    std::filesystem::path reference, test;  ///< OpenEXR, Radiance: linear; PNG: sRGB codes, decoded for linear metrics
     std::string layer;                      ///< of EXR files; "": as read_exr_rgb() of core/exr.h chooses
     std::vector<std::string> metrics;       ///< names; empty: all that are usual and that the images allow
     std::filesystem::path

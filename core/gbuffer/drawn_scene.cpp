@@ -39,6 +39,17 @@ uint32_t sampling_of(const Scene& scene, const TextureSlot& slot) {
            uint32_t(texture.wrap_v) << sampling_wrap_v_shift;
 }
 
+/// Of a texture of 16 bits, for which Vulkan promises no format.
+HostImage values_of(const Texture& texture) {
+    HostImage values(texture.extent, 4);
+    for (size_t i = 0; i < values.values.size(); ++i) {
+        uint16_t code;
+        std::memcpy(&code, &(*texture.rgba)[i * sizeof code], sizeof code);
+        values.values[i] = float(code) / 65535.0f;
+    }
+    return values;
+}
+
 DrawnMaterial drawn(const Scene& scene, const Material& m) {
     DrawnMaterial result{
         .base_color = {m.base_color, m.alpha},
@@ -109,8 +120,13 @@ Image DrawnScene::texture_image(const TextureSlot& slot) {
     }
     const Texture& texture = scene_.textures[slot.texture];
     Image& image = images_[texture.rgba.get()];
-    if (!image.storage) {
-        image = graph_.image_of("texture" + std::to_string(slot.texture), Format::rgba8, texture.extent);
+    if (image.storage) return image;
+    const std::string name = "texture" + std::to_string(slot.texture);
+    if (texture.channel_bytes == 2) {
+        image = graph_.image_of(name, Format::rgba32f, texture.extent);
+        graph_.upload(image, values_of(texture));
+    } else {
+        image = graph_.image_of(name, Format::rgba8, texture.extent);
         graph_.upload_rgba8(image, *texture.rgba);
     }
     return image;

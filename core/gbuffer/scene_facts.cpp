@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstring>
 #include <functional>
+#include <limits>
 #include <set>
 
 namespace {
@@ -18,16 +20,24 @@ std::set<unsigned> drawn_materials(const Scene& scene) {
     return result;
 }
 
+template <class Code>
+glm::vec2 range_of_codes(const std::vector<uint8_t>& rgba, unsigned channel) {
+    Code least = std::numeric_limits<Code>::max(), most = 0;
+    for (size_t i = channel * sizeof(Code); i < rgba.size(); i += 4 * sizeof(Code)) {
+        Code code;
+        std::memcpy(&code, &rgba[i], sizeof code);
+        least = std::min(least, code);
+        most = std::max(most, code);
+    }
+    return glm::vec2(least, most) / float(std::numeric_limits<Code>::max());
+}
+
 /// Smallest and largest value of a channel (0: red) of a texture, 1 if there is none. Bilinear filtering stays within.
 glm::vec2 channel_range(const Scene& scene, const TextureSlot& slot, unsigned channel) {
     if (slot.texture < 0) return glm::vec2(1);
-    const std::vector<uint8_t>& rgba = *scene.textures[slot.texture].rgba;
-    uint8_t least = 255, most = 0;
-    for (size_t i = channel; i < rgba.size(); i += 4) {
-        least = std::min(least, rgba[i]);
-        most = std::max(most, rgba[i]);
-    }
-    return glm::vec2(least, most) / 255.0f;
+    const Texture& texture = scene.textures[size_t(slot.texture)];
+    return texture.channel_bytes == 2 ? range_of_codes<uint16_t>(*texture.rgba, channel)
+                                      : range_of_codes<uint8_t>(*texture.rgba, channel);
 }
 
 /// Smallest and largest of what a surface's specular term is not zero for: the larger of its specular factor and its

@@ -37,6 +37,7 @@ struct SceneHash {
         add(t.extent);
         add_bytes(*t.rgba);
         all(int(t.is_srgb), int(t.wrap_u), int(t.wrap_v), int(t.is_nearest));
+        if (t.channel_bytes != Texture().channel_bytes) add(t.channel_bytes);
     }
     void add(const TextureSlot& slot) { all(slot.texture, slot.texcoord, slot.uv_transform); }
     void add(const Material& m) {

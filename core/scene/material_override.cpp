@@ -18,7 +18,9 @@ void neutralise_channel(Scene& scene, TextureSlot& slot, size_t channel, Changed
         scene.memory.add(double(copy.rgba->size()),
                          "texture '" + shortened(copy.name) + "', as an override changes it,");
         std::vector<uint8_t> rgba = *copy.rgba;
-        for (size_t i = channel; i < rgba.size(); i += 4) rgba[i] = 255;
+        const size_t bytes = copy.channel_bytes;
+        for (size_t i = channel * bytes; i < rgba.size(); i += 4 * bytes)
+            for (size_t k = 0; k < bytes; ++k) rgba[i + k] = 0xFF;
         texels = make_texels(std::move(rgba));
     }
     copy.rgba = texels;

@@ -9,6 +9,7 @@
 #include <map>
 #include <new>
 #include <utility>
+#include <vector>
 
 namespace {
 
@@ -27,8 +28,30 @@ inline int wrap(int i, int size, TextureWrap mode) {
     return j < size ? j : period - 1 - j;
 }
 
-/// The colour of a texel, linear and in [0, 1], by its RGBA codes as they lie in memory.
-inline glm::vec4 decoded(uint32_t codes, bool is_srgb) {
+/// The same of 16 bits: a table, since the curve takes longer than all else of a lookup.
+float linear_from_wide_code(uint16_t code) {
+    static const std::vector<float> table = [] {
+        std::vector<float> values(1 << 16);
+        for (size_t c = 0; c < values.size(); ++c) values[c] = linear_from_srgb(float(c) / 65535.0f);
+        return values;
+    }();
+    return table[code];
+}
+
+/// The RGBA codes of a texel as they lie in memory, of 8 bits and of 16.
+using Codes = uint32_t;
+using WideCodes = uint64_t;
+
+inline glm::vec4 decoded(WideCodes codes, bool is_srgb) {
+    uint16_t code[4];
+    std::memcpy(code, &codes, sizeof code);
+    const glm::vec4 values = glm::vec4(code[0], code[1], code[2], code[3]) / 65535.0f;
+    if (!is_srgb) return values;
+    return {linear_from_wide_code(code[0]), linear_from_wide_code(code[1]), linear_from_wide_code(code[2]), values.w};
+}
+
+/// The colour of a texel, linear and in [0, 1].
+inline glm::vec4 decoded(Codes codes, bool is_srgb) {
     uint8_t code[4];
     std::memcpy(code, &codes, sizeof code);
     const float alpha = float(code[3]) * (1.0f / 255.0f);
@@ -75,17 +98,24 @@ constexpr size_t huge_page = size_t(1) << 21;  // of x86-64 and of most ARM
 
 }  // namespace
 
+namespace {
+template <class C>
+C codes_at(const Texture& texture, int x, int y) {
+    C codes;
+    std::memcpy(&codes, &(*texture.rgba)[(size_t(y) * texture.extent.x + size_t(x)) * sizeof codes], sizeof codes);
+    return codes;
+}
+}  // namespace
+
 glm::vec4 sample_texture(const Texture& texture, glm::vec2 uv) {
-    return filtered(texture, uv, [&](int x, int y) {
-        uint32_t codes;
-        std::memcpy(&codes, &(*texture.rgba)[4 * (size_t(y) * texture.extent.x + size_t(x))], sizeof codes);
-        return codes;
-    });
+    if (texture.channel_bytes == 2)
+        return filtered(texture, uv, [&](int x, int y) { return codes_at<WideCodes>(texture, x, y); });
+    return filtered(texture, uv, [&](int x, int y) { return codes_at<Codes>(texture, x, y); });
 }
 
 TiledTextures::TiledTextures(const Scene& scene) : textures_(scene.textures.size()) {
     struct Block {
-        size_t offset;  ///< in the copy, texels
+        size_t offset;  ///< in the copy, words of 32 bits
         bool is_to_copy = true;
     };
     std::map<Texels, Block> blocks;  // texels that several textures show are one
@@ -96,12 +126,13 @@ TiledTextures::TiledTextures(const Scene& scene) : textures_(scene.textures.size
         const glm::uvec2 tiles = (texture.extent + (tile_side - 1)) / tile_side;
         textures_[size_t(slot.texture)] = {.extent = glm::ivec2(texture.extent),
                                            .tiles_in_row = tiles.x,
+                                           .words = texture.channel_bytes,
                                            .wrap_u = texture.wrap_u,
                                            .wrap_v = texture.wrap_v,
                                            .is_srgb = texture.is_srgb,
                                            .is_nearest = texture.is_nearest};
         if (blocks.emplace(texture.rgba, Block{count}).second)
-            count += size_t(tiles.x) * tiles.y * tile_side * tile_side;
+            count += size_t(tiles.x) * tiles.y * tile_side * tile_side * texture.channel_bytes;
     };
     for (const Material& material : scene.materials)
         for (const TextureSlot* slot : {&material.base_color_texture, &material.metalness_roughness_texture,
@@ -121,16 +152,23 @@ TiledTextures::TiledTextures(const Scene& scene) : textures_(scene.textures.size
         tiled.texels = texels;
         if (!std::exchange(block->second.is_to_copy, false)) continue;
         const uint8_t* const rows = block->first->data();
+        const size_t texel = tiled.words * sizeof(uint32_t);
         tbb::parallel_for(0, tiled.extent.y, [&](int y) {
             for (int x = 0; x < tiled.extent.x; ++x)
-                std::memcpy(texels + tiled.index(x, y), rows + 4 * (size_t(y) * size_t(tiled.extent.x) + size_t(x)),
-                            sizeof(uint32_t));
+                std::memcpy(texels + tiled.index(x, y) * tiled.words,
+                            rows + texel * (size_t(y) * size_t(tiled.extent.x) + size_t(x)), texel);
         });
     }
 }
 
 glm::vec4 TiledTextures::sample(int texture, glm::vec2 uv) const {
     const Tiled& tiled = textures_[size_t(texture)];
+    if (tiled.words == 2)
+        return filtered(tiled, uv, [&](int x, int y) {
+            WideCodes codes;
+            std::memcpy(&codes, tiled.texels + 2 * tiled.index(x, y), sizeof codes);
+            return codes;
+        });
     return filtered(tiled, uv, [&](int x, int y) { return tiled.texels[tiled.index(x, y)]; });
 }
 
@@ -138,6 +176,6 @@ void TiledTextures::prefetch(int texture, glm::vec2 uv) const {
     const Tiled& tiled = textures_[size_t(texture)];
     const Footprint at = footprint(tiled, uv);
     // The tiles at two corners: those of all four but for one lookup of 16.
-    __builtin_prefetch(tiled.texels + tiled.index(at.first.x, at.first.y));
-    __builtin_prefetch(tiled.texels + tiled.index(at.last.x, at.last.y));
+    __builtin_prefetch(tiled.texels + tiled.index(at.first.x, at.first.y) * tiled.words);
+    __builtin_prefetch(tiled.texels + tiled.index(at.last.x, at.last.y) * tiled.words);
 }

@@ -10,7 +10,7 @@
 glm::vec4 sample_texture(const Texture& texture, glm::vec2 uv);
 
 /// The textures that shading reads, copied for paths, which come from anywhere to any texel: in tiles of 4x4 texels, a
-/// cache line each, of which a bilinear lookup touches 1.6 in the mean, and 2.1 lines of rows; and in huge pages where
+/// cache line each (two of 16 bits), of which a bilinear lookup touches 1.6 in the mean, and 2.1 lines of rows; and in huge pages where
 /// the system gives them, for a row of 1024 texels is a page of 4 KiB.
 class TiledTextures {
 public:
@@ -31,11 +31,12 @@ private:
     struct Tiled {
         glm::ivec2 extent{0};  ///< texels
         unsigned tiles_in_row = 0;
+        unsigned words = 1;  ///< of 32 bits, of a texel
         TextureWrap wrap_u, wrap_v;
         bool is_srgb, is_nearest;
         const uint32_t* texels = nullptr;  ///< tile after tile, each row by row
 
-        /// Of a texel, in `texels`.
+        /// Of a texel among all: in `texels`, times `words`.
         size_t index(int x, int y) const {
             const unsigned column = unsigned(x), row = unsigned(y);
             const size_t tile = size_t(row / tile_side) * tiles_in_row + column / tile_side;

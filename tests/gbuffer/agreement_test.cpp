@@ -1,9 +1,11 @@
 #include "tests/gbuffer/agreement.h"
 
 #include "core/gbuffer/gbuffer_transfer.h"
+#include "core/gbuffer/scene_facts.h"
 #include "core/scene/load_scene.h"
 
 #include <gtest/gtest.h>
+#include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace {
@@ -40,6 +42,44 @@ TEST_P(agreement, with_rays_through_pixel_centres) {
                      c.name);
 }
 INSTANTIATE_TEST_SUITE_P(varied_scene, agreement, testing::ValuesIn(cases));
+
+/// Textures of 16 bits, whose lower bytes no 8 bits could have.
+TEST(agreement, textures_of_16_bits_are_the_same_in_both_renderers) {
+    Scene scene = varied_scene();
+    for (Texture& texture : scene.textures) {
+        std::vector<uint8_t> wide(2 * texture.rgba->size());
+        for (size_t i = 0; i < texture.rgba->size(); ++i) {
+            const uint8_t high = (*texture.rgba)[i];
+            const auto code = uint16_t(high == 255 ? 65535 : high == 0 ? 0 : high * 256 + (i * 101) % 256);
+            std::memcpy(&wide[2 * i], &code, sizeof code);
+        }
+        texture.rgba = make_texels(std::move(wide)), texture.channel_bytes = 2;
+    }
+    expect_agreement(compare_with_rays(scene, scene.camera("main"), view_of({160, 90})), "16 bits");
+}
+
+/// The roughness of one texel, 6808 / 65535, to the bit: 8 bits would make 0.10196 of it.
+TEST(agreement, roughness_of_16_bits_is_kept) {
+    Scene scene = varied_scene();
+    std::vector<uint8_t> rgba(8);
+    const uint16_t codes[] = {0, 6808, 0, 65535};
+    std::memcpy(rgba.data(), codes, sizeof codes);
+    scene.textures = {{.extent = {1, 1}, .rgba = make_texels(rgba), .channel_bytes = 2}};
+    scene.materials = {{.metalness_roughness_texture = {0}}};
+    scene.instances.resize(1);
+    const FrameView view = view_of({16, 9});
+    Rasterizer rasterizer(test_device(), scene, {.extent = view.extent});
+    const GBuffer gbuffer = rasterizer.render(scene.camera("main"), view);
+    const HostGBuffer g = download_gbuffer(rasterizer.graph(), gbuffer, rasterizer.camera(), DepthFormat::d32f);
+    size_t seen = 0;
+    for (size_t i = 0; i < g.depth.pixel_count(); ++i) {
+        if (g.material_id.values[i] == 0) continue;
+        ++seen;
+        EXPECT_EQ(g.normal.values[4 * i + 3], 6808 / 65535.0f);
+    }
+    EXPECT_GT(seen, 20u);
+    EXPECT_FLOAT_EQ(material_facts(scene).min_roughness, 6808 / 65535.0f);
+}
 
 TEST(agreement, keep_all_shaders_see_the_same) {
     const Scene scene = varied_scene();

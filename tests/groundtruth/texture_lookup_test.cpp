@@ -2,28 +2,32 @@
 #include "groundtruth/scene/texture_lookup.h"
 
 #include <gtest/gtest.h>
+#include <cmath>
+#include <cstring>
 #include <limits>
 #include <random>
 
-/// Sizes that fill their tiles and that do not, all ways to wrap and to filter, texels that two textures show, and
+/// Of 8 and of 16 bits: sizes that fill their tiles and that do not, all ways to wrap and to filter, texels that two textures show, and
 /// coordinates far outside.
 TEST(TiledTextures, HoldTheTexelsOfTheScene) {
     std::mt19937 random(1);
     Scene scene;
     const std::vector wraps = {TextureWrap::repeat, TextureWrap::mirrored_repeat, TextureWrap::clamp_to_edge};
-    const auto texels_of = [&](glm::uvec2 extent) {
-        std::vector<uint8_t> rgba(4 * size_t(extent.x) * extent.y);
+    const auto texels_of = [&](glm::uvec2 extent, unsigned channel_bytes = 1) {
+        std::vector<uint8_t> rgba(4 * channel_bytes * size_t(extent.x) * extent.y);
         for (uint8_t& code : rgba) code = uint8_t(random());
         return make_texels(std::move(rgba));
     };
     scene.textures.push_back({.extent = {2, 2}, .rgba = texels_of({2, 2})});
-    for (const glm::uvec2 extent : {glm::uvec2(1, 1), {3, 5}, {4, 4}, {17, 6}, {64, 256}}) {
-        const Texels texels = texels_of(extent);
+    for (const glm::uvec3 kind : {glm::uvec3(1, 1, 1), {3, 5, 1}, {3, 5, 2}, {4, 4, 1}, {17, 6, 2}, {17, 6, 1}, {64, 256, 1}}) {
+        const glm::uvec2 extent(kind);
+        const Texels texels = texels_of(extent, kind.z);
         for (const TextureWrap u : wraps)
             for (const TextureWrap v : wraps)
                 for (const bool is_nearest : {false, true})
                     scene.textures.push_back({.extent = extent,
                                               .rgba = texels,
+                                              .channel_bytes = kind.z,
                                               .is_srgb = u != v,
                                               .wrap_u = u,
                                               .wrap_v = v,
@@ -48,4 +52,22 @@ TEST(TiledTextures, HoldTheTexelsOfTheScene) {
             for (int c = 0; c < 4; ++c)  // where products and sums are fused is the compiler's choice, for each of both
                 ASSERT_NEAR(found[c], expected[c], 0x1p-22f) << i << ' ' << uv.x << ' ' << uv.y << ' ' << c;
         }
+}
+
+/// 16 bits are v / 65535, and sRGB codes of 16 bits those of the curve (IEC 61966-2-1).
+TEST(TiledTextures, HaveSixteenBits) {
+    for (const bool is_srgb : {false, true}) {
+        std::vector<uint8_t> rgba(8);
+        const uint16_t codes[] = {6808, 30000, 100, 40001};
+        std::memcpy(rgba.data(), codes, sizeof codes);
+        Scene scene;
+        scene.textures = {{.extent = {1, 1}, .rgba = make_texels(rgba), .channel_bytes = 2, .is_srgb = is_srgb}};
+        scene.materials = {{.base_color_texture = {.texture = 0}}};
+        const glm::vec4 found = TiledTextures(scene).sample(0, {0.3f, 0.9f});
+        for (int c = 0; c < 4; ++c) {
+            const double code = codes[c] / 65535.0,
+                         light = code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
+            EXPECT_NEAR(found[c], is_srgb && c < 3 ? light : code, 2e-7) << is_srgb << c;  // float32
+        }
+    }
 }

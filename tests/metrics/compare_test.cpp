@@ -1,8 +1,10 @@
 #include "metrics/compare.h"
 #include "core/error.h"
 #include "core/exr.h"
+#include "core/files.h"
 #include "core/png.h"
 #include "tests/error_message.h"
+#include "tests/png_writer.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -88,6 +90,74 @@ TEST_F(Compare, PngCodesAreDecodedForLinearMetricsOnly) {
     EXPECT_NEAR(value(c, "psnr"), -20 * std::log10(b - a), 1e-5);
 }
 
+/// The colours that a PNG holds, whatever lies beside or between them: straight alpha (PNG, third edition, section 6.2),
+/// 16 bits with the codes of 8 (section 13.12), rows in the order of Adam7 (section 8.2).
+TEST_F(Compare, PngsOfOneColorAreEqual) {
+    const auto code = [](unsigned x, unsigned y, unsigned c) { return c == 0 ? 200 - x : c == 1 ? 100 + y : 60 + 2 * x; };
+    const auto png = [&](const std::string& name, PngWriter writer) {
+        writer.width = writer.height = 32;
+        write_text(folder / name, writer.file());
+        return folder / name;
+    };
+    const auto with_alpha = [&](unsigned alpha) {
+        return [&code, alpha](unsigned x, unsigned y, unsigned c) { return c == 3 ? (x < 16 ? alpha : 255u) : code(x, y, c); };
+    };
+    const auto wide = [&](unsigned x, unsigned y, unsigned c) { return 257 * code(x, y, c); };
+    const auto opaque = png("opaque.png", {.sample = code});
+    const std::pair<std::filesystem::path, bool> others[] = {
+        {png("alpha_0.png", {.color = 6, .sample = with_alpha(0)}), true},
+        {png("alpha_half.png", {.color = 6, .sample = with_alpha(128)}), true},
+        {png("alpha_255.png", {.color = 6, .sample = with_alpha(255)}), false},
+        {png("bits_16.png", {.depth = 16, .sample = wide}), false},
+        {png("interlaced_16.png", {.depth = 16, .is_interlaced = true, .sample = wide}), false},
+        {png("gamma.hdr", {.chunks = {{"gAMA", PngWriter::integer(45455)}}, .sample = code}), false}};
+    for (const auto& [other, has_alpha] : others) {
+        const Comparison c = compare({.reference = opaque, .test = other, .metrics = {"mse", "flip"}});
+        EXPECT_EQ(value(c, "mse"), 0) << other;
+        EXPECT_EQ(value(c, "flip"), 0) << other;
+        ASSERT_EQ(c.warnings.size(), has_alpha ? 1u : 0u) << other;
+        if (has_alpha) {
+            EXPECT_NE(c.warnings[0].find("has an alpha channel that is not opaque"), std::string::npos);
+        }
+    }
+    // Grey with alpha and its twin without; the alpha of black says nothing of light.
+    const auto grey = [](unsigned x, unsigned y, unsigned c) { return c == 1 ? 0u : (x * 7 + y) & 255; };
+    const Comparison c = compare({.reference = png("grey.png", {.color = 0, .sample = grey}),
+                                  .test = png("grey_alpha.png", {.color = 4, .sample = grey}),
+                                  .metrics = {"mse"}});
+    EXPECT_EQ(value(c, "mse"), 0);
+    EXPECT_EQ(c.warnings.size(), 1u);
+}
+
+/// A PNG that says its codes are linear light is the OpenEXR image of that light.
+TEST_F(Compare, ColorSpacesOfPngsCount) {
+    const auto sample = [](unsigned x, unsigned y, unsigned) { return x * 4000 + y * 17; };
+    PngWriter linear{.width = 16, .height = 16, .depth = 16, .chunks = {{"gAMA", PngWriter::integer(100000)}}, .sample = sample};
+    write_text(folder / "linear.png", linear.file());
+    HostImage light({16, 16}, 3);
+    for (unsigned y = 0; y < 16; ++y)
+        for (unsigned x = 0; x < 16; ++x) light.set_rgb(y * 16 + x, glm::vec3(float(sample(x, y, 0)) / 65535.0f));
+    const Comparison c =
+        compare({.reference = exr("light.exr", light), .test = folder / "linear.png", .metrics = {"mae", "flip"}});
+    EXPECT_NEAR(value(c, "mae"), 0, 1e-7);  // through sRGB codes and back, in float32
+    EXPECT_NEAR(value(c, "flip"), 0, 1e-5);
+    ASSERT_EQ(c.warnings.size(), 1u);
+    EXPECT_NE(c.warnings[0].find("linear.png: its colours were converted from gAMA 1 (linear) to sRGB"), std::string::npos);
+}
+
+TEST_F(Compare, RadiancePicturesAreRadiance) {
+    write_text(folder / "a.hdr", std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 11 +X 1\n") + [] {
+        std::string texels;
+        for (int i = 0; i < 11; ++i) texels += "\x80\x40\x20\x83";  // 4, 2, 1
+        return texels;
+    }());
+    HostImage same({1, 11}, 3);
+    for (size_t i = 0; i < 11; ++i) same.set_rgb(i, {4, 2, 1});
+    const Comparison c = compare({.reference = folder / "a.hdr", .test = exr("a.exr", same)});
+    EXPECT_EQ(value(c, "mse"), 0);
+    EXPECT_EQ(value(c, "hdr_flip"), 0);
+}
+
 TEST_F(Compare, NonFinitePixelsAreReportedFirst) {
     HostImage broken = noise({16, 16}, 2);
     broken.set_rgb(3, {NAN, 0, 0});
@@ -142,7 +212,9 @@ TEST_F(Compare, MistakesAreNamed) {
     const auto a = exr("a.exr", noise({20, 16}, 1)), b = exr("b.exr", noise({20, 15}, 2));
     EXPECT_NE(message({.reference = a, .test = b}).find("has 20x16 pixels, but"), std::string::npos);
     EXPECT_NE(message({.reference = a, .test = folder / "none.exr"}).find("no such file"), std::string::npos);
-    EXPECT_NE(message({.reference = a, .test = folder / "a.jpg"}).find("are read from .exr and .png"),
+    EXPECT_NE(message({.reference = a, .test = folder / "a.jpg"}).find("no such file"), std::string::npos);
+    write_text(folder / "a.tif", "II*" + std::string(9, '\0'));
+    EXPECT_NE(message({.reference = a, .test = folder / "a.tif"}).find("a.tif: it is a TIFF; convert it: oiiotool "),
               std::string::npos);
     EXPECT_NE(message({.reference = a, .test = a, .metrics = {"ssmi"}}).find("did you mean 'ssim'?"),
               std::string::npos);

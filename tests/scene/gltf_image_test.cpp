@@ -1,9 +1,10 @@
 #include "core/files.h"
 #include "core/png.h"
+#include "core/scene/material_override.h"
+#include "tests/png_writer.h"
 #include "tests/scene/gltf_fixture.h"
 
-#include <cmath>
-#include <set>
+#include <cstring>
 
 namespace {
 struct Images : Gltf {
@@ -105,26 +106,52 @@ TEST_F(Images, BlendingAndTransmissionAreReported) {
     EXPECT_TRUE(mentions(scene.warnings, "'pane' transmits light"));
 }
 
-TEST(PngTexels, AreTheFilesCodesOfEveryKind) {
-    const auto decoded = [](const std::string& name) {
-        const std::string file = read_text(fs::path(SSRLAB_SOURCE_DIR) / "tests/data/fuzz/texture" / name);
-        const auto texels = decode_png_rgba({reinterpret_cast<const uint8_t*>(file.data()), file.size()});
-        EXPECT_TRUE(texels) << name;
-        return texels.value_or(std::vector<uint8_t>(36));
+/// glTF 2.0, section 3.8.3: 16 bits are kept, v / 65535; what a file says of its colour space does not count; and its
+/// bytes say what it is, whatever its name ends with.
+TEST_F(Images, OfSixteenBitsKeepThem) {
+    PngWriter wide{.width = 2, .depth = 16, .chunks = {{"gAMA", PngWriter::integer(100000)}}};
+    wide.sample = [](unsigned x, unsigned, unsigned c) { return c == 1 ? 6808u + x : 65535u; };
+    write_text(folder / "wide.jpg", wide.file());
+    writer.json["images"] = {{{"uri", "wide.jpg"}}};
+    const Scene scene = load();
+    EXPECT_TRUE(scene.warnings.empty());
+    const Texture& texture = scene.textures.at(0);
+    ASSERT_EQ(texture.channel_bytes, 2u);
+    ASSERT_EQ(texture.rgba->size(), 16u);
+    uint16_t codes[8];
+    std::memcpy(codes, texture.rgba->data(), sizeof codes);
+    EXPECT_EQ((std::vector<unsigned>(codes, codes + 8)),
+              (std::vector<unsigned>{65535, 6808, 65535, 65535, 65535, 6809, 65535, 65535}));
+    Scene changed = scene;
+    ChangedTexels none;
+    const nlohmann::json entry = {{"material", ".*"}, {"base_color", {0.1, 0.2, 0.3}}};
+    changed.materials[0].alpha_mode = AlphaMode::mask;
+    JsonObject object(entry, "a.json");
+    apply_override(object, changed, none);
+    std::memcpy(codes, changed.textures.back().rgba->data(), sizeof codes);
+    EXPECT_EQ((std::vector<unsigned>(codes, codes + 8)), std::vector<unsigned>(8, 65535));
+}
+
+/// The message says what the file is, how it is converted, and what a decoder says of a broken one.
+TEST_F(Images, ThatCannotBeDecodedAreNamed) {
+    const auto message = [&](const std::string& name, const std::string& bytes) {
+        write_text(folder / name, bytes);
+        writer.json["images"] = {{{"uri", name}}};
+        return error_message([&] { load(); });
     };
-    const std::vector<uint8_t> rgb = decoded("rgb.png"), rgba = decoded("rgba.png"), grey = decoded("grey16.png");
-    for (unsigned i = 0; i < 9; ++i) {
-        for (unsigned c = 0; c < 3; ++c) {
-            EXPECT_EQ(rgb[4 * i + c], 9 * (3 * i + c));
-            EXPECT_EQ(rgba[4 * i + c], 9 * (3 * i + c));
-            EXPECT_EQ(grey[4 * i + c], std::lround(7000 * i / 65535.0 * 255));
-        }
-        EXPECT_EQ(rgb[4 * i + 3], 255);
-        EXPECT_EQ(rgba[4 * i + 3], 27 * i);
-    }
-    std::set<uint8_t> alphas;
-    const std::vector<uint8_t> palette = decoded("palette.png");
-    for (unsigned i = 0; i < 9; ++i) alphas.insert(palette[4 * i + 3]);
-    EXPECT_EQ(alphas, (std::set<uint8_t>{0, 255}));
-    EXPECT_FALSE(decode_png_rgba({}));
+    EXPECT_NE(message("a.png", "version https://git-lfs.github.com/spec/v1\n").find("image 0 ('a.png') cannot be decoded: it is a pointer of Git LFS"), std::string::npos);
+    EXPECT_NE(message("b.png", "\xABKTX 20\xBB\r\n\x1A\n").find("it is a KTX 2 texture; convert it: ktx extract --transcode rgba8 b.png b.png"), std::string::npos);
+    std::string damaged = png;
+    damaged[damaged.find("IDAT") + 9] ^= 1;
+    EXPECT_NE(message("c.png", damaged).find("image 0 ('c.png') cannot be decoded: as a PNG it is broken: IDAT: CRC error"), std::string::npos);
+}
+
+TEST_F(Images, WithHarmlessFaultsAreWarnedAbout) {
+    std::string jpeg = read_text(fs::path(SSRLAB_SOURCE_DIR) / "tests/data/fuzz/texture/baseline.jpg");
+    jpeg.insert(jpeg.size() - 2, 64, '\0');
+    write_text(folder / "phone.jpg", jpeg);
+    writer.json["images"] = {{{"uri", "phone.jpg"}}};
+    const Scene scene = load();
+    EXPECT_EQ(scene.textures.at(0).extent, glm::uvec2(18));
+    EXPECT_TRUE(mentions(scene.warnings, "('phone.jpg')") && mentions(scene.warnings, "extraneous bytes"));
 }

@@ -1,18 +1,16 @@
 #include "core/scene/gltf/gltf_texture.h"
 
+#include "core/decoded_image.h"
 #include "core/error.h"
-#include "core/jpeg.h"
 #include "core/near_miss.h"
-#include "core/png.h"
-#include "core/scene/gltf/encoded_image.h"
 #include "core/scene/gltf/gltf_uri.h"
 #include "core/scene/gltf/gltf_value.h"
 #include "core/scene/ranges.h"
-#include "core/webp.h"
 
 #include <tbb/parallel_for.h>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace {
 TextureWrap wrap(const GltfFile& file, int mode) {
@@ -41,38 +39,15 @@ glm::mat3 texture_transform(const GltfFile& file, const tinygltf::Value& extensi
     return glm::mat3(c * scale.x, -s * scale.x, 0.0f, s * scale.y, c * scale.y, 0.0f, offset.x, offset.y, 1.0f);
 }
 
-struct Decoded {
-    glm::uvec2 extent{0, 0};
-    Texels rgba;
-};
-
 /// PNG and JPEG, as glTF 2.0 has it, and WebP (EXT_texture_webp), by the libraries of these formats: Debian's
 /// stb_image, which tinygltf calls, inflates a few bytes to gigabytes without a look at the header, and writes outside
-/// its memory for some broken JPEGs. What stays is taken from `kept`.
-Decoded decode_image(const GltfFile& file, size_t index, MemoryShare& kept) {
-    const std::string what = image_title(file, index);
+/// its memory for some broken JPEGs.
+DecodedImage decode_image_of(const GltfFile& file, size_t index) {
     ImageFile image;
     read_image_file(file, index, image);
-    const std::span<const uint8_t> encoded = image.bytes;
-    const auto broken = [&] { fail(what, " cannot be decoded: it is neither an intact PNG nor JPEG nor WebP"); };
-    const glm::uvec2 extent = encoded_extent(encoded);
-    if (extent.x == 0 || extent.y == 0) broken();
-    if (std::max(extent.x, extent.y) > any_texture_side)
-        fail(what, " has ", extent.x, " x ", extent.y, " pixels; allowed are sides of ", any_texture_side);
-    // Per pixel: of RGBA, and what is there beside it: 16-bit codes of a PNG; planes, coefficients and a copy of a
-    // JPEG; pixels and caches of a WebP.
-    constexpr double bytes_kept = 4, bytes_of_png = 8, bytes_of_jpeg = 14, bytes_of_webp = 12;
-    const double bytes_of_decoder = is_png(encoded) ? bytes_of_png : is_webp(encoded) ? bytes_of_webp : bytes_of_jpeg;
-    const double pixels = double(extent.x) * double(extent.y);
-    const std::string sized = what + " of " + std::to_string(extent.x) + " x " + std::to_string(extent.y) + " pixels";
-    MemoryShare decoder;
-    kept.add(pixels * bytes_kept, sized), decoder.add(pixels * bytes_of_decoder, sized);
-
-    auto rgba = is_png(encoded)    ? decode_png_rgba(encoded)
-                : is_webp(encoded) ? decode_webp_rgba(encoded, extent)
-                                   : decode_jpeg_rgba(encoded, extent);
-    if (!rgba) broken();
-    return {extent, make_texels(std::move(*rgba))};
+    const std::string& uri = file.model.images[index].uri;
+    return decode_image({image.bytes, image_title(file, index), uri.empty() || is_data_uri(uri) ? "image" : uri},
+                        any_texture_side);
 }
 }  // namespace
 
@@ -149,23 +124,32 @@ void GltfTextures::decode() {
     std::vector<Candidates> shown(images_of_);
     std::ranges::sort(shown);
     shown.erase(std::unique(shown.begin(), shown.end()), shown.end());
-    std::vector<Decoded> decoded(shown.size());
-    std::vector<std::string> warnings(shown.size());
+    std::vector<DecodedImage> decoded(shown.size());
+    std::vector<std::vector<std::string>> warnings(shown.size());
     tbb::parallel_for(size_t(0), shown.size(), [&](size_t i) {
         for (size_t k = 0; k < shown[i].size(); ++k) try {
-                decoded[i] = decode_image(file_, shown[i][k], scene_.memory);
+                decoded[i] = decode_image_of(file_, shown[i][k]);
+                for (const std::string& warning : decoded[i].warnings)
+                    warnings[i].push_back(image_title(file_, shown[i][k]) + ": " + warning + ".");
                 break;
             } catch (const MachineError&) {
                 throw;
             } catch (const Error& e) {
                 if (k + 1 == shown[i].size()) throw;
-                warnings[i] = image_title(file_, shown[i][k + 1]) + " is shown in place of another: " + e.what() + ".";
+                warnings[i].push_back(image_title(file_, shown[i][k + 1]) + " is shown in place of another: " +
+                                      e.what() + ".");
             }
     });
-    for (const std::string& warning : warnings)
-        if (!warning.empty()) file_.warn(warning);
+    std::vector<Texels> texels;
+    for (size_t i = 0; i < shown.size(); ++i) {
+        texels.push_back(make_texels(std::move(decoded[i].rgba)));
+        scene_.memory.take(decoded[i].memory);
+        for (const std::string& warning : warnings[i]) file_.warn(warning);
+    }
     for (size_t i = 0; i < scene_.textures.size(); ++i) {
-        const Decoded& image = decoded[size_t(std::ranges::lower_bound(shown, images_of_[i]) - shown.begin())];
-        scene_.textures[i].extent = image.extent, scene_.textures[i].rgba = image.rgba;
+        const size_t image = size_t(std::ranges::lower_bound(shown, images_of_[i]) - shown.begin());
+        Texture& texture = scene_.textures[i];
+        texture.extent = decoded[image].extent, texture.channel_bytes = decoded[image].channel_bytes;
+        texture.rgba = texels[image];
     }
 }

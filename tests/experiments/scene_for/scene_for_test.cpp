@@ -217,6 +217,10 @@ TEST_F(SceneForTest, GlbKeepsWhatMaterialsAndLightsSay) {
     EXPECT_TRUE(read.warnings.empty());
     const Texture& texture = read.textures.at(0);
     EXPECT_EQ(*texture.rgba, *scene.textures[0].rgba);
+    Scene wide = scene;  // the same bytes as one texel of 16 bits
+    wide.textures[0].extent = {1, 1}, wide.textures[0].channel_bytes = 2;
+    write_scene_glb(folder / "w.glb", wide, pose_scene(wide, 0), {{.lens = lens}});
+    EXPECT_EQ(*load_scene((folder / "w.glb").string(), {}).textures.at(0).rgba, *scene.textures[0].rgba);
     EXPECT_TRUE(texture.is_srgb && texture.is_nearest);
     EXPECT_EQ(texture.wrap_u, TextureWrap::mirrored_repeat);
     EXPECT_EQ(texture.wrap_v, TextureWrap::clamp_to_edge);
