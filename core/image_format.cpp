@@ -116,10 +116,11 @@ std::string with_names(std::string_view text, const std::string& file) {
 
 std::string command_of(const KnownFormat& format, ImageUse use) {
     if (!format.command) return "";
-    if (use == ImageUse::codes || format.holds_radiance || !std::string_view(format.command).ends_with("{png}"))
-        return format.holds_radiance && use == ImageUse::radiance ? "oiiotool {in} -o {exr}" : format.command;
-    if (format.command == by_oiiotool) return "oiiotool {in} -d float --colorconvert sRGB linear -o {exr}";
-    return std::string(format.command) + " && oiiotool {png} -d float --colorconvert sRGB linear -o {exr}";
+    const std::string command = format.command;
+    if (format.holds_radiance) return use == ImageUse::codes ? command : "oiiotool {in} -o {exr}";
+    if (use != ImageUse::radiance || !command.ends_with("{png}")) return command;
+    if (command == by_oiiotool) return "oiiotool {in} -d float --colorconvert sRGB linear -o {exr}";
+    return command + " && oiiotool {png} -d float --colorconvert sRGB linear -o {exr}";
 }
 
 /// What the bytes are, with the command after it; empty if they are of no known format.
@@ -159,6 +160,8 @@ std::string why_unreadable(std::span<const uint8_t> bytes, const std::string& fi
                                                  : "WebP") +
                   ", whose display codes are no radiance; give an OpenEXR or Radiance file, or, if no light is "
                   "brighter than 1, convert it: oiiotool {in} -d float --colorconvert sRGB linear -o {exr}";
+        if (use == ImageUse::comparison && format == ImageFormat::jpeg)
+            why = "is a JPEG, whose losses would count as errors; if they are to count, convert it: oiiotool {in} -o {png}";
     } else if (use == ImageUse::codes) {
         why = std::string("is ") + (format == ImageFormat::exr ? "an OpenEXR" : "a Radiance") +
               " image; convert it: oiiotool {in} --colorconvert linear sRGB -d uint16 -o {png}";

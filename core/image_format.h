@@ -9,8 +9,9 @@ enum class ImageFormat { none, exr, png, jpeg, webp, radiance };
 /// That of a file by its first bytes, whatever its name ends with. `bytes`: the file's, or its first 512.
 ImageFormat image_format(std::span<const uint8_t> bytes);
 
-/// What an image is for: texels and codes (PNG keeps them), or linear radiance (OpenEXR keeps it).
-enum class ImageUse { codes, radiance };
+/// What an image is for: texels and codes (PNG keeps them), linear radiance (OpenEXR keeps it), or whichever of both it
+/// holds, to be compared.
+enum class ImageUse { codes, radiance, comparison };
 
 /// Why bytes are no image for `use`, as what follows "FILE ": "is a TIFF; convert the file: oiiotool a.tif -o a.exr",
 /// "is an HTML page, ...". `file`: its name, for the command. Empty of bytes that are of no known format.

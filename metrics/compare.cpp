@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ostream>
+#include <span>
 
 namespace {
 
@@ -28,17 +29,16 @@ struct Source {
     bool is_radiance = true;  ///< else display codes
 };
 
-bool is_png(const std::filesystem::path& file) {
-    check_regular_file(file);
-    const std::string start = first_bytes(file.string());
-    return image_format({reinterpret_cast<const uint8_t*>(start.data()), start.size()}) == ImageFormat::png;
-}
-
 /// Of radiance, or of codes, whichever the file's bytes say.
 Source read_source(const std::filesystem::path& file, const CompareOptions& options,
                    std::vector<std::string>& warnings) {
     const MetricSettings& settings = options.settings;
-    if (!is_png(file)) {
+    check_regular_file(file);
+    const std::string start = first_bytes(file.string());
+    const std::span bytes(reinterpret_cast<const uint8_t*>(start.data()), start.size());
+    if (const std::string why = why_unreadable(bytes, file.string(), ImageUse::comparison); !why.empty())
+        fail("cannot read ", file.string(), ": it ", why);
+    if (image_format(bytes) != ImageFormat::png) {
         const HostImage linear = read_radiance(file, options.layer, warnings);
         return {linear, display_codes(linear, settings.exposure_ev, settings.tone_map)};
     }

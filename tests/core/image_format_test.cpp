@@ -81,6 +81,16 @@ TEST(ImageFormat, BecomesRadianceByItsCommand) {
               "is a Radiance image; convert it: oiiotool sky.hdr --colorconvert linear sRGB -d uint16 -o sky.png");
 }
 
+/// What is compared may be either, so that each format becomes what keeps it.
+TEST(ImageFormat, BecomesWhatCanBeCompared) {
+    EXPECT_EQ(why("II*\0\x08\0\0\0"s, ImageUse::comparison), "is a TIFF; convert it: oiiotool a.img -o a.exr");
+    EXPECT_EQ(why("BM\x36\0\0\0"s, ImageUse::comparison), "is a BMP; convert it: oiiotool a.img -o a.png");
+    EXPECT_EQ(why("\xFF\xD8\xFF\xE0"s, ImageUse::comparison, "a.jpg"),
+              "is a JPEG, whose losses would count as errors; if they are to count, convert it: oiiotool a.jpg -o a.png");
+    for (const std::string& read : {"\x89PNG\r\n\x1A\n"s, "\x76\x2F\x31\x01"s, "#?RADIANCE\n"s})
+        EXPECT_EQ(why(read, ImageUse::comparison), "");
+}
+
 /// Names come from files of strangers, and commands are copied.
 TEST(ImageFormat, CommandsQuoteTheNamesInThem) {
     EXPECT_EQ(why("GIF89a", ImageUse::codes, "a b'; rm c.gif"),
