@@ -134,6 +134,20 @@ std::string named_format(std::string_view start, const std::string& file, ImageU
     return std::string("is ") + format->what + (command.empty() ? "" : "; convert it: " + command);
 }
 
+/// The name of a format that is read and holds display codes; nullptr of others.
+const char* name_of_codes(ImageFormat format) {
+    switch (format) {
+        case ImageFormat::png:
+            return "PNG";
+        case ImageFormat::jpeg:
+            return "JPEG";
+        case ImageFormat::webp:
+            return "WebP";
+        default:
+            return nullptr;
+    }
+}
+
 }  // namespace
 
 ImageFormat image_format(std::span<const uint8_t> bytes) {
@@ -152,16 +166,14 @@ std::string why_unreadable(std::span<const uint8_t> bytes, const std::string& fi
     if (format == ImageFormat::none) {
         why = why_no_image_at_all(text_of(bytes));
         if (why.empty()) why = named_format(text_of(bytes), file, use);
-    } else if (format == ImageFormat::png || format == ImageFormat::jpeg || format == ImageFormat::webp) {
+    } else if (const char* const of_codes = name_of_codes(format)) {
         if (use == ImageUse::radiance)
-            why = std::string("is a ") +
-                  (format == ImageFormat::png    ? "PNG"
-                   : format == ImageFormat::jpeg ? "JPEG"
-                                                 : "WebP") +
+            why = std::string("is a ") + of_codes +
                   ", whose display codes are no radiance; give an OpenEXR or Radiance file, or, if no light is "
                   "brighter than 1, convert it: oiiotool {in} -d float --colorconvert sRGB linear -o {exr}";
-        if (use == ImageUse::comparison && format == ImageFormat::jpeg)
-            why = "is a JPEG, whose losses would count as errors; if they are to count, convert it: oiiotool {in} -o {png}";
+        if (use == ImageUse::comparison && format != ImageFormat::png)
+            why = std::string("is a ") + of_codes +
+                  ", whose losses would count as errors; if they are to count, convert it: oiiotool {in} -o {png}";
     } else if (use == ImageUse::codes) {
         why = std::string("is ") + (format == ImageFormat::exr ? "an OpenEXR" : "a Radiance") +
               " image; convert it: oiiotool {in} --colorconvert linear sRGB -d uint16 -o {png}";

@@ -11,7 +11,8 @@ DecodedImage decode_webp(const EncodedImage& image, unsigned longest_side) {
         features.height <= 0)
         fail(image.what, " cannot be decoded: as a WebP it is cut off or broken");
     if (features.has_animation)
-        fail(image.what, " cannot be decoded: it is a WebP with an animation, which is no texture; save a still picture");
+        fail(image.what,
+             " cannot be decoded: it is a WebP with an animation, which is no texture; save a still picture");
     DecodedImage decoded;
     decoded.extent = {features.width, features.height};
     constexpr double of_decoder = 12;  // pixels as they are coded, and caches

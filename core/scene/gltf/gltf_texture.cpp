@@ -136,8 +136,8 @@ void GltfTextures::decode() {
                 throw;
             } catch (const Error& e) {
                 if (k + 1 == shown[i].size()) throw;
-                warnings[i].push_back(image_title(file_, shown[i][k + 1]) + " is shown in place of another: " +
-                                      e.what() + ".");
+                warnings[i].push_back(image_title(file_, shown[i][k + 1]) +
+                                      " is shown in place of another: " + e.what() + ".");
             }
     });
     std::vector<Texels> texels;
