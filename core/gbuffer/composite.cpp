@@ -21,7 +21,8 @@ glm::vec3 pixel_direction(const CameraData& camera, unsigned x, unsigned y) {
 Composite Compositor::render(const GBuffer& g, const Reflections& reflections) {
     const Composite result{graph_.image("specular", Format::rgba32f), graph_.image("image", Format::rgba32f)};
     auto pass = graph_.compute("gbuffer/composite.comp");
-    for (const Image& image : {g.depth, g.normal, g.base_color, g.emission, g.fallback, split_sum_.on(graph_)})
+    for (const Image& image :
+         {g.depth, g.normal, g.base_color, g.emission, g.dielectric_f0, g.fallback, split_sum_.on(graph_)})
         pass.read(image);
     pass.read((g.lit_without_specular.storage ? g.lit_without_specular : g.lit).as("lit"))
         .read(reflections.radiance.as("radiance"))
@@ -52,7 +53,9 @@ HostImage specular_reflectance(const HostGBuffer& g) {
             const float mu_o = -glm::dot(glm::vec3(n[0], n[1], n[2]), pixel_direction(g.camera, x, y));
             if (mu_o <= 0) continue;
             const glm::vec2 ab = read_split_sum(default_split_sum_table(), mu_o, n[3]);
-            const glm::vec3 f0 = specular_f0({c[0], c[1], c[2]}, c[3], specular);
+            const glm::vec3 own_f0 = g.dielectric_f0.values.empty() ? glm::vec3(usual_dielectric_f0)
+                                                                    : g.dielectric_f0.rgb(size_t(y) * g.extent().x + x);
+            const glm::vec3 f0 = specular_f0({c[0], c[1], c[2]}, c[3], specular, own_f0);
             result.set_rgb(size_t(y) * g.extent().x + x, f0 * ab.x + specular_f90(c[3], specular) * ab.y);
         }
     return result;

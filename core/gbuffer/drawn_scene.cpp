@@ -1,9 +1,11 @@
 #include "core/gbuffer/drawn_scene.h"
 
 #include "core/gbuffer/leading_vertices.h"
+#include "core/scene/texture_slots.h"
 #include "core/scene/transform.h"
 #include "core/shared/drawn_scene.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace {
@@ -23,13 +25,19 @@ const TextureSlot& slot_of(const Material& material, unsigned slot) {
             return material.metalness_roughness_texture;
         case slot_normal:
             return material.normal_texture;
-        default:
+        case slot_emission:
             return material.emission_texture;
+        case slot_specular:
+            return material.specular_texture;
+        default:
+            return material.specular_color_texture;
     }
 }
 
-const char* const slot_names[] = {"base_color_texture", "metalness_roughness_texture", "normal_texture",
-                                  "emission_texture"};
+const char* const slot_names[] = {"base_color_texture", "metalness_roughness_texture",
+                                  "normal_texture",     "emission_texture",
+                                  "specular_texture",   "specular_color_texture"};
+constexpr unsigned slot_count = std::size(slot_names);
 
 uint32_t sampling_of(const Scene& scene, const TextureSlot& slot) {
     if (slot.texture < 0) return 0;
@@ -55,21 +63,22 @@ DrawnMaterial drawn(const Scene& scene, const Material& m) {
         .base_color = {m.base_color, m.alpha},
         .factors = {m.metalness, m.roughness, m.normal_scale, m.alpha_mode == AlphaMode::mask ? m.alpha_cutoff : 0.0f},
         .emission = {m.emission, m.specular},
+        .specular_color = {m.dielectric_f0 * m.specular_color, 0.0f},
         .flags = {m.is_unlit, m.is_double_sided, 0, 0}};
-    for (unsigned slot = 0; slot < 4; ++slot) {
+    for (unsigned slot = 0; slot < slot_count; ++slot) {
         const TextureSlot& source = slot_of(m, slot);
         const glm::mat3 rows = glm::transpose(source.uv_transform);
         result.slot_u[slot] = {rows[0], float(source.texcoord)};
         result.slot_v[slot] = {rows[1], 0.0f};
-        result.sampling[slot] = sampling_of(scene, source);
+        result.sampling[slot / 4][slot % 4] = sampling_of(scene, source);
     }
     return result;
 }
 
 }  // namespace
 
-DrawnScene::DrawnScene(PassGraph& graph, const Scene& scene, bool keep_all)
-    : graph_(graph), scene_(scene), keep_all_(keep_all) {
+DrawnScene::DrawnScene(PassGraph& graph, const Scene& scene, bool has_dielectric_f0, bool keep_all)
+    : graph_(graph), scene_(scene), has_dielectric_f0_(has_dielectric_f0), keep_all_(keep_all) {
     if (scene.instances.empty()) return;
     std::vector<DrawnMaterial> materials;
     for (const Material& material : scene.materials) materials.push_back(drawn(scene, material));
@@ -90,9 +99,9 @@ DrawnScene::DrawnScene(PassGraph& graph, const Scene& scene, bool keep_all)
 
 DrawnScene::Kind DrawnScene::kind_of(const Material& material) const {
     if (keep_all_ || material.alpha_mode == AlphaMode::mask) return Kind::masked;
-    for (unsigned slot = 0; slot < 4; ++slot)
-        if (slot_of(material, slot).texture >= 0) return Kind::textured;
-    return Kind::plain;
+    const bool has_texture =
+        std::ranges::any_of(texture_slots(material), [](const TextureSlot* slot) { return slot->texture >= 0; });
+    return has_texture || has_dielectric_f0_ ? Kind::textured : Kind::plain;
 }
 
 DrawnScene::MeshBuffers DrawnScene::upload_mesh(const Mesh& mesh, size_t index) {
@@ -138,7 +147,7 @@ Draw DrawnScene::make_draw(unsigned instance, const MeshBuffers& buffers, Kind k
         .indices = buffers.indices, .index_count = unsigned(mesh.indices.size() / 3 * 3), .first_instance = instance};
     draw.buffers = {buffers.vertices.as("Vertices"), instances_, materials_};
     if (kind == Kind::plain) return draw;
-    for (unsigned slot = 0; slot < 4; ++slot)
+    for (unsigned slot = 0; slot < slot_count; ++slot)
         draw.reads.push_back({texture_image(slot_of(scene_.materials[mesh.material], slot)).as(slot_names[slot]), {}});
     return draw;
 }

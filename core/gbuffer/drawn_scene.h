@@ -11,8 +11,9 @@ public:
     /// Which fragment shader a mesh needs: the cheapest that its material allows.
     enum class Kind { plain, textured, masked };
 
-    /// Uploads all drawn meshes, materials and textures. With `keep_all` every mesh is drawn by the shader for masks.
-    DrawnScene(PassGraph& graph, const Scene& scene, bool keep_all);
+    /// Uploads all drawn meshes, materials and textures. With `has_dielectric_f0` none is drawn by the plain shader,
+    /// with `keep_all` every mesh by the one for masks.
+    DrawnScene(PassGraph& graph, const Scene& scene, bool has_dielectric_f0, bool keep_all);
 
     /// Transforms of this frame; `previous`: of the frame before.
     void pose(const ScenePose& pose, const ScenePose& previous);
@@ -30,7 +31,7 @@ private:
 
     PassGraph& graph_;
     const Scene& scene_;
-    bool keep_all_;
+    bool has_dielectric_f0_, keep_all_;
     Buffer materials_, instances_;
     Image no_texture_;
     std::map<const void*, Image> images_;  ///< by the texels of Scene::textures that draws need

@@ -25,11 +25,14 @@ struct GBuffer {
 
     Image lit_without_specular;  ///< where `lit` holds specular reflections, too: the same without them, to which composites add theirs; else without storage
 
+    Image dielectric_f0;     ///< rgba32f: rgb reflectance of dielectrics at normal incidence, which the specular factor scales; read by dielectric_f0_at() (core/shaders/gbuffer/dielectric_f0.glsl)
+    bool has_dielectric_f0 = false;  ///< some material's is not 0.04 for all colours; else that image is one pixel of 0.04
+
     const EnvironmentImages* environment = nullptr;  ///< for bind_environment(); none with a G-buffer from files
 
     std::vector<Image> images() const {
         std::vector<Image> all = {depth, geometric_normal, normal, base_color, emission, motion, material_id, previous_depth, previous_normal, lit, fallback};
-        for (const Image& optional : {second_depth, back_depth, lit_without_specular})
+        for (const Image& optional : {second_depth, back_depth, lit_without_specular, dielectric_f0})
             if (optional.storage) all.push_back(optional);
         return all;
     }

@@ -49,7 +49,7 @@ double median(std::vector<double> values) {
 std::string percent(double share) { return std::to_string(std::lround(100 * share)) + " %"; }
 
 void check_values(const HostGBuffer& g, std::vector<std::string>& notes) {
-    size_t bad_depth = 0, bad_normal = 0, bad_roughness = 0, bad_color = 0, surface = 0;
+    size_t bad_depth = 0, bad_normal = 0, bad_roughness = 0, bad_color = 0, bad_f0 = 0, surface = 0;
     for (size_t i = 0; i < g.depth.pixel_count(); ++i) {
         const float depth = g.depth.values[i], *n = &g.normal.values[4 * i], *c = &g.base_color.values[4 * i];
         bad_depth += !(depth >= 0 && depth <= 1);
@@ -58,6 +58,8 @@ void check_values(const HostGBuffer& g, std::vector<std::string>& notes) {
         bad_normal +=
             !(std::abs(glm::length(glm::vec3(n[0], n[1], n[2])) - 1) < 0.02f);  // 8-bit normals are within 0.01
         bad_roughness += !(n[3] >= 0 && n[3] <= 1);
+        const glm::vec3 f0 = g.dielectric_f0.values.empty() ? glm::vec3(0) : g.dielectric_f0.rgb(i);
+        bad_f0 += !(std::min({f0.x, f0.y, f0.z}) >= 0 && std::max({f0.x, f0.y, f0.z}) <= 1);
         bad_color += !(std::min({c[0], c[1], c[2], c[3]}) >= 0 && std::max({c[0], c[1], c[2], c[3]}) <= 1);
     }
     const auto note = [&](size_t count, const char* what) {
@@ -67,6 +69,7 @@ void check_values(const HostGBuffer& g, std::vector<std::string>& notes) {
     note(bad_normal, "normal that is not of unit length");
     note(bad_roughness, "roughness outside [0, 1]");
     note(bad_color, "base colour or metalness outside [0, 1]");
+    note(bad_f0, "dielectric_f0 outside [0, 1]");
     if (surface == 0)
         notes.push_back("No pixel shows a surface: all depths are the far plane's, " +
                         std::to_string(int(g.camera.depth.z)) +

@@ -37,6 +37,7 @@ const LayerMap layer_maps[] = {
     {"geometric_normal", "XYZ", &G::geometric_normal, 0, 4},
     {"emission", "RGB", &G::emission, 0, 4},
     {"specular", "Y", &G::emission, 3, 4},
+    {"dielectric_f0", "RGB", &G::dielectric_f0, 0, 4},
     {"motion", "XY", &G::motion, 0, 2},
     {"material_id", "Y", &G::material_id, 0, 1, false, PixelType::uint32},
     {"previous_depth", "Z", &G::previous_depth, 0, 1},
@@ -152,7 +153,7 @@ LoadedGBuffer load_gbuffer(const std::filesystem::path& folder) {
     const CameraFile camera = read_camera(path_inside(folder, "camera.json"));
     const std::filesystem::path file = path_inside(folder, "gbuffer.exr");
     LayeredImage layers = read_exr(file);
-    constexpr double floats_per_pixel = 33;  // of a HostGBuffer
+    constexpr double floats_per_pixel = 37;  // of a HostGBuffer
     const glm::dvec4 extent(camera.camera.extent);
     layers.memory.add(extent.x * extent.y * floats_per_pixel * sizeof(float), file.string() + ": its layers");
     LoadedGBuffer result;

@@ -26,6 +26,7 @@ struct HostGBuffer {
     HostImage lit, fallback;             ///< 4; of zero extent where absent
     HostImage second_depth, back_depth;  ///< 1; of zero extent where absent; no file holds them
     HostImage lit_without_specular;      ///< 4; the same
+    HostImage dielectric_f0;             ///< 4; of zero extent where it is 0.04 for all surfaces and colours
 
     glm::uvec2 extent() const { return depth.extent; }
 };
@@ -48,7 +49,10 @@ std::map<std::string, size_t> count_non_finite(const HostGBuffer& gbuffer);
 ///                                  environment where nothing was drawn                       provide it
 ///   geometric_normal (X Y Z)       unit normal of the triangle, towards the camera           normal
 ///   emission (R G B)               emitted radiance                                          0
-///   specular (Y)                   scales the dielectric reflectance of 0.04; 0: none        1; 0 in the background
+///   specular (Y)                   scales what dielectrics reflect: at normal incidence      1; 0 in the background
+///                                  dielectric_f0, at grazing incidence 1; 0: nothing
+///   dielectric_f0 (R G B)          what dielectrics reflect at normal incidence, from 0 to   0.04
+///                                  1; an index of refraction n gives ((n - 1) / (n + 1))^2
 ///   motion (X Y)                   uv now - uv before (0..1 over the screen, y down),        0
 ///                                  without jitter
 ///   material_id (Y)                whole number (uint32 or float), 0 in the background       1; 0 in the background

@@ -6,6 +6,7 @@ Precision gbuffer_precision(GBufferFormats formats) {
                                                          {"normal", Format::rgba16f},
                                                          {"previous_normal", Format::rgba16f},
                                                          {"base_color", Format::rgba8},
+                                                         {"dielectric_f0", Format::rgba16f},
                                                          {"emission", Format::rgba16f},
                                                          {"motion", Format::rg16f},
                                                          {"lit", Format::rgba16f},

@@ -1,6 +1,7 @@
 #include "core/gbuffer/gbuffer_transfer.h"
 
 #include "core/error.h"
+#include "core/shared/brdf.h"
 
 namespace {
 
@@ -32,7 +33,14 @@ HostGBuffer download_gbuffer(PassGraph& graph, const GBuffer& g, const CameraDat
     if (g.second_depth.storage) host.second_depth = graph.download(g.second_depth);
     if (g.back_depth.storage) host.back_depth = graph.download(g.back_depth);
     if (g.lit_without_specular.storage) host.lit_without_specular = graph.download(g.lit_without_specular);
+    if (g.has_dielectric_f0) host.dielectric_f0 = graph.download(g.dielectric_f0);
     return host;
+}
+
+Image one_dielectric_f0(PassGraph& graph) {
+    const Image image = graph.image_of("one_dielectric_f0", Format::rgba32f, {1, 1});
+    graph.clear(image, glm::vec4(glm::vec3(usual_dielectric_f0), 0));
+    return image.as("dielectric_f0");
 }
 
 GBuffer upload_gbuffer(PassGraph& graph, const HostGBuffer& g) {
@@ -55,5 +63,9 @@ GBuffer upload_gbuffer(PassGraph& graph, const HostGBuffer& g) {
     if (!g.back_depth.values.empty()) gbuffer.back_depth = uploaded(graph, "back_depth", Format::r32f, g.back_depth);
     if (!g.lit_without_specular.values.empty())
         gbuffer.lit_without_specular = uploaded(graph, "lit_without_specular", Format::rgba32f, g.lit_without_specular);
+    gbuffer.has_dielectric_f0 = !g.dielectric_f0.values.empty();
+    gbuffer.dielectric_f0 = gbuffer.has_dielectric_f0
+                                ? uploaded(graph, "dielectric_f0", Format::rgba32f, g.dielectric_f0)
+                                : one_dielectric_f0(graph);
     return gbuffer;
 }

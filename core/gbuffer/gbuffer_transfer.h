@@ -7,6 +7,9 @@
 HostGBuffer download_gbuffer(PassGraph& graph, const GBuffer& gbuffer, const CameraData& camera,
                              DepthFormat depth_format);
 
+/// GBuffer::dielectric_f0 of a scene in which it is 0.04 everywhere: one pixel.
+Image one_dielectric_f0(PassGraph& graph);
+
 /// Creates the images in `graph`, whose extent must be that of the G-buffer, and fills them, absent lit colour and
 /// fallback with 0. The downloaded G-buffer has the same bits.
 GBuffer upload_gbuffer(PassGraph& graph, const HostGBuffer& gbuffer);

@@ -1,6 +1,7 @@
 #include "core/gbuffer/rasterizer.h"
 
 #include "core/error.h"
+#include "core/gbuffer/gbuffer_transfer.h"
 #include "core/gpu/device.h"
 #include "core/gpu/pipelines/precision.h"
 #include "core/shared/drawn_light.h"
@@ -68,7 +69,7 @@ Rasterizer::Rasterizer(Device& device, const Scene& scene, const RasterizerOptio
       options_(options),
       facts_(material_facts(scene)),
       graph_(device, options.extent),
-      drawn_(graph_, scene, options.keep_all),
+      drawn_(graph_, scene, facts_.has_dielectric_f0, options.keep_all),
       environment_(graph_, reflected_environment(),
                    options.keep_all || (facts_.has_geometry && !reflected_environment().is_black())) {
     facts_.has_environment = !reflected_environment().is_black();
@@ -144,15 +145,19 @@ GBuffer Rasterizer::draw(const Frame& frame) {
               .previous_normal = normal.previous,
               .lit = graph_.image("lit", Format::rgba32f),
               .fallback = graph_.image("fallback", Format::rgba32f),
+              .dielectric_f0 =
+                  facts_.has_dielectric_f0 ? graph_.image("dielectric_f0", Format::rgba32f) : one_dielectric_f0(graph_),
+              .has_dielectric_f0 = facts_.has_dielectric_f0,
               .environment = &environment_};
+    if (g.has_dielectric_f0) graph_.clear(g.dielectric_f0, glm::vec4(0));
 
     const Image depth_buffer = graph_.image("depth_buffer", format_of(options_.depth_format));
     graph_.clear(depth_buffer, glm::vec4(camera_.depth.z, 0, 0, 0));
     auto background = graph_.fragment("gbuffer/background.frag");
     write_surface(background, g).run();
     draw_kind(g, depth_buffer, DrawnScene::Kind::plain, "plain");
-    draw_kind(g, depth_buffer, DrawnScene::Kind::textured, "textured");
-    draw_kind(g, depth_buffer, DrawnScene::Kind::masked, "masked");
+    draw_kind(g, depth_buffer, DrawnScene::Kind::textured, g.has_dielectric_f0 ? "dielectric" : "textured");
+    draw_kind(g, depth_buffer, DrawnScene::Kind::masked, g.has_dielectric_f0 ? "dielectric_masked" : "masked");
     graph_.fragment("gbuffer/copy_depth.frag").read(depth_buffer).write(g.depth).run();
 
     if (options_.has_depth_layers) draw_depth_layers(g);
@@ -170,6 +175,7 @@ GBuffer Rasterizer::draw(const Frame& frame) {
 void Rasterizer::draw_kind(const GBuffer& g, const Image& depth_buffer, DrawnScene::Kind kind, const char* name) {
     if (drawn_.draws(kind).empty()) return;
     auto pass = graph_.draw("gbuffer/mesh.vert", std::string("gbuffer/") + name + ".frag", drawn_.draws(kind));
+    if (g.has_dielectric_f0) pass.write(g.dielectric_f0);
     write_surface(pass, g)
         .depth(nearest_in(depth_buffer, camera_))
         .set("normal_bits", options_.normal_bits)
@@ -209,7 +215,8 @@ void Rasterizer::light_directly(const GBuffer& g) {
     graph_.clear(count, uint32_t(scene_pose_.lights.size()));
     auto pass = graph_.compute("gbuffer/lit_direct.comp");
     environment_.bind(pass).use(lights).use(count);
-    for (const Image& image : {g.depth, g.geometric_normal, g.normal, g.base_color, g.emission}) pass.read(image);
+    for (const Image& image : {g.depth, g.geometric_normal, g.normal, g.base_color, g.emission, g.dielectric_f0})
+        pass.read(image);
     pass.write(g.lit).run();
     graph_.times();
 }

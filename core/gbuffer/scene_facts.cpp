@@ -1,5 +1,6 @@
 #include "core/gbuffer/scene_facts.h"
 
+#include "core/scene/texture_slots.h"
 #include "core/shared/brdf.h"
 
 #include <algorithm>
@@ -44,7 +45,7 @@ glm::vec2 channel_range(const Scene& scene, const TextureSlot& slot, unsigned ch
 /// metalness.
 glm::vec2 specular_range(const Scene& scene, const Material& material) {
     if (material.is_unlit) return glm::vec2(0);
-    return glm::max(glm::vec2(material.specular),
+    return glm::max(material.specular * channel_range(scene, material.specular_texture, 3),
                     material.metalness * channel_range(scene, material.metalness_roughness_texture, 2));
 }
 
@@ -53,10 +54,12 @@ bool is_matte(const Scene& scene, const Material& material) {
 }
 
 bool has_texture(const Material& m) {
-    for (const TextureSlot* slot :
-         {&m.base_color_texture, &m.metalness_roughness_texture, &m.normal_texture, &m.emission_texture})
-        if (slot->texture >= 0) return true;
-    return false;
+    return std::ranges::any_of(texture_slots(m), [](const TextureSlot* slot) { return slot->texture >= 0; });
+}
+
+bool has_dielectric_f0(const Material& m) {
+    const bool is_metal = m.metalness == 1.0f && m.metalness_roughness_texture.texture < 0;
+    return !m.is_unlit && !is_metal && m.specular > 0 && (has_own_dielectric_f0(m) || m.specular_texture.texture >= 0);
 }
 
 void add_material(SceneFacts& facts, const Scene& scene, const Material& material) {
@@ -64,6 +67,7 @@ void add_material(SceneFacts& facts, const Scene& scene, const Material& materia
     facts.has_alpha_masks |= material.alpha_mode == AlphaMode::mask;
     facts.has_normal_maps |= material.normal_texture.texture >= 0;
     facts.has_matte |= is_matte(scene, material);
+    facts.has_dielectric_f0 |= has_dielectric_f0(material);
     if (!(specular_range(scene, material).y > 0)) return;
     const glm::vec2 roughness = material.roughness * channel_range(scene, material.metalness_roughness_texture, 1);
     facts.has_reflective = true;

@@ -1,6 +1,7 @@
 #include "core/scene/content_hash.h"
 
 #include "core/files.h"
+#include "core/scene/texture_slots.h"
 
 namespace {
 struct SceneHash {
@@ -44,6 +45,8 @@ struct SceneHash {
         all(m.base_color, m.emission, m.alpha, m.metalness, m.roughness, m.normal_scale, m.specular, m.alpha_cutoff);
         all(m.base_color_texture, m.metalness_roughness_texture, m.normal_texture, m.emission_texture);
         all(int(m.alpha_mode), int(m.is_double_sided), int(m.is_unlit));
+        if (m.specular_texture.texture >= 0) add(m.specular_texture);
+        if (has_own_dielectric_f0(m)) all(m.dielectric_f0, m.specular_color, m.specular_color_texture);
     }
     void add(const Mesh& mesh) {
         static_assert(sizeof(Vertex) == 18 * sizeof(float), "Vertex is hashed as bytes, so it must have no padding");

@@ -38,11 +38,12 @@ glm::vec3 read_color(JsonObject& entry, const std::string& key, float max) {
 
 /// Removes what has the materials, and the warnings about how it would have been drawn.
 void hide(Scene& scene, const std::vector<bool>& is_hidden) {
+    const auto is_about = [&](const SceneWarning& warning, size_t material) {
+        if (warning.material >= 0) return size_t(warning.material) == material;
+        return warning.text.find("material '" + shortened(scene.materials[material].name) + "'") != std::string::npos;
+    };
     for (size_t i = 0; i < is_hidden.size(); ++i)
-        if (is_hidden[i])
-            std::erase_if(scene.warnings, [&](const SceneWarning& warning) {
-                return warning.text.find("material '" + shortened(scene.materials[i].name) + "'") != std::string::npos;
-            });
+        if (is_hidden[i]) std::erase_if(scene.warnings, [&](const SceneWarning& w) { return is_about(w, i); });
     std::erase_if(scene.instances,
                   [&](const Instance& instance) { return is_hidden[scene.meshes[instance.mesh].material]; });
 }
@@ -93,7 +94,7 @@ void apply_override(JsonObject& entry, Scene& scene, ChangedTexels& changed) {
         if (has_color && m.base_color_texture.texture >= 0)
             for (size_t c = 0; c < 3; ++c) neutralise_channel(scene, m.base_color_texture, c, changed);
         if (has_emission) m.emission = emission, m.emission_texture = {};
-        if (has_specular) m.specular = specular;
+        if (has_specular) m.specular = specular, m.specular_texture = {};
         if (drops_normal_map) m.normal_texture = {};
     }
     if (is_hidden) hide(scene, matches);

@@ -11,6 +11,7 @@
 #include "core/scene/load_scene.h"
 #include "core/scene/material_override.h"
 #include "core/scene/ranges.h"
+#include "core/scene/texture_slots.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,10 +30,11 @@ void append(std::vector<T>& list, std::vector<T>& more) {
 void merge(Scene& scene, Scene other) {
     const auto textures = int(scene.textures.size()), nodes = int(scene.nodes.size());
     const auto materials = unsigned(scene.materials.size()), meshes = unsigned(scene.meshes.size());
-    for (Material& material : other.materials)
-        for (TextureSlot* slot : {&material.base_color_texture, &material.metalness_roughness_texture,
-                                  &material.normal_texture, &material.occlusion_texture, &material.emission_texture})
+    for (Material& material : other.materials) {
+        for (TextureSlot* slot : texture_slots(material))
             if (slot->texture >= 0) slot->texture += textures;
+        if (material.occlusion_texture.texture >= 0) material.occlusion_texture.texture += textures;
+    }
     for (Mesh& mesh : other.meshes) mesh.material += materials;
     for (Node& node : other.nodes)
         if (node.parent >= 0) node.parent += nodes;
@@ -60,6 +62,24 @@ void merge(Scene& scene, Scene other) {
     scene.frame_count = std::max(scene.frame_count, other.frame_count);
 }
 
+/// The value if each part is within +-any_radiance.
+glm::vec3 checked_radiance(glm::vec3 radiance, const std::string& what) {
+    for (int c = 0; c < 3; ++c)
+        if (!(std::abs(radiance[c]) <= any_radiance))
+            fail(what, " has the part ", radiance[c], " outside of [", -any_radiance, ", ", any_radiance, "]");
+    return radiance;
+}
+
+/// The lights of glTF files in the unit that scene.json says: then nothing remains to be said of units.
+void scale_lights(Scene& scene, float factor) {
+    for (PunctualLight& light : scene.lights)
+        light.intensity =
+            checked_radiance(light.intensity * factor,
+                             "light '" + shortened(light.name) + "': the product of its intensity and 'light_scale'");
+    std::erase_if(scene.warnings,
+                  [](const SceneWarning& w) { return w.text.find("light_scale") != std::string::npos; });
+}
+
 /// A file named in scene.json: beside it, or in a folder of the search path, or below one of these.
 fs::path find_file(const std::string& name, const fs::path& scene_file, const std::vector<fs::path>& search_path,
                    const std::string& where) {
@@ -71,14 +91,6 @@ fs::path find_file(const std::string& name, const fs::path& scene_file, const st
     fail(where, ": '", shortened(name),
          "' is neither beside that file nor in the scene search path; name its folder with --scene-path or "
          "SSRLAB_SCENE_PATH");
-}
-
-/// The value if each part is within +-any_radiance.
-glm::vec3 checked_radiance(glm::vec3 radiance, const std::string& what) {
-    for (int c = 0; c < 3; ++c)
-        if (!(std::abs(radiance[c]) <= any_radiance))
-            fail(what, " has the part ", radiance[c], " outside of [", -any_radiance, ", ", any_radiance, "]");
-    return radiance;
 }
 
 glm::vec3 read_color(JsonObject& object, const std::string& key, glm::vec3 fallback) {
@@ -167,14 +179,21 @@ Scene load_scene_file(const fs::path& file, const std::vector<fs::path>& search_
     Scene scene;
     const fs::path gltf =
         object.has("gltf") ? find_file(object.text("gltf"), file, search_path, file.string()) : fs::path();
-    if (!gltf.empty()) scene = load_gltf(gltf);
+    GltfChoices choices;
+    choices.draws_blended_opaque = object.value_of<bool>("blended", {{"cut", false}, {"opaque", true}});
+    GltfChoices choices_of_gltf = choices;
+    choices_of_gltf.material_variant = object.text("material_variant", "");
+    if (gltf.empty() && !choices_of_gltf.material_variant.empty())
+        fail(object.at("material_variant"), " chooses among the variants of 'gltf', which is not given");
+    if (!gltf.empty()) scene = load_gltf(gltf, choices_of_gltf);
     if (object.has("also")) {
         const nlohmann::json& also = object.any("also");
         const bool is_list = also.is_array() && std::ranges::all_of(also, [](const auto& v) { return v.is_string(); });
         if (!is_list) fail(file.string(), ": 'also' must be an array of file names, not ", also.dump());
         for (const nlohmann::json& name : also)
-            merge(scene, load_gltf(find_file(name.get<std::string>(), file, search_path, file.string())));
+            merge(scene, load_gltf(find_file(name.get<std::string>(), file, search_path, file.string()), choices));
     }
+    if (object.has("light_scale")) scale_lights(scene, object.number("light_scale", 0.0f, 1e9f));
     scene.name = fs::absolute(file).parent_path().filename().string();
     const bool is_own = gltf.empty() || fs::absolute(gltf).parent_path() == fs::absolute(file).parent_path();
     scene.asset = is_own ? scene.name : gltf.filename().string();

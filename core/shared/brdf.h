@@ -42,13 +42,21 @@ SHARED float schlick_weight(float cosine) {
     return x2 * x2 * x;
 }
 
-/// Reflectance at normal incidence of the mix of dielectric (ior 1.5, scaled by KHR_materials_specular's factor) and
-/// metal.
+/// The reflectance at normal incidence of a dielectric whose index of refraction is 1.5, of which glTF makes materials
+/// that say nothing else.
+const float usual_dielectric_f0 = 0.04f;
+
+/// Reflectance at normal incidence of the mix of dielectric and metal. `specular`: the factor of
+/// KHR_materials_specular, which scales the dielectric's own, `dielectric_f0`.
+SHARED vec3 specular_f0(vec3 base_color, float metalness, float specular, vec3 dielectric_f0) {
+    return mix(dielectric_f0 * specular, base_color, metalness);
+}
+/// Of an index of refraction of 1.5.
 SHARED vec3 specular_f0(vec3 base_color, float metalness, float specular) {
     return mix(vec3(0.04f * specular), base_color, metalness);
 }
 
-/// Reflectance at grazing incidence, the same for all colours.
+/// Reflectance at grazing incidence, the same for all colours and indices of refraction.
 SHARED float specular_f90(float metalness, float specular) { return mix(specular, 1.0f, metalness); }
 
 /// The factor of reflected radiance before an engine's pass adds it to an image (its documentation of

@@ -9,6 +9,8 @@ const uint slot_base_color = 0u;
 const uint slot_metalness_roughness = 1u;
 const uint slot_normal = 2u;
 const uint slot_emission = 3u;
+const uint slot_specular = 4u;
+const uint slot_specular_color = 5u;
 
 /// Bits of DrawnMaterial::sampling.
 const uint sampling_has_texture = 1u;
@@ -18,13 +20,14 @@ const uint sampling_wrap_u_shift = 3u;  ///< two bits: TextureWrap
 const uint sampling_wrap_v_shift = 5u;
 
 struct DrawnMaterial {
-    vec4 base_color;  ///< rgb, alpha
-    vec4 factors;     ///< metalness, perceptual roughness, normal scale, alpha cutoff
-    vec4 emission;    ///< rgb radiance, specular factor
-    vec4 slot_u[4];   ///< uv_transform's first row; w: set of texture coordinates
-    vec4 slot_v[4];   ///< ... second row
-    uvec4 sampling;   ///< per slot
-    uvec4 flags;      ///< 1 if unlit, 1 if double-sided
+    vec4 base_color;      ///< rgb, alpha
+    vec4 factors;         ///< metalness, perceptual roughness, normal scale, alpha cutoff
+    vec4 emission;        ///< rgb radiance, specular factor
+    vec4 specular_color;  ///< rgb: of dielectrics at normal incidence, to be clamped to 1 after its texture
+    vec4 slot_u[6];       ///< uv_transform's first row; w: set of texture coordinates
+    vec4 slot_v[6];       ///< ... second row
+    uvec4 sampling[2];    ///< per slot, four in each
+    uvec4 flags;          ///< 1 if unlit, 1 if double-sided
 };
 
 struct DrawnInstance {

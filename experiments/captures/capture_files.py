@@ -15,7 +15,7 @@ from ssrlab.mistakes import ResultsError
 # Layers and their channels: core/gbuffer/gbuffer_file.h.
 CHANNELS = {
     "depth": "Z", "normal": "XYZ", "roughness": "Y", "base_color": "RGB", "metalness": "Y", "lit": "RGB",
-    "geometric_normal": "XYZ", "emission": "RGB", "specular": "Y", "motion": "XY", "material_id": "Y",
+    "geometric_normal": "XYZ", "emission": "RGB", "specular": "Y", "dielectric_f0": "RGB", "motion": "XY", "material_id": "Y",
     "previous_depth": "Z", "previous_normal": "XYZ", "previous_roughness": "Y", "fallback": "RGB",
 }  # fmt: skip
 REQUIRED = ("depth", "normal", "roughness", "base_color", "metalness")

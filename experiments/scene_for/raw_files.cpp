@@ -1,6 +1,7 @@
 #include "experiments/scene_for/raw_files.h"
 
 #include "core/files.h"
+#include "core/scene/texture_slots.h"
 #include "experiments/scene_for/scene_numbers.h"
 #include "experiments/scene_for/texture_png.h"
 
@@ -66,6 +67,9 @@ json material_of(const Material& m, TextureFiles& textures) {
     textures.enter(material, "base_color_texture", m.base_color_texture);
     textures.enter(material, "metalness_roughness_texture", m.metalness_roughness_texture);
     textures.enter(material, "normal_texture", m.normal_texture);
+    textures.enter(material, "specular_texture", m.specular_texture);
+    if (has_own_dielectric_f0(m)) material["dielectric_f0"] = numbers_of(m.dielectric_f0 * m.specular_color);
+    textures.enter(material, "dielectric_f0_texture", m.specular_color_texture);
     return material;
 }
 

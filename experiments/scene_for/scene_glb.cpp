@@ -1,5 +1,6 @@
 #include "experiments/scene_for/scene_glb.h"
 
+#include "core/scene/gltf/tangents.h"
 #include "experiments/scene_for/glb_file.h"
 #include "experiments/scene_for/scene_numbers.h"
 #include "experiments/scene_for/texture_png.h"
@@ -94,14 +95,34 @@ private:
         all["emissiveFactor"] = numbers_of(glm::min(material.emission / strength, 1.0f));
         if (strength > 1.0f)
             add_extension(all, "KHR_materials_emissive_strength", {{"emissiveStrength", number_of(strength)}});
-        if (material.specular != 1.0f)
-            add_extension(all, "KHR_materials_specular", {{"specularFactor", number_of(material.specular)}});
+        if (json specular = specular_of(material); !specular.empty())
+            add_extension(all, "KHR_materials_specular", std::move(specular));
+        if (material.dielectric_f0 != 0.04f)
+            add_extension(all, "KHR_materials_ior", {{"ior", index_of_refraction(material.dielectric_f0)}});
         if (material.is_unlit) add_extension(all, "KHR_materials_unlit", json::object());
         if (material.alpha_mode == AlphaMode::mask)
             all["alphaMode"] = "MASK", all["alphaCutoff"] = number_of(material.alpha_cutoff);
         // ssrlab draws both sides of everything: an engine that leaves out backs would show another scene.
         all["doubleSided"] = true;
         return all;
+    }
+
+    /// KHR_materials_specular, as far as it is not its default.
+    json specular_of(const Material& material) {
+        json specular = json::object();
+        if (material.specular != 1.0f) specular["specularFactor"] = number_of(material.specular);
+        if (material.specular_texture.texture >= 0) specular["specularTexture"] = slot_of(material.specular_texture);
+        if (material.specular_color != glm::vec3(1.0f))
+            specular["specularColorFactor"] = numbers_of(material.specular_color);
+        if (material.specular_color_texture.texture >= 0)
+            specular["specularColorTexture"] = slot_of(material.specular_color_texture);
+        return specular;
+    }
+
+    /// Of the reflectance at normal incidence, seen from air; 0 stands for an infinite one (KHR_materials_ior).
+    static double index_of_refraction(float f0) {
+        const double amplitude = std::sqrt(double(f0));
+        return f0 >= 1.0f ? 0.0 : (1.0 + amplitude) / (1.0 - amplitude);
     }
 
     void add_extension(json& to, const char* name, json value) {
@@ -126,7 +147,9 @@ private:
         json attributes = {{"POSITION", attribute(
                                             mesh, 3, [](const Vertex& v) { return v.position; }, true)},
                            {"NORMAL", attribute(mesh, 3, [](const Vertex& v) { return v.normal; })}};
-        if (scene_.materials[mesh.material].normal_texture.texture >= 0)
+        // A glTF's tangents are those of its coordinates; where the texture is turned, who reads it derives them.
+        const TextureSlot& normals = scene_.materials[mesh.material].normal_texture;
+        if (normals.texture >= 0 && !turns_tangents(normals.uv_transform))
             attributes["TANGENT"] = attribute(mesh, 4, [](const Vertex& v) { return v.tangent; });
         for (int set = 0; set < 2; ++set)
             if (std::ranges::any_of(mesh.vertices, [&](const Vertex& v) { return v.uv[set] != glm::vec2(0.0f); }))

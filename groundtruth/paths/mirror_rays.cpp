@@ -80,7 +80,8 @@ private:
         ++counts_.reflective;
         roughnesses_.push_back(first.surface.roughness);
         const ShadedPoint& surface = first.surface;
-        reflectances_.push_back(luminance(specular_f0(surface.base_color, surface.metalness, surface.specular)));
+        reflectances_.push_back(
+            luminance(specular_f0(surface.base_color, surface.metalness, surface.specular, surface.dielectric_f0)));
 
         const glm::vec3 normal = first.point.front_normal, direction = glm::reflect(view.direction, normal);
         const glm::vec3 origin = offset_origin(first.point.position, first.point.error, normal, direction);

@@ -122,6 +122,7 @@ void PathLanes::meet(int lane, const RTCRayHit& ray) {
         geometric_normal_.set(lane, surface.geometric_normal);
         normal_.set(lane, surface.normal);
         base_color_.set(lane, surface.base_color);
+        dielectric_f0_.set(lane, surface.dielectric_f0);
         metalness_[lane] = surface.metalness;
         roughness_[lane] = surface.roughness;
         specular_[lane] = surface.specular;
@@ -176,6 +177,7 @@ void PathLanes::split(int lane, unsigned parts) {
             .geometric_normal = geometric_normal_.get(lane),
             .normal = normal_.get(lane),
             .base_color = base_color_.get(lane),
+            .dielectric_f0 = dielectric_f0_.get(lane),
             .metalness = metalness_[lane],
             .roughness = roughness_[lane],
             .specular = specular_[lane],
@@ -207,6 +209,7 @@ void PathLanes::resume_branches() {
         geometric_normal_.set(lane, branch.geometric_normal);
         normal_.set(lane, branch.normal);
         base_color_.set(lane, branch.base_color);
+        dielectric_f0_.set(lane, branch.dielectric_f0);
         metalness_[lane] = branch.metalness;
         roughness_[lane] = branch.roughness;
         specular_[lane] = branch.specular;
@@ -220,7 +223,7 @@ void PathLanes::resume_branches() {
     }
 }
 
-template <bool has_lights, PathGoal goal>
+template <bool has_lights, PathGoal goal, bool has_dielectric_f0>
 void PathLanes::scatter() {
     const bool has_roulette = scene_.settings.russian_roulette;
     const ReflectionModel model = scene_.settings.model;
@@ -235,8 +238,12 @@ void PathLanes::scatter() {
         if constexpr (goal == PathGoal::lit_color)
             to_viewer = choose(is_lit_color, to_camera(camera, position_.get(lane), geometric_normal), to_viewer);
         const vec3 o = to_viewer * world_from_local;
-        const Lobes lobes =
-            make_lobes(base_color_.get(lane), metalness_[lane], roughness_[lane], specular_[lane], o, model);
+        FresnelTerms fresnel;
+        if constexpr (has_dielectric_f0)
+            fresnel = fresnel_terms(base_color_.get(lane), metalness_[lane], specular_[lane], dielectric_f0_.get(lane));
+        else
+            fresnel = fresnel_terms(base_color_.get(lane), metalness_[lane], specular_[lane]);
+        const Lobes lobes = make_lobes(base_color_.get(lane), metalness_[lane], roughness_[lane], fresnel, o, model);
         const float q = is_lit_color ? 0.0f : lobes.specular_probability;
         const float specular_share = is_lit_color ? 0.0f : 1.0f;       // the lit colour is without reflections
         const bool reflects = (continues_[lane] != 0) & (o.z > 0.0f);  // the viewer may be below the shading horizon
@@ -301,6 +308,16 @@ void PathLanes::trace_shadow_rays(uint32_t reached) {
     });
 }
 
+template <bool has_dielectric_f0>
+void PathLanes::scatter() {
+    constexpr PathGoal lit_color = PathGoal::lit_color, reflection = PathGoal::reflection;
+    const bool has_lights = !scene_.lights.empty();
+    if (goal_ == lit_color)
+        has_lights ? scatter<true, lit_color, has_dielectric_f0>() : scatter<false, lit_color, has_dielectric_f0>();
+    else
+        has_lights ? scatter<true, reflection, has_dielectric_f0>() : scatter<false, reflection, has_dielectric_f0>();
+}
+
 /// One segment of every path: to the next vertex, light there, and a new direction.
 void PathLanes::advance() {
     trace_rays();
@@ -308,10 +325,7 @@ void PathLanes::advance() {
     look_ahead();
     const uint32_t reached = bits_of(continues_) & ~std::exchange(resumed_, 0);  // branches took their light before
     if (has_lights) sample_lights();
-    if (goal_ == PathGoal::lit_color)
-        has_lights ? scatter<true, PathGoal::lit_color>() : scatter<false, PathGoal::lit_color>();
-    else
-        has_lights ? scatter<true, PathGoal::reflection>() : scatter<false, PathGoal::reflection>();
+    scene_.materials.any_dielectric_f0() ? scatter<true>() : scatter<false>();
     if (has_lights) trace_shadow_rays(reached);
     const uint32_t continuing = bits_of(continues_);
     for_each_bit(busy_ & ~continuing, [&](int lane) { end(lane); });

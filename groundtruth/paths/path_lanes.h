@@ -44,7 +44,9 @@ private:
     void leave(int lane);
     void meet(int lane, const RTCRayHit& ray);
     void sample_lights();
-    template <bool has_lights, PathGoal goal>
+    template <bool has_dielectric_f0>
+    void scatter();
+    template <bool has_lights, PathGoal goal, bool has_dielectric_f0>
     void scatter();
     void trace_shadow_rays(uint32_t reached);
     void look_ahead();
@@ -59,7 +61,7 @@ private:
     struct Branch {
         PixelEstimate* estimate;
         SobolSequence sequence;
-        vec3 direction, throughput, weight, position, error, geometric_normal, normal, base_color;
+        vec3 direction, throughput, weight, position, error, geometric_normal, normal, base_color, dielectric_f0;
         float metalness, roughness, specular, per_estimate, promise, part;
         uint32_t depth, pair, reversed_sample, is_specular;
     };
@@ -88,7 +90,7 @@ private:
     Lanes<uint32_t> is_on_screen_;  ///< what it met first
     // Of the vertex that it has reached:
     Lanes<uint32_t> continues_;  ///< 1 if there is one, and later if the path goes on from it, else 0
-    LanesVec3 position_, error_, geometric_normal_, normal_, base_color_;
+    LanesVec3 position_, error_, geometric_normal_, normal_, base_color_, dielectric_f0_;
     Lanes<float> metalness_, roughness_, specular_;
     LightLanes lights_;
     LanesVec3 direct_;  ///< what the light sample adds, if it is visible

@@ -34,7 +34,10 @@ bool prepare(const TracedScene& scene, FirstVertex& vertex) {
     vertex.world_from_local = basis_from_normal(hit.normal);
     const vec3 o = hit.view * vertex.world_from_local;
     if (o.z <= 0) return false;
-    vertex.lobes = make_lobes(hit.base_color, hit.metalness, hit.roughness, hit.specular, o, scene.settings.model);
+    const FresnelTerms fresnel = scene.materials.any_dielectric_f0()
+                                     ? fresnel_terms(hit.base_color, hit.metalness, hit.specular, hit.dielectric_f0)
+                                     : fresnel_terms(hit.base_color, hit.metalness, hit.specular);
+    vertex.lobes = make_lobes(hit.base_color, hit.metalness, hit.roughness, fresnel, o, scene.settings.model);
     vertex.light_cell = scene.lights.cell(hit.ray_origin, hit.geometric_normal);
     vertex.wants_diffuse = scene.settings.diffuse && vertex.lobes.has_diffuse;
     vertex.wants_specular = scene.settings.specular && vertex.lobes.has_specular;
@@ -225,8 +228,10 @@ void PathTracer::State::add_composite_terms(FirstHit& hit) const {
     const float mu_o = dot(hit.normal, hit.view);
     if (mu_o <= 0 || hit.is_unlit) return;
     const glm::vec2 ab = read_split_sum(*split_sum, mu_o, hit.roughness);
-    hit.reflectance = specular_f0(hit.base_color, hit.metalness, hit.specular) * ab.x +
-                      specular_f90(hit.metalness, hit.specular) * ab.y;
+    const glm::vec3 f0 = scene.materials.any_dielectric_f0()
+                             ? specular_f0(hit.base_color, hit.metalness, hit.specular, hit.dielectric_f0)
+                             : specular_f0(hit.base_color, hit.metalness, hit.specular);
+    hit.reflectance = f0 * ab.x + specular_f90(hit.metalness, hit.specular) * ab.y;
 }
 
 /// What paths from pixels all over the image take down, in an order that no number of threads changes. Each pixel
@@ -318,6 +323,7 @@ FirstHit PathTracer::first_hit(unsigned x, unsigned y) const {
         hit.metalness = surface.metalness;
         hit.roughness = surface.roughness;
         hit.specular = surface.specular;
+        hit.dielectric_f0 = surface.dielectric_f0;
         hit.emitted = surface.emitted;
         hit.is_unlit = surface.is_unlit;
     };

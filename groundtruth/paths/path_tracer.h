@@ -33,6 +33,7 @@ struct FirstHit {
     glm::vec3 view{0.0f};              ///< unit, towards the camera
     glm::vec3 base_color{0.0f};
     float metalness = 0.0f, roughness = 0.0f, specular = 0.0f;
+    glm::vec3 dielectric_f0{0.0f};        ///< see specular_f0()
     unsigned material = 0, instance = 0;  ///< indices into the scene
     glm::vec3 emitted{0.0f};              ///< towards the camera; where nothing is hit, the environment
     glm::vec3 position_error{0.0f};       ///< half extent of the box that holds the exact hit (m)

@@ -1,5 +1,6 @@
 #include "groundtruth/scene/material_table.h"
 
+#include "core/scene/texture_slots.h"
 #include "groundtruth/scene/alpha_mask.h"
 
 namespace {
@@ -26,10 +27,13 @@ MaterialTable::MaterialTable(const Scene& scene, const EmbreeScene& geometry, bo
         surface.metalness = material.metalness;
         surface.roughness = material.roughness;
         surface.specular = material.is_unlit ? 0.0f : material.specular;
+        surface.dielectric_f0 = glm::min(material.dielectric_f0 * material.specular_color, 1.0f);
         surface.emitted = material.is_unlit ? material.base_color : material.emission;
         constants.varies = evaluate_everything || has_color || material.metalness_roughness_texture.texture >= 0 ||
-                           material.normal_texture.texture >= 0 || material.emission_texture.texture >= 0;
+                           material.normal_texture.texture >= 0 || material.emission_texture.texture >= 0 ||
+                           material.specular_texture.texture >= 0 || material.specular_color_texture.texture >= 0;
         any_varies_ |= constants.varies;
+        any_dielectric_f0_ |= has_own_dielectric_f0(material);
         constants.emission_varies = evaluate_everything || material.alpha_mode == AlphaMode::mask ||
                                     (material.is_unlit ? has_color : material.emission_texture.texture >= 0);
         constants.emits = surface.emitted != glm::vec3(0.0f);
@@ -60,8 +64,7 @@ void MaterialTable::prefetch_texels(uint32_t instance_index, uint32_t triangle, 
     if (!constants_[instance.material].varies) return;
     const Material& material = scene_.materials[instance.material];
     const Corners at = corners(instance_index, triangle, u, v);
-    for (const TextureSlot* slot : {&material.base_color_texture, &material.metalness_roughness_texture,
-                                    &material.normal_texture, &material.emission_texture})
+    for (const TextureSlot* slot : texture_slots(material))
         if (slot->texture >= 0) textures_.prefetch(slot->texture, at.uv(*slot));
 }
 
@@ -111,7 +114,10 @@ ShadedPoint MaterialTable::properties(const Material& material, const Corners& c
     point.base_color = material.is_unlit ? glm::vec3(0.0f) : color;
     point.metalness = material.metalness * metalness_roughness.b;
     point.roughness = material.roughness * metalness_roughness.g;
-    point.specular = material.is_unlit ? 0.0f : material.specular;
+    point.specular = material.is_unlit ? 0.0f : material.specular * sample(material.specular_texture, corners).a;
+    point.dielectric_f0 = glm::min(
+        material.dielectric_f0 * material.specular_color * glm::vec3(sample(material.specular_color_texture, corners)),
+        1.0f);
     point.emitted =
         material.is_unlit ? color : material.emission * glm::vec3(sample(material.emission_texture, corners));
     return point;

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/scene/scene.h"
+#include "core/shared/brdf.h"
 #include "groundtruth/scene/embree_scene.h"
 #include "groundtruth/scene/texture_lookup.h"
 
@@ -14,6 +15,7 @@ struct ShadedPoint {
     glm::vec3 normal;            ///< shading normal, of any length; see unit_normal()
     glm::vec3 base_color;
     float metalness = 0, roughness = 0, specular = 0;
+    glm::vec3 dielectric_f0{usual_dielectric_f0};  ///< see specular_f0()
     glm::vec3 emitted;  ///< radiance towards the viewer (W sr^-1 m^-2)
     bool is_unlit = false;
 };
@@ -48,9 +50,13 @@ public:
     /// Whether any material has textures or vertex colours.
     bool any_varies() const { return any_varies_; }
 
+    /// Whether ShadedPoint::dielectric_f0 is ever another than 0.04.
+    bool any_dielectric_f0() const { return any_dielectric_f0_; }
+
 private:
     struct Constants {
-        ShadedPoint surface;  ///< base colour, metalness, roughness, specular and emission, if no texture varies them
+        ShadedPoint
+            surface;  ///< base colour, metalness, roughness, reflectances and emission, if no texture varies them
         bool varies, emission_varies, emits, emits_behind;
     };
     struct Corners {
@@ -73,7 +79,7 @@ private:
     const EmbreeScene& geometry_;
     TiledTextures textures_;
     std::vector<Constants> constants_;
-    bool any_varies_ = false;
+    bool any_varies_ = false, any_dielectric_f0_ = false;
 };
 
 /// Completes the properties of a material to those of a point, turned to the viewer.
@@ -91,6 +97,7 @@ inline ShadedPoint MaterialTable::facing(const SurfacePoint& surface, const Shad
             properties.metalness,
             properties.roughness,
             properties.specular,
+            properties.dielectric_f0,
             is_dark ? glm::vec3(0.0f) : properties.emitted,
             properties.is_unlit};
 }

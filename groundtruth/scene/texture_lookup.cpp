@@ -1,5 +1,7 @@
 #include "groundtruth/scene/texture_lookup.h"
 
+#include "core/scene/texture_slots.h"
+
 #include "core/png.h"
 
 #include <sys/mman.h>
@@ -135,9 +137,7 @@ TiledTextures::TiledTextures(const Scene& scene) : textures_(scene.textures.size
             count += size_t(tiles.x) * tiles.y * tile_side * tile_side * texture.channel_bytes;
     };
     for (const Material& material : scene.materials)
-        for (const TextureSlot* slot : {&material.base_color_texture, &material.metalness_roughness_texture,
-                                        &material.normal_texture, &material.emission_texture})
-            add(*slot);
+        for (const TextureSlot* slot : texture_slots(material)) add(*slot);
     if (count == 0) return;
 
     const size_t bytes = (count * sizeof(uint32_t) + huge_page - 1) / huge_page * huge_page;

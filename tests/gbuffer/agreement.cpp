@@ -86,11 +86,13 @@ Agreement compare_with_rays(const Scene& scene, const SceneCamera& camera, const
             // Shading normals and textures change over the surface: 1/100 for where in the pixel they are read.
             result.normal += angle(hit.normal, g.normal.pixel(x, y)) < 0.01f;
             const float *c = g.base_color.pixel(x, y), *e = g.emission.pixel(x, y);
+            const float usual_f0[3] = {usual_dielectric_f0, usual_dielectric_f0, usual_dielectric_f0};
+            const float* own_f0 = g.dielectric_f0.values.empty() ? usual_f0 : g.dielectric_f0.pixel(x, y);
             const glm::vec4 color = hit.is_unlit ? glm::vec4(0) : glm::vec4(hit.base_color, hit.metalness);
             const float difference =
                 glm::length(color - glm::vec4(c[0], c[1], c[2], c[3])) + angle(hit.emitted, e) +
                 std::abs(hit.roughness - (hit.is_unlit ? hit.roughness : g.normal.pixel(x, y)[3])) +
-                std::abs(hit.specular - e[3]);
+                std::abs(hit.specular - e[3]) + angle(hit.dielectric_f0, own_f0);
             result.surface += difference < 0.02f;
         }
     return result;

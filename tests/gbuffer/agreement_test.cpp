@@ -87,6 +87,13 @@ TEST(agreement, keep_all_shaders_see_the_same) {
                      "keep all");
 }
 
+TEST(agreement, of_dielectrics_with_reflectances_of_their_own) {
+    const Scene scene = dielectric_scene();
+    for (const bool keeps_all : {false, true})
+        expect_agreement(compare_with_rays(scene, scene.camera("main"), view_of({160, 90}), {.keep_all = keeps_all}),
+                         "dielectrics");
+}
+
 TEST(agreement, flattened_nodes_have_the_normals_of_what_they_are_flattened_to) {
     Scene scene = varied_scene();
     scene.animation.clear();

@@ -202,8 +202,11 @@ TEST(fallback, agrees_with_the_cpu) {
         }
 }
 
-TEST(lit_direct, agrees_with_the_formula_under_a_directional_light) {
-    Scene scene = varied_scene();
+class lit_direct_of : public testing::TestWithParam<Scene (*)()> {};
+INSTANTIATE_TEST_SUITE_P(scenes, lit_direct_of, testing::Values(varied_scene, dielectric_scene));
+
+TEST_P(lit_direct_of, a_directional_light_agrees_with_the_formula) {
+    Scene scene = GetParam()();
     scene.lights.erase(scene.lights.begin());
     scene.lights.pop_back();
     scene.environment = {.type = Environment::Type::constant, .color = {0, 0, 0}};
@@ -220,7 +223,11 @@ TEST(lit_direct, agrees_with_the_formula_under_a_directional_light) {
             const float mu_i = glm::dot(glm::vec3(n[0], n[1], n[2]), i);
             glm::vec3 expected(e[0], e[1], e[2]);
             if (mu_i > 0 && glm::dot(glm::vec3(gn[0], gn[1], gn[2]), i) > 0) {
-                const float fresnel = glm::mix(0.04f * e[3], e[3], schlick_weight(glm::dot(i, glm::normalize(i + o))));
+                const glm::vec3 f0 =
+                    g.dielectric_f0.values.empty() ? glm::vec3(0.04f) : g.dielectric_f0.rgb(size_t(y) * 64 + x);
+                const float largest = std::max({f0.x, f0.y, f0.z});
+                const float fresnel =
+                    glm::mix(largest * e[3], e[3], schlick_weight(glm::dot(i, glm::normalize(i + o))));
                 expected +=
                     (1 - c[3]) * (1 - fresnel) * glm::vec3(c[0], c[1], c[2]) / pi * mu_i * scene.lights[0].intensity;
                 ++lit;

@@ -94,6 +94,20 @@ Scene varied_scene() {
     return scene;
 }
 
+Scene dielectric_scene() {
+    Scene scene = varied_scene();
+    scene.materials[0].dielectric_f0 = 0.1724f;  // an index of refraction of 2.42
+    Material& textured = scene.materials[1];
+    textured.dielectric_f0 = 1.0f, textured.specular_color = {2.0f, 0.5f, 0.1f};
+    textured.specular_color_texture = {0, 1};
+    textured.metalness = 0.5f;
+    scene.materials[2].specular_texture = {3};  // whose alpha is 1
+    scene.materials[2].specular_texture.uv_transform = glm::mat3(2.0f);
+    scene.materials[3].specular_texture = {1}, scene.materials[3].metalness = 0;
+    scene.materials[4].dielectric_f0 = 0.0201f;
+    return scene;
+}
+
 Device& test_device() {
     static Device device;
     return device;

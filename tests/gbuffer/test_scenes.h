@@ -11,6 +11,8 @@ Mesh quad(unsigned material, glm::vec3 corner, glm::vec3 u, glm::vec3 v);  ///< 
 /// mirrored (negative determinant). Camera "main" moves, "orthographic" stands still. All in an environment with a
 /// gradient.
 Scene varied_scene();
+/// The same with dielectrics of other reflectances than 0.04, by factors and textures, coloured and above 1.
+Scene dielectric_scene();
 
 Device& test_device();  ///< one for all tests, validated as SSRLAB_VALIDATE says
 

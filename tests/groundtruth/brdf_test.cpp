@@ -144,27 +144,36 @@ TEST(brdf, weights_stay_in_range_at_grazing_views) {
 
 TEST(brdf, lobe_evaluation_agrees_with_the_shared_formulas) {
     const vec3 color(0.9f, 0.5f, 0.2f);
-    for (const float metalness : {0.0f, 0.3f, 1.0f})
-        for (const float roughness : {0.1f, 0.5f, 1.0f}) {
-            const vec3 o = direction(0.6, 0), i = direction(0.4, 2.6), m = normalize(o + i);
-            const float specular = 0.8f, alpha = ggx_alpha(roughness), w = schlick_weight(dot(o, m));
-            const Lobes lobes = make_lobes(color, metalness, roughness, specular, o, ReflectionModel::gltf);
-            const LobeValues found = evaluate(lobes, i),
-                             swapped = evaluate(
-                                 make_lobes(color, metalness, roughness, specular, i, ReflectionModel::gltf), o);
-            // glTF 2.0, Appendix B, written out; KHR_materials_specular scales the dielectric Fresnel term.
-            const float dielectric = specular * (0.04f + 0.96f * w), lobe = ggx_specular(o, i, alpha);
-            for (int channel = 0; channel < 3; ++channel) {
-                const float metal = color[channel] + (1 - color[channel]) * w;
-                EXPECT_NEAR(found.diffuse[channel], (1 - metalness) * (1 - dielectric) * color[channel] / pi * i.z,
-                            1e-6f);
-                EXPECT_NEAR(found.specular[channel], ((1 - metalness) * dielectric + metalness * metal) * lobe * i.z,
-                            1e-5f * (1 + lobe));
-                EXPECT_NEAR(found.specular[channel] / i.z, swapped.specular[channel] / o.z,
-                            1e-5f * (1 + lobe));  // reciprocity
+    for (const vec3 f0 : {vec3(0.04f), vec3(0.9f, 0.3f, 0.02f)})  // of the dielectric
+        for (const float metalness : {0.0f, 0.3f, 1.0f})
+            for (const float roughness : {0.1f, 0.5f, 1.0f}) {
+                const vec3 o = direction(0.6, 0), i = direction(0.4, 2.6), m = normalize(o + i);
+                const float specular = 0.8f, alpha = ggx_alpha(roughness), w = schlick_weight(dot(o, m));
+                const FresnelTerms fresnel = f0 == vec3(0.04f) ? fresnel_terms(color, metalness, specular)
+                                                               : fresnel_terms(color, metalness, specular, f0);
+                const Lobes lobes = make_lobes(color, metalness, roughness, fresnel, o, ReflectionModel::gltf);
+                const LobeValues found = evaluate(lobes, i),
+                                 swapped = evaluate(
+                                     make_lobes(color, metalness, roughness, fresnel, i, ReflectionModel::gltf), o);
+                // glTF 2.0, Appendix B, written out; KHR_materials_specular scales the dielectric Fresnel term, and
+                // diffuse light lacks the largest of its colours.
+                const auto dielectric_of = [&](float reflectance) {
+                    return specular * (reflectance + (1 - reflectance) * w);
+                };
+                const float lost = dielectric_of(std::max({f0.x, f0.y, f0.z})), lobe = ggx_specular(o, i, alpha);
+                for (int channel = 0; channel < 3; ++channel) {
+                    const float metal = color[channel] + (1 - color[channel]) * w;
+                    const float dielectric = dielectric_of(f0[channel]);
+                    EXPECT_NEAR(found.diffuse[channel], (1 - metalness) * (1 - lost) * color[channel] / pi * i.z,
+                                1e-6f);
+                    EXPECT_NEAR(found.specular[channel],
+                                ((1 - metalness) * dielectric + metalness * metal) * lobe * i.z, 1e-5f * (1 + lobe));
+                    EXPECT_NEAR(found.specular[channel] / i.z, swapped.specular[channel] / o.z,
+                                1e-5f * (1 + lobe));  // reciprocity
+                }
+                EXPECT_NEAR(found.specular_pdf, ggx_reflection_bounded_pdf(o, i, alpha),
+                            1e-5f * (1 + found.specular_pdf));
             }
-            EXPECT_NEAR(found.specular_pdf, ggx_reflection_bounded_pdf(o, i, alpha), 1e-5f * (1 + found.specular_pdf));
-        }
 }
 
 TEST(brdf, basis_is_orthonormal_and_right_handed) {

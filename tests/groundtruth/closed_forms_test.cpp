@@ -73,6 +73,30 @@ TEST(golden_closed_forms, ggx_white_furnace) {  // 2, 14
     EXPECT_NEAR(double(table["E"].back().back()), analytic("ggx_alpha1_normal_albedo"), 1e-8);
 }
 
+/// A mirror of black dielectric below a white sky shows F0 = ((n - 1) / (n + 1))^2 from straight above, and all of the
+/// sky at grazing angles, whatever its index of refraction n is.
+TEST(golden_closed_forms, dielectrics_reflect_by_their_index_of_refraction) {
+    for (const float f0 : {0.0201f, 0.04f, 0.1724f, 1.0f}) {  // n = 1.33, 1.5, 2.42, infinite
+        TestScene scene;
+        scene.scene.environment.color = glm::vec3(1.0f);
+        add_floor(scene, scene.add({.base_color = glm::vec3(0.0f),
+                                    .metalness = 0.0f,
+                                    .roughness = 0.0f,
+                                    .specular_color = {1.0f, 0.5f, 0.0f},
+                                    .dielectric_f0 = f0}));
+        for (const float cosine : {1.0f, 0.1f}) {
+            const PixelMoments pixel = render(scene, looking_at_origin(up, {1, 0, 0}, cosine), 512);
+            const double w = std::pow(1.0 - cosine, 5);
+            for (int c = 0; c < 3; ++c) {
+                const double own = f0 * std::array{1.0, 0.5, 0.0}[size_t(c)];
+                // alpha is 1e-3, not 0: at a cosine of 0.1 the lobe's width moves Fresnel's term by some 1e-4.
+                EXPECT_NEAR(pixel.specular.mean[c], own + (1 - own) * w, 1e-3) << f0 << ", " << cosine;
+            }
+            EXPECT_EQ(pixel.diffuse.mean, glm::dvec3(0.0));
+        }
+    }
+}
+
 TEST(golden_closed_forms, dielectric_and_metal_furnace) {  // 3
     const nlohmann::json table = golden_table("brdf_lut"), furnace = table["gltf_dielectric_furnace"];
     for (size_t row = 0; row < table["perceptualRoughness"].size(); ++row) {

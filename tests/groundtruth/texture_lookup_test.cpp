@@ -1,5 +1,6 @@
 // Textures as paths read them are those of the scene.
 #include "groundtruth/scene/texture_lookup.h"
+#include "core/scene/texture_slots.h"
 
 #include <gtest/gtest.h>
 #include <cmath>
@@ -36,9 +37,8 @@ TEST(TiledTextures, HoldTheTexelsOfTheScene) {
     // Each channel of a material reads some; the first texture is read by none, and not copied.
     for (int i = 1; i < int(scene.textures.size()); ++i) {
         Material material;
-        TextureSlot* const channels[] = {&material.base_color_texture, &material.metalness_roughness_texture,
-                                         &material.normal_texture, &material.emission_texture};
-        channels[i % 4]->texture = i;
+        const auto channels = texture_slots(material);
+        channels[size_t(i) % channels.size()]->texture = i;
         scene.materials.push_back(material);
     }
     const TiledTextures tiled(scene);

@@ -31,11 +31,13 @@ TEST_F(Gltf, MaterialsFollowTheExtensions) {
          {"extensions",
           {{"KHR_materials_emissive_strength", {{"emissiveStrength", 8}}},
            {"KHR_materials_specular", {{"specularFactor", 0.5}}},
-           {"KHR_materials_sheen", nlohmann::json::object()}}}},
+           {"KHR_materials_sheen", {{"sheenColorFactor", {0, 0, 1}}}}}}},
         {{"name", "flat"}, {"extensions", {{"KHR_materials_unlit", nlohmann::json::object()}}}}};
     writer.json["extensionsUsed"] = {"KHR_materials_emissive_strength", "KHR_materials_specular", "KHR_materials_unlit",
                                      "KHR_materials_sheen"};
-    writer.add_mesh_node(writer.quad());
+    nlohmann::json primitive = writer.quad();
+    primitive["material"] = 0;
+    writer.add_mesh_node(primitive);
     const Scene scene = load();
     const Material& m = scene.materials.at(0);
     expect_near(m.base_color, {0.5f, 0.25f, 1.0f}, 0);

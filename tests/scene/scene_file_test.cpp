@@ -130,7 +130,8 @@ TEST(Scenes, AllOfOursLoadWithoutWarning) {
 
 TEST_F(SceneFile, FurtherFilesAreMergedAndWarningsOfTheHiddenDropped) {
     GltfWriter writer;
-    writer.json["materials"] = {{{"name", "water"}, {"alphaMode", "BLEND"}}};
+    writer.json["materials"] = {
+        {{"name", "water"}, {"alphaMode", "BLEND"}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.25}}}}}};
     nlohmann::json quad = writer.quad();
     quad["material"] = 0;
     writer.add_mesh_node(quad);

@@ -37,6 +37,7 @@ FrostbiteReference::FrostbiteReference(FrostbiteBench& bench, const std::vector<
       geometric_normal_(bench.graph.download(bench.gbuffer.geometric_normal)),
       base_color_(bench.graph.download(bench.gbuffer.base_color)),
       emission_(bench.graph.download(bench.gbuffer.emission)),
+      dielectric_f0_(bench.graph.download(bench.gbuffer.dielectric_f0)),
       motion_(bench.graph.download(bench.gbuffer.motion)) {}
 
 FrostbiteReference::Surface FrostbiteReference::surface(glm::uvec2 pixel) const {
@@ -50,7 +51,7 @@ FrostbiteReference::Surface FrostbiteReference::surface(glm::uvec2 pixel) const 
     s.mu_o = dot(s.n, s.o);
     s.alpha = std::pow(normal_.pixel(pixel.x, pixel.y)[3], 2);
     const double metalness = base_color_.pixel(pixel.x, pixel.y)[3], specular = emission_.pixel(pixel.x, pixel.y)[3];
-    s.f0 = glm::mix(dvec3(0.04 * specular), rgb(base_color_, pixel), metalness);
+    s.f0 = glm::mix(rgb(dielectric_f0_, pixel) * specular, rgb(base_color_, pixel), metalness);
     s.f90 = glm::mix(specular, 1.0, metalness);
     return s;
 }

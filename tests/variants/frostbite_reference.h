@@ -41,5 +41,5 @@ private:
     const Environment& environment_;
     glm::dmat4 view_from_clip_;
     glm::dmat3 view_from_world_;
-    HostImage depth_, normal_, geometric_normal_, base_color_, emission_, motion_;
+    HostImage depth_, normal_, geometric_normal_, base_color_, emission_, dielectric_f0_, motion_;
 };

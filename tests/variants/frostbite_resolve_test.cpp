@@ -26,7 +26,9 @@ SyntheticHit hills(const CameraRay& ray) {
             .normal = world_from_view * normalize(normal),
             .roughness = 0.45f + 0.2f * std::sin(11 * at.x + 5 * at.y),
             .metalness = 0.5f + 0.5f * std::sin(4 * at.x),
-            .specular = 0.8f};
+            .specular = 0.8f,
+            .lit = {},
+            .dielectric_f0 = {0.5f + 0.4f * std::sin(3 * at.y), 0.1f, 0.02f}};
 }
 
 glm::dvec3 gradient(glm::dvec2 place) {
@@ -208,7 +210,7 @@ TEST_F(FrostbiteResolve, AppliesTheReflectanceBeforeOrAfterTheFilter) {
                 const SyntheticHit hit = hills(ray);
                 const glm::vec2 ab =
                     read_split_sum(default_split_sum_table(), -dot(hit.normal, ray.direction), hit.roughness);
-                const glm::vec3 f0 = specular_f0(glm::vec3(1), hit.metalness, hit.specular);
+                const glm::vec3 f0 = specular_f0(glm::vec3(1), hit.metalness, hit.specular, hit.dielectric_f0);
                 const glm::vec3 reflectance = f0 * ab.x + specular_f90(hit.metalness, hit.specular) * ab.y;
                 for (int c = 0; c < 3; ++c)
                     ASSERT_NEAR(found[false].pixel(x, y)[c], after[c] * reflectance[c], 1e-4f * (1 + after[c]));

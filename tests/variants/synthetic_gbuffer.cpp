@@ -17,7 +17,7 @@ GBuffer upload_gbuffer(PassGraph& graph, const CameraPose& pose, const CameraDat
                        const SyntheticScene& scene) {
     const glm::uvec2 extent = graph.extent();
     HostImage depth(extent, 1, camera.depth.z), normal(extent, 4), base_color(extent, 4), emission(extent, 4),
-        lit(extent, 4);
+        lit(extent, 4), dielectric_f0(extent, 4);
     for (unsigned y = 0; y < extent.y; ++y)
         for (unsigned x = 0; x < extent.x; ++x) {
             const CameraRay ray = camera_ray(pose, extent, glm::vec2(x, y) + 0.5f + glm::vec2(camera.jitter));
@@ -28,6 +28,7 @@ GBuffer upload_gbuffer(PassGraph& graph, const CameraPose& pose, const CameraDat
             set_pixel(normal, x, y, glm::vec4(hit.normal, hit.roughness));
             set_pixel(base_color, x, y, glm::vec4(1.0f, 1.0f, 1.0f, hit.metalness));
             set_pixel(emission, x, y, glm::vec4(0.0f, 0.0f, 0.0f, hit.specular));
+            set_pixel(dielectric_f0, x, y, glm::vec4(hit.dielectric_f0, 0.0f));
         }
     GBuffer gbuffer;
     const auto upload = [&](Image& image, const char* name, Format format, const HostImage& pixels) {
@@ -39,6 +40,8 @@ GBuffer upload_gbuffer(PassGraph& graph, const CameraPose& pose, const CameraDat
     upload(gbuffer.geometric_normal, "geometric_normal", Format::rgba32f, normal);
     upload(gbuffer.base_color, "base_color", Format::rgba32f, base_color);
     upload(gbuffer.emission, "emission", Format::rgba32f, emission);
+    upload(gbuffer.dielectric_f0, "dielectric_f0", Format::rgba32f, dielectric_f0);
+    gbuffer.has_dielectric_f0 = true;
     upload(gbuffer.lit, "lit", Format::rgba32f, lit);
     upload(gbuffer.motion, "motion", Format::rg32f, HostImage(extent, 2));
     upload(gbuffer.material_id, "material_id", Format::r32ui, HostImage(extent, 1, 1.0f));

@@ -11,6 +11,7 @@ struct SyntheticHit {
     glm::vec3 normal{0, 0, 1};                                ///< world space, geometric and shading
     float roughness = 1, metalness = 0, specular = 0;
     glm::vec3 lit{0};
+    glm::vec3 dielectric_f0{0.04f};
 };
 using SyntheticScene = std::function<SyntheticHit(const CameraRay&)>;
 

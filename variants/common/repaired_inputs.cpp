@@ -20,6 +20,7 @@ constexpr RepairedImage images[] = {{&GBuffer::depth, Kind::depth},
                                     {&GBuffer::geometric_normal, Kind::direction},
                                     {&GBuffer::base_color, Kind::value},
                                     {&GBuffer::emission, Kind::value},
+                                    {&GBuffer::dielectric_f0, Kind::value},
                                     {&GBuffer::motion, Kind::value},
                                     {&GBuffer::lit, Kind::value},
                                     {&GBuffer::fallback, Kind::value}};
@@ -31,7 +32,7 @@ RepairedInputs::RepairedInputs(PassGraph& graph, const GBuffer& gbuffer, bool is
     if (!is_wanted) return;
     for (const auto& [member, kind] : images) {
         const Image& given = gbuffer.*member;
-        if (!given.storage) continue;
+        if (!given.storage || (member == &GBuffer::dielectric_f0 && !gbuffer.has_dielectric_f0)) continue;
         const Image repaired = graph.image("repaired_" + given.name, given.format);
         graph.fragment("common/repair_image.frag")
             .read(given.as("given"))

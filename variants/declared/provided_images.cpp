@@ -14,6 +14,7 @@ const std::map<std::string, Image GBuffer::*> of_gbuffer = {
     {"normal", &GBuffer::normal},
     {"base_color", &GBuffer::base_color},
     {"emission", &GBuffer::emission},
+    {"dielectric_f0", &GBuffer::dielectric_f0},
     {"motion", &GBuffer::motion},
     {"material_id", &GBuffer::material_id},
     {"previous_depth", &GBuffer::previous_depth},

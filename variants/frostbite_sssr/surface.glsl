@@ -3,6 +3,7 @@
 #define FROSTBITE_SSSR_SURFACE_GLSL
 #include "common/ggx_lobe.h"
 #include "common/mirror_ray.glsl"
+#include "core/shaders/gbuffer/dielectric_f0.glsl"
 #include "core/shaders/gbuffer/split_sum.glsl"
 
 struct Surface {
@@ -25,7 +26,7 @@ Surface surface_of(ivec2 pixel) {
     surface.o = -view_direction(surface.position) * surface.view_from_local;
     surface.roughness = texelFetch(normal, pixel, 0).w;
     surface.alpha = ggx_alpha(surface.roughness);
-    surface.f0 = specular_f0(color_metalness.rgb, color_metalness.w, specular);
+    surface.f0 = specular_f0(color_metalness.rgb, color_metalness.w, specular, dielectric_f0_at(pixel));
     surface.f90 = specular_f90(color_metalness.w, specular);
     return surface;
 }

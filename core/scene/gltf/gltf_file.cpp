@@ -82,6 +82,16 @@ struct PartsOfOurs {
     }
 };
 
+/// As the JSON has them: tinygltf 2.7 drops channels without a node.
+void find_animated_properties(const json& root, GltfFile& file) {
+    for (const json& animation : root.value("animations", json::array()))
+        for (const json& channel : animation["channels"]) {
+            static const json::json_pointer place("/target/extensions/KHR_animation_pointer/pointer");
+            if (channel.contains(place))
+                file.animated_properties.push_back({animation.value("name", ""), channel.at(place).get<std::string>()});
+        }
+}
+
 std::string one_line(std::string text) {
     while (!text.empty() && (text.back() == '\n' || text.back() == '.')) text.pop_back();
     std::ranges::replace(text, '\n', ';');
@@ -124,6 +134,7 @@ GltfFile read_gltf(const std::filesystem::path& path) {
     check_types(root, file.name());
     check_required_extensions(root, file.name());
     warn_of_extensions(root, file);
+    find_animated_properties(root, file);
 
     // As text and in both documents, and each object as the largest of tinygltf's structures.
     constexpr double copies = 3;

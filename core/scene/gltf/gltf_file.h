@@ -11,6 +11,11 @@
 #include <string>
 #include <vector>
 
+/// A property that KHR_animation_pointer moves.
+struct AnimatedProperty {
+    std::string animation, pointer;  ///< its name; a JSON pointer (RFC 6901)
+};
+
 /// A parsed glTF file. The files gltf_*.cpp turn its parts into those of a Scene.
 struct GltfFile {
     std::filesystem::path path;
@@ -18,6 +23,7 @@ struct GltfFile {
     std::vector<std::span<const uint8_t>> buffers;          ///< of model.bufferViews; empty where no view shows one
     std::vector<std::shared_ptr<const std::string>> bytes;  ///< what `buffers` point into
     std::set<SceneWarning> warnings;
+    std::vector<AnimatedProperty> animated_properties;
     MemoryShare memory = {};  ///< of the file and its buffers, until they are a Scene
 
     std::string name() const { return path.string(); }

@@ -1,83 +1,67 @@
-#include "core/scene/gltf/gltf_parts.h"
-#include "core/scene/gltf/gltf_texture.h"
-#include "core/scene/gltf/gltf_value.h"
+#include "core/scene/gltf/gltf_material.h"
 
 #include "core/error.h"
 #include "core/near_miss.h"
+#include "core/scene/gltf/gltf_parts.h"
 #include "core/scene/ranges.h"
 
 #include <algorithm>
 #include <cfloat>
+#include <cstring>
 
 namespace {
-const tinygltf::Value* find_extension(const tinygltf::ExtensionMap& extensions, const char* name) {
-    const auto found = extensions.find(name);
-    return found == extensions.end() ? nullptr : &found->second;
+/// What messages call a material: by its name, and by its place where others have that name, too.
+std::string label_of(const GltfFile& file, size_t index, const std::string& name) {
+    const std::string label = "material '" + shortened(name) + "'";
+    const auto& all = file.model.materials;
+    const bool is_shared = std::ranges::count(all, all[index].name, &tinygltf::Material::name) > 1;
+    return is_shared && !all[index].name.empty() ? label + " (materials[" + std::to_string(index) + "])" : label;
 }
 
-void read_alpha(GltfFile& file, const tinygltf::Material& source, const std::string& what, Material& material) {
-    if (source.alphaMode == "MASK")
+/// BLEND is decided by cut_blended_materials(), once textures and vertices are known.
+void read_alpha(const MaterialSource& source, Material& material) {
+    const std::string& mode = source.gltf.alphaMode;
+    if (mode == "MASK")
         material.alpha_mode = AlphaMode::mask;
-    else if (source.alphaMode == "BLEND")
-        file.warn("The " + what + " is blended (alphaMode BLEND) and drawn opaque.");
-    else if (source.alphaMode != "OPAQUE")
-        fail(file.name(), ": ", what, " has the unknown alphaMode '", source.alphaMode,
+    else if (mode != "OPAQUE" && mode != "BLEND")
+        fail(source.file.name(), ": ", source.what, " has the unknown alphaMode '", mode,
              "'; allowed are OPAQUE, MASK and BLEND");
-    material.alpha_cutoff = checked_number(file, source.alphaCutoff, 0.0, FLT_MAX, what + ": alphaCutoff");
+    material.alpha_cutoff =
+        checked_number(source.file, source.gltf.alphaCutoff, 0.0, FLT_MAX, source.what + ": alphaCutoff");
 }
 
-void read_extensions(GltfFile& file, const tinygltf::Material& source, const std::string& what, Material& material) {
-    if (const auto* strength = find_extension(source.extensions, "KHR_materials_emissive_strength")) {
-        const float factor = number_member(file, *strength, "emissiveStrength", 1.0f, what);
-        material.emission *= checked_number(file, factor, 0.0, FLT_MAX, what + ": emissiveStrength");
-        for (int i = 0; i < 3; ++i)
-            checked_number(file, material.emission[i], 0.0, any_radiance,
-                           what + ": the product of emissiveFactor and emissiveStrength");
-    }
-    if (const auto* specular = find_extension(source.extensions, "KHR_materials_specular")) {
-        const float factor = number_member(file, *specular, "specularFactor", 1.0f, what);
-        material.specular = checked_number(file, factor, 0.0, 1.0, what + ": specularFactor");
-        for (const char* key : {"specularTexture", "specularColorFactor", "specularColorTexture"})
-            if (specular->IsObject() && specular->Has(key))
-                file.warn("The " + what + " has a " + key + " (KHR_materials_specular), which is ignored.");
-    }
-    material.is_unlit = source.extensions.contains("KHR_materials_unlit");
-    if (const auto* transmission = find_extension(source.extensions, "KHR_materials_transmission"))
-        if (number_member(file, *transmission, "transmissionFactor", 0.0f, what) > 0.0f)
-            file.warn("The " + what + " transmits light (KHR_materials_transmission) and is drawn opaque.");
-}
-
-Material read_material(GltfFile& file, const tinygltf::Material& source, size_t index, GltfTextures& textures) {
+Material read_material(GltfFile& file, size_t index, GltfTextures& textures) {
     Material material;
-    material.name = source.name.empty() ? "material_" + std::to_string(index) : source.name;
-    const std::string what = "material '" + shortened(material.name) + "'";
-    const auto& pbr = source.pbrMetallicRoughness;
+    const tinygltf::Material& gltf = file.model.materials[index];
+    material.name = gltf.name.empty() ? "material_" + std::to_string(index) : gltf.name;
+    const MaterialSource source{file, gltf, int(index), label_of(file, index, material.name), textures};
+    const std::string& what = source.what;
+    const auto& pbr = gltf.pbrMetallicRoughness;
     const glm::vec4 color = fixed_vector<4>(file, pbr.baseColorFactor, glm::vec4(1.0f), what + ": baseColorFactor");
     for (int i = 0; i < 4; ++i) checked_number(file, color[i], 0.0, 1.0, what + ": baseColorFactor");
     material.base_color = color;
     material.alpha = color.a;
     material.metalness = checked_number(file, pbr.metallicFactor, 0.0, 1.0, what + ": metallicFactor");
     material.roughness = checked_number(file, pbr.roughnessFactor, 0.0, 1.0, what + ": roughnessFactor");
-    material.emission = fixed_vector<3>(file, source.emissiveFactor, glm::vec3(0.0f), what + ": emissiveFactor");
+    material.emission = fixed_vector<3>(file, gltf.emissiveFactor, glm::vec3(0.0f), what + ": emissiveFactor");
     for (int i = 0; i < 3; ++i)
         checked_number(file, material.emission[i], 0.0, any_radiance, what + ": emissiveFactor");
     material.normal_scale =
-        checked_number(file, source.normalTexture.scale, -any_length, any_length, what + ": normal scale");
-    material.is_double_sided = source.doubleSided;
-    read_alpha(file, source, what, material);
-    read_extensions(file, source, what, material);
+        checked_number(file, gltf.normalTexture.scale, -any_length, any_length, what + ": normal scale");
+    material.is_double_sided = gltf.doubleSided;
+    read_alpha(source, material);
 
-    const auto slot = [&](const auto& info, bool is_srgb, const char* channel) {
-        return textures.slot(info.index, info.texCoord, info.extensions, is_srgb,
-                             std::string(channel) + " texture of " + what);
-    };
-    material.base_color_texture = slot(pbr.baseColorTexture, true, "base colour");
-    material.metalness_roughness_texture = slot(pbr.metallicRoughnessTexture, false, "metallic-roughness");
-    material.normal_texture = slot(source.normalTexture, false, "normal");
-    const auto& occlusion = source.occlusionTexture;  // nothing is drawn with it
+    const bool is_metallic_roughness = !gltf.extensions.contains("KHR_materials_pbrSpecularGlossiness");
+    if (is_metallic_roughness) {
+        material.base_color_texture = source.slot(pbr.baseColorTexture, true, "base colour");
+        material.metalness_roughness_texture = source.slot(pbr.metallicRoughnessTexture, false, "metallic-roughness");
+    }
+    material.normal_texture = source.slot(gltf.normalTexture, false, "normal");
+    const auto& occlusion = gltf.occlusionTexture;  // nothing is drawn with it
     material.occlusion_texture = textures.slot_if_used(occlusion.index, occlusion.texCoord, occlusion.extensions, false,
                                                        "occlusion texture of " + what);
-    material.emission_texture = slot(source.emissiveTexture, true, "emissive");
+    material.emission_texture = source.slot(gltf.emissiveTexture, true, "emissive");
+    read_material_extensions(source, material);
     return material;
 }
 
@@ -87,12 +71,57 @@ bool has_primitive_without_material(const GltfFile& file) {
                                    [](const tinygltf::Primitive& primitive) { return primitive.material < 0; });
     });
 }
+
+/// Smallest and largest of a texture's alpha; 1 where there is none.
+glm::vec2 alpha_of(const Scene& scene, const TextureSlot& slot) {
+    if (slot.texture < 0) return glm::vec2(1.0f);
+    const Texture& texture = scene.textures[size_t(slot.texture)];
+    const std::vector<uint8_t>& bytes = *texture.rgba;
+    glm::vec2 range(1.0f, 0.0f);
+    for (size_t at = 3 * texture.channel_bytes; at < bytes.size(); at += 4 * texture.channel_bytes) {
+        uint16_t code = bytes[at];
+        if (texture.channel_bytes == 2) std::memcpy(&code, &bytes[at], sizeof(code));
+        const float alpha = float(code) / (texture.channel_bytes == 2 ? 65535.0f : 255.0f);
+        range = {std::min(range.x, alpha), std::max(range.y, alpha)};
+    }
+    return range;
+}
+
+/// The same of COLOR_0, over all vertices that have the material.
+glm::vec2 vertex_alpha_of(const Scene& scene, size_t material) {
+    glm::vec2 range(1.0f, 0.0f);
+    for (const Mesh& mesh : scene.meshes)
+        if (mesh.material == material)
+            for (const Vertex& v : mesh.vertices) range = {std::min(range.x, v.color.a), std::max(range.y, v.color.a)};
+    return range.x > range.y ? glm::vec2(1.0f) : range;
+}
 }  // namespace
 
 void add_materials(GltfFile& file, Scene& scene) {
     GltfTextures textures(file, scene);
     for (size_t i = 0; i < file.model.materials.size(); ++i)
-        scene.materials.push_back(read_material(file, file.model.materials[i], i, textures));
+        scene.materials.push_back(read_material(file, i, textures));
     if (has_primitive_without_material(file)) scene.materials.push_back({.name = "default"});
     textures.decode();
+    make_roughness_textures(file, scene);
+}
+
+void cut_blended_materials(GltfFile& file, Scene& scene, const GltfChoices& choices) {
+    for (size_t i = 0; i < file.model.materials.size(); ++i) {
+        if (file.model.materials[i].alphaMode != "BLEND") continue;
+        Material& material = scene.materials[i];
+        const glm::vec2 alpha =
+            material.alpha * alpha_of(scene, material.base_color_texture) * vertex_alpha_of(scene, i);
+        if (alpha.x >= 1.0f) continue;  // opaque, however it is drawn
+        const std::string sentence = "The " + label_of(file, i, material.name) + " is blended (alphaMode BLEND) and ";
+        if (choices.draws_blended_opaque) {
+            file.warn(sentence + "drawn opaque.", int(i));
+            continue;
+        }
+        material.alpha_mode = AlphaMode::mask;
+        material.alpha_cutoff = 0.5f;
+        file.warn(sentence + "drawn where its alpha is at least 0.5" +
+                      (alpha.y < 0.5f ? ", which it is nowhere: nothing of it is seen." : ", as if it were a mask."),
+                  int(i));
+    }
 }

@@ -83,15 +83,15 @@ void set_aside(const GltfFile& file, const tinygltf::Primitive& primitive, size_
                    std::to_string(index_count) + " indices");
 }
 
-Mesh read_mesh(const GltfFile& file, Scene& scene, size_t mesh_index, size_t primitive_index) {
+Mesh read_mesh(const GltfFile& file, Scene& scene, size_t mesh_index, size_t primitive_index, int variant) {
     const tinygltf::Primitive& primitive = primitive_of(file, mesh_index, primitive_index);
     const std::string what = "mesh " + std::to_string(mesh_index) + " primitive " + std::to_string(primitive_index);
     Mesh mesh;
     mesh.name = file.model.meshes[mesh_index].name;
-    mesh.material =
-        primitive.material < 0
-            ? unsigned(scene.materials.size() - 1)
-            : unsigned(checked_index(file, primitive.material, file.model.materials.size(), what + ": material"));
+    const int material = material_of(file, primitive, variant, what);
+    mesh.material = material < 0
+                        ? unsigned(scene.materials.size() - 1)
+                        : unsigned(checked_index(file, material, file.model.materials.size(), what + ": material"));
     const auto position = primitive.attributes.find("POSITION");
     const size_t accessor =
         checked_index(file, position->second, file.model.accessors.size(), what + " POSITION: accessor");
@@ -128,7 +128,7 @@ Mesh read_mesh(const GltfFile& file, Scene& scene, size_t mesh_index, size_t pri
     if (normal_texture.texture < 0)
         make_any_tangents(mesh);
     else if (has_tangents && has_normals)
-        repair_tangents(mesh);
+        repair_tangents(mesh), turn_tangents(mesh, normal_texture);
     else
         derive_tangents(mesh, normal_texture);
     return mesh;
@@ -160,7 +160,8 @@ bool is_drawn(GltfFile& file, size_t mesh_index, size_t primitive_index) {
 }
 }  // namespace
 
-std::vector<std::vector<unsigned>> add_meshes(GltfFile& file, Scene& scene) {
+std::vector<std::vector<unsigned>> add_meshes(GltfFile& file, Scene& scene, const GltfChoices& choices) {
+    const int variant = find_material_variant(file, choices.material_variant);
     std::vector<std::vector<unsigned>> meshes_of(file.model.meshes.size());
     std::vector<std::pair<size_t, size_t>> drawn;
     for (size_t mesh = 0; mesh < meshes_of.size(); ++mesh)
@@ -172,7 +173,7 @@ std::vector<std::vector<unsigned>> add_meshes(GltfFile& file, Scene& scene) {
     const size_t first = scene.meshes.size();
     scene.meshes.resize(first + drawn.size());
     tbb::parallel_for(size_t(0), drawn.size(), [&](size_t i) {
-        scene.meshes[first + i] = read_mesh(file, scene, drawn[i].first, drawn[i].second);
+        scene.meshes[first + i] = read_mesh(file, scene, drawn[i].first, drawn[i].second, variant);
     });
     return meshes_of;
 }

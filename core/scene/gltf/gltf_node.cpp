@@ -115,12 +115,24 @@ std::vector<int> roots(GltfFile& file) {
     return found;
 }
 
+/// KHR_node_visibility of the node itself.
+bool is_hidden(const tinygltf::Node& source) {
+    const tinygltf::Value* extension = find_extension(source.extensions, "KHR_node_visibility");
+    return extension && extension->Has("visible") && !extension->Get("visible").Get<bool>();
+}
+
+void add_meshes_of(const GltfFile& file, const tinygltf::Node& source,
+                   const std::vector<std::vector<unsigned>>& meshes_of, unsigned node, Scene& scene) {
+    const auto& meshes = meshes_of[checked_index(file, source.mesh, meshes_of.size(), "mesh")];
+    if (add_mesh_copies(file, source, meshes, node, "node '" + shortened(source.name) + "'", scene)) return;
+    for (const unsigned mesh : meshes) scene.instances.push_back({mesh, node});
+}
+
 void add_contents(GltfFile& file, const tinygltf::Node& source, const std::vector<std::vector<unsigned>>& meshes_of,
-                  unsigned node, Scene& scene) {
-    if (source.mesh >= 0)
-        for (const unsigned mesh : meshes_of[checked_index(file, source.mesh, meshes_of.size(), "mesh")])
-            scene.instances.push_back({mesh, node});
+                  unsigned node, bool is_visible, Scene& scene) {
     if (source.camera >= 0) scene.cameras.push_back(read_camera(file, source.camera, int(node)));
+    if (!is_visible) return;
+    if (source.mesh >= 0) add_meshes_of(file, source, meshes_of, node, scene);
     if (source.skin >= 0)
         file.warn("The skin of node '" + source.name + "' is ignored: its mesh is drawn in bind pose.");
     if (const auto light = source.extensions.find("KHR_lights_punctual"); light != source.extensions.end())
@@ -134,13 +146,20 @@ std::vector<int> add_nodes(GltfFile& file, const std::vector<std::vector<unsigne
     std::vector<int> node_of(nodes.size(), -1);
     struct Visit {
         int node, parent;
+        bool is_visible;
     };
     std::vector<Visit> open;
     std::vector<glm::mat4> world_from_node;  // at rest
-    const auto world_from_parent = [&](int parent) {
-        return parent < 0 ? glm::mat4(1.0f) : world_from_node[size_t(parent)];
+    const auto place = [&](size_t index) {   // of the next of scene.nodes
+        const Node& node = scene.nodes[world_from_node.size()];
+        world_from_node.push_back((node.parent < 0 ? glm::mat4(1.0f) : world_from_node[size_t(node.parent)]) *
+                                  node.parent_from_node);
+        if (!is_in_range(world_from_node.back()))
+            fail(file.name(), ": node ", index, " ('", shortened(nodes[index].name),
+                 "'): its transform times those of its parents has a number outside of [", -any_length, ", ",
+                 any_length, "]");
     };
-    for (const int root : roots(file)) open.push_back({root, -1});
+    for (const int root : roots(file)) open.push_back({root, -1, true});
     for (size_t next = 0; next < open.size(); ++next) {  // breadth first: parents come before their children
         const size_t index = checked_index(file, open[next].node, nodes.size(), "node");
         if (node_of[index] >= 0)
@@ -148,13 +167,11 @@ std::vector<int> add_nodes(GltfFile& file, const std::vector<std::vector<unsigne
         node_of[index] = int(scene.nodes.size());
         scene.nodes.push_back(read_node(file, nodes[index], index));
         scene.nodes.back().parent = open[next].parent;
-        world_from_node.push_back(world_from_parent(open[next].parent) * scene.nodes.back().parent_from_node);
-        if (!is_in_range(world_from_node.back()))
-            fail(file.name(), ": node ", index, " ('", shortened(nodes[index].name),
-                 "'): its transform times those of its parents has a number outside of [", -any_length, ", ",
-                 any_length, "]");
-        add_contents(file, nodes[index], meshes_of, unsigned(node_of[index]), scene);
-        for (const int child : nodes[index].children) open.push_back({child, node_of[index]});
+        place(index);
+        const bool is_visible = open[next].is_visible && !is_hidden(nodes[index]);
+        add_contents(file, nodes[index], meshes_of, unsigned(node_of[index]), is_visible, scene);
+        while (world_from_node.size() < scene.nodes.size()) place(index);  // copies of its mesh
+        for (const int child : nodes[index].children) open.push_back({child, node_of[index], is_visible});
     }
     return node_of;
 }

@@ -72,29 +72,46 @@ json texture(const json& more = json::object()) {
     return object(members, {"index"});
 }
 
+json material_extensions() {
+    const json none = json::object();
+    return extensions(
+        {{"KHR_materials_anisotropy", object({{"anisotropyStrength", number}})},
+         {"KHR_materials_clearcoat", object({{"clearcoatFactor", number}})},
+         {"KHR_materials_diffuse_transmission", object({{"diffuseTransmissionFactor", number}})},
+         {"KHR_materials_dispersion", object({{"dispersion", number}})},
+         {"KHR_materials_emissive_strength", object({{"emissiveStrength", number}})},
+         {"KHR_materials_ior", object({{"ior", number}})},
+         {"KHR_materials_iridescence", object({{"iridescenceFactor", number}})},
+         {"KHR_materials_pbrSpecularGlossiness", object({{"diffuseFactor", numbers(4)},
+                                                         {"diffuseTexture", texture()},
+                                                         {"specularFactor", numbers(3)},
+                                                         {"glossinessFactor", number},
+                                                         {"specularGlossinessTexture", texture()}})},
+         {"KHR_materials_sheen", object({{"sheenColorFactor", numbers(3)}})},
+         {"KHR_materials_specular", object({{"specularFactor", number},
+                                            {"specularTexture", texture()},
+                                            {"specularColorFactor", numbers(3)},
+                                            {"specularColorTexture", texture()}})},
+         {"KHR_materials_transmission", object({{"transmissionFactor", number}, {"transmissionTexture", texture()}})},
+         {"KHR_materials_unlit", object(none)},
+         {"KHR_materials_volume", object({{"thicknessFactor", number}})}});
+}
+
 json materials() {
-    return objects(
-        {{"name", text},
-         {"pbrMetallicRoughness", object({{"baseColorFactor", numbers(4)},
-                                          {"baseColorTexture", texture()},
-                                          {"metallicFactor", number},
-                                          {"roughnessFactor", number},
-                                          {"metallicRoughnessTexture", texture()}})},
-         {"normalTexture", texture({{"scale", number}})},
-         {"occlusionTexture", texture({{"strength", number}})},
-         {"emissiveTexture", texture()},
-         {"emissiveFactor", numbers(3)},
-         {"alphaMode", one_of({"OPAQUE", "MASK", "BLEND"})},
-         {"alphaCutoff", number},
-         {"doubleSided", flag},
-         {"extensions", extensions({{"KHR_materials_emissive_strength", object({{"emissiveStrength", number}})},
-                                    {"KHR_materials_specular", object({{"specularFactor", number},
-                                                                       {"specularTexture", texture()},
-                                                                       {"specularColorFactor", numbers(3)},
-                                                                       {"specularColorTexture", texture()}})},
-                                    {"KHR_materials_transmission",
-                                     object({{"transmissionFactor", number}, {"transmissionTexture", texture()}})},
-                                    {"KHR_materials_unlit", object(json::object())}})}});
+    return objects({{"name", text},
+                    {"pbrMetallicRoughness", object({{"baseColorFactor", numbers(4)},
+                                                     {"baseColorTexture", texture()},
+                                                     {"metallicFactor", number},
+                                                     {"roughnessFactor", number},
+                                                     {"metallicRoughnessTexture", texture()}})},
+                    {"normalTexture", texture({{"scale", number}})},
+                    {"occlusionTexture", texture({{"strength", number}})},
+                    {"emissiveTexture", texture()},
+                    {"emissiveFactor", numbers(3)},
+                    {"alphaMode", one_of({"OPAQUE", "MASK", "BLEND"})},
+                    {"alphaCutoff", number},
+                    {"doubleSided", flag},
+                    {"extensions", material_extensions()}});
 }
 
 json accessors() {
@@ -120,17 +137,25 @@ json accessors() {
 
 json meshes() {
     const json attributes = object_of(index);
+    const json variants =
+        object({{"mappings", objects({{"material", index}, {"variants", list_of(index)}}, {"material", "variants"})}},
+               {"mappings"});
     const json primitives = objects({{"attributes", attributes},
                                      {"indices", index},
                                      {"material", index},
                                      {"mode", one_of({0, 1, 2, 3, 4, 5, 6})},
-                                     {"targets", list_of(attributes)}},
+                                     {"targets", list_of(attributes)},
+                                     {"extensions", extensions({{"KHR_materials_variants", variants}})}},
                                     {"attributes"});
     return objects({{"name", text}, {"primitives", primitives}, {"weights", list_of(number)}}, {"primitives"});
 }
 
 json animations() {
-    const json target = object({{"node", index}, {"path", text}}, {"path"});
+    const json target =
+        object({{"node", index},
+                {"path", text},
+                {"extensions", extensions({{"KHR_animation_pointer", object({{"pointer", text}}, {"pointer"})}})}},
+               {"path"});
     const json samplers =
         objects({{"input", index}, {"output", index}, {"interpolation", one_of({"LINEAR", "STEP", "CUBICSPLINE"})}},
                 {"input", "output"});
@@ -173,7 +198,10 @@ json nodes() {
                     {"scale", numbers(3)},
                     {"translation", numbers(3)},
                     {"weights", list_of(number)},
-                    {"extensions", extensions({{"KHR_lights_punctual", object({{"light", index}}, {"light"})}})}});
+                    {"extensions", extensions({{"EXT_mesh_gpu_instancing",
+                                                object({{"attributes", object_of(index)}}, {"attributes"})},
+                                               {"KHR_lights_punctual", object({{"light", index}}, {"light"})},
+                                               {"KHR_node_visibility", object({{"visible", flag}})}})}});
 }
 
 /// glTF 2.0, section 5: every key that ssrlab reads, and those that it passes by but tinygltf reads.
@@ -214,7 +242,9 @@ json gltf_schema() {
          {"skins",
           objects({{"name", text}, {"inverseBindMatrices", index}, {"skeleton", index}, {"joints", list_of(index)}},
                   {"joints"})},
-         {"extensions", extensions({{"KHR_lights_punctual", object({{"lights", lights()}}, {"lights"})}})}},
+         {"extensions", extensions({{"KHR_lights_punctual", object({{"lights", lights()}}, {"lights"})},
+                                    {"KHR_materials_variants",
+                                     object({{"variants", objects({{"name", text}}, {"name"})}}, {"variants"})}})}},
         {"asset"});
 }
 

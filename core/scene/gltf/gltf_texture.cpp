@@ -28,8 +28,8 @@ TextureWrap wrap(const GltfFile& file, int mode) {
 
 /// KHR_texture_transform: uv' = translation * rotation * scale * uv, the rotation counter-clockwise where v points up.
 glm::mat3 texture_transform(const GltfFile& file, const tinygltf::Value& extension, const std::string& what) {
-    const glm::vec2 offset = vec2_member(file, extension, "offset", glm::vec2(0.0f), what);
-    const glm::vec2 scale = vec2_member(file, extension, "scale", glm::vec2(1.0f), what);
+    const glm::vec2 offset = vector_member<2>(file, extension, "offset", glm::vec2(0.0f), what);
+    const glm::vec2 scale = vector_member<2>(file, extension, "scale", glm::vec2(1.0f), what);
     const float rotation = number_member(file, extension, "rotation", 0.0f, what);
     for (int i = 0; i < 2; ++i) {
         checked_number(file, offset[i], -any_length, any_length, what + ": 'offset'");

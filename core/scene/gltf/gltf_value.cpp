@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cfloat>
+#include <climits>
 #include <cmath>
 #include <limits>
 
@@ -27,19 +28,35 @@ float number_member(const GltfFile& file, const tinygltf::Value& object, const c
 int index_member(const GltfFile& file, const tinygltf::Value& object, const char* key, const std::string& what) {
     if (!object.IsObject() || !object.Has(key)) return -1;
     const tinygltf::Value& value = object.Get(key);
-    if (!value.IsInt() || value.GetNumberAsInt() < 0)
+    const double number = value.IsNumber() ? value.GetNumberAsDouble() : -1.0;
+    if (!(number >= 0.0 && number <= INT_MAX && number == std::floor(number)))
         fail(file.name(), ": ", what, ": '", key, "' must be a whole number of 0 or more");
-    return value.GetNumberAsInt();
+    return int(number);
 }
 
-glm::vec2 vec2_member(const GltfFile& file, const tinygltf::Value& object, const char* key, glm::vec2 fallback,
-                      const std::string& what) {
+template <int N>
+glm::vec<N, float> vector_member(const GltfFile& file, const tinygltf::Value& object, const char* key,
+                                 glm::vec<N, float> fallback, const std::string& what) {
     if (!object.IsObject() || !object.Has(key)) return fallback;
     const tinygltf::Value& value = object.Get(key);
-    const bool fits = value.IsArray() && value.ArrayLen() == 2 && value.Get(0).IsNumber() && value.Get(1).IsNumber();
-    if (!fits) fail(file.name(), ": ", what, ": '", key, "' must be an array of two numbers");
-    return {checked_number(file, value.Get(0).GetNumberAsDouble(), -FLT_MAX, FLT_MAX, what),
-            checked_number(file, value.Get(1).GetNumberAsDouble(), -FLT_MAX, FLT_MAX, what)};
+    bool fits = value.IsArray() && value.ArrayLen() == size_t(N);
+    for (int i = 0; fits && i < N; ++i) fits = value.Get(i).IsNumber();
+    if (!fits) fail(file.name(), ": ", what, ": '", key, "' must be an array of ", N, " numbers");
+    glm::vec<N, float> vector;
+    for (int i = 0; i < N; ++i)
+        vector[i] = checked_number(file, value.Get(i).GetNumberAsDouble(), -FLT_MAX, FLT_MAX, what + ": '" + key + "'");
+    return vector;
+}
+template glm::vec2 vector_member<2>(const GltfFile&, const tinygltf::Value&, const char*, glm::vec2,
+                                    const std::string&);
+template glm::vec3 vector_member<3>(const GltfFile&, const tinygltf::Value&, const char*, glm::vec3,
+                                    const std::string&);
+template glm::vec4 vector_member<4>(const GltfFile&, const tinygltf::Value&, const char*, glm::vec4,
+                                    const std::string&);
+
+const tinygltf::Value* find_extension(const tinygltf::ExtensionMap& extensions, const char* name) {
+    const auto found = extensions.find(name);
+    return found == extensions.end() ? nullptr : &found->second;
 }
 
 template <int N>

@@ -6,10 +6,14 @@
 // Members of a glTF extension object; an absent one is `fallback`, a malformed one an Error that names `what`.
 float number_member(const GltfFile& file, const tinygltf::Value& object, const char* key, float fallback,
                     const std::string& what);
-/// -1 if absent; a whole number otherwise.
+/// -1 if absent; a whole number otherwise, however it is written (2, 2.0 and 2e0 are one).
 int index_member(const GltfFile& file, const tinygltf::Value& object, const char* key, const std::string& what);
-glm::vec2 vec2_member(const GltfFile& file, const tinygltf::Value& object, const char* key, glm::vec2 fallback,
-                      const std::string& what);
+template <int N>
+glm::vec<N, float> vector_member(const GltfFile& file, const tinygltf::Value& object, const char* key,
+                                 glm::vec<N, float> fallback, const std::string& what);
+
+/// An extension by its name; nullptr if absent.
+const tinygltf::Value* find_extension(const tinygltf::ExtensionMap& extensions, const char* name);
 
 /// `values` as a vector of `N` finite numbers, or `fallback` if empty.
 template <int N>

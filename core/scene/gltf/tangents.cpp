@@ -176,3 +176,29 @@ void repair_tangents(Mesh& mesh) {
                                    vertex.tangent.w < 0.0f ? -1.0f : 1.0f);
     }
 }
+
+bool turns_tangents(const glm::mat3& m) {
+    return m[0][1] != 0.0f || m[1][0] != 0.0f || !(m[0][0] > 0.0f) || !(m[1][1] > 0.0f);
+}
+
+void turn_tangents(Mesh& mesh, const TextureSlot& slot) {
+    if (!turns_tangents(slot.uv_transform)) return;
+    MemoryShare copies;
+    copies.add(2.0 * (double(mesh.vertices.size()) * sizeof(Vertex) + double(mesh.indices.size()) * sizeof(uint32_t)),
+               "mesh '" + mesh.name + "' while its tangents are turned");
+    Mesh before = mesh, after = mesh;
+    derive_tangents(before, {.texture = slot.texture, .texcoord = slot.texcoord});
+    derive_tangents(after, slot);
+    for (size_t i = 0; i < mesh.vertices.size(); ++i) {
+        const glm::vec3 n = mesh.vertices[i].normal;
+        const glm::vec4 from = before.vertices[i].tangent, to = after.vertices[i].tangent;
+        const auto in_frame_of = [&](glm::vec3 along_u, glm::vec3 v) {
+            return glm::vec2(glm::dot(along_u, v), glm::dot(glm::cross(n, along_u), v));
+        };
+        const glm::vec2 turn = in_frame_of(from, to);
+        glm::vec4& tangent = mesh.vertices[i].tangent;
+        const glm::vec3 along_u(tangent);
+        tangent = glm::vec4(turn.x * along_u + turn.y * glm::cross(n, along_u), tangent.w * from.w * to.w);
+    }
+    repair_tangents(mesh);
+}

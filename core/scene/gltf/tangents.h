@@ -17,5 +17,13 @@ void derive_tangents(Mesh& mesh, const TextureSlot& slot);
 /// Makes the file's tangents unit and perpendicular to the normals, and their w +-1.
 void repair_tangents(Mesh& mesh);
 
+/// Turns the file's tangents, which follow the texture coordinates themselves (glTF 2.0, section 3.7.2.1), as
+/// `slot.uv_transform` turns the texture: by the angle, and to the handedness, by which derive_tangents() with the
+/// transform differs from it without. Where it does not turn them they keep their bits.
+void turn_tangents(Mesh& mesh, const TextureSlot& slot);
+
+/// Whether tangents of texture coordinates are others after the transform: unless it only moves and scales.
+bool turns_tangents(const glm::mat3& uv_transform);
+
 /// Any tangent perpendicular to each normal, for meshes without a normal map.
 void make_any_tangents(Mesh& mesh);

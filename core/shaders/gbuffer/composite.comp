@@ -1,4 +1,5 @@
 // specular: by one of the formulas of core/gbuffer/composite.h; image = lit + specular.
+#include "core/shaders/gbuffer/dielectric_f0.glsl"
 #include "core/shaders/gbuffer/pixel.glsl"
 #include "core/shaders/gbuffer/split_sum.glsl"
 #include "core/shared/brdf.h"
@@ -23,7 +24,8 @@ vec3 specular_reflectance(ivec2 pixel) {
     float mu_o = dot(normal_roughness.xyz, -ws_pixel_direction(pixel));
     if (mu_o <= 0.0) return vec3(0.0);  // the path tracer ends such paths
     vec2 ab = split_sum_factors(mu_o, normal_roughness.w);
-    return specular_f0(color_metalness.rgb, color_metalness.w, specular_factor) * ab.x + specular_f90(color_metalness.w, specular_factor) * ab.y;
+    vec3 f0 = specular_f0(color_metalness.rgb, color_metalness.w, specular_factor, dielectric_f0_at(pixel));
+    return f0 * ab.x + specular_f90(color_metalness.w, specular_factor) * ab.y;
 }
 
 // What an engine adds to an image that holds its environment's reflections already.

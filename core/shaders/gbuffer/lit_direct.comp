@@ -1,5 +1,6 @@
 // Emission and direct diffuse light without any shadow; the environment in the background. Diffuse light of the
 // environment takes the dielectric's Fresnel loss at normal incidence: at grazing view it is up to 2.5 % too bright.
+#include "core/shaders/gbuffer/dielectric_f0.glsl"
 #include "core/shaders/gbuffer/environment.glsl"
 #include "core/shaders/gbuffer/pixel.glsl"
 #include "core/shared/drawn_light.h"
@@ -42,7 +43,8 @@ void main() {
     vec4 color_metalness = texelFetch(base_color, pixel, 0);
     vec4 emitted_specular = texelFetch(emission, pixel, 0);
     vec3 ws_position = world_from_screen(sample_uv(pixel), device_depth);
-    float f0 = 0.04 * emitted_specular.w;
+    vec3 own_f0 = dielectric_f0_at(pixel);  // the diffuse light lacks the most that any colour reflects
+    float f0 = max(own_f0.r, max(own_f0.g, own_f0.b)) * emitted_specular.w;
 
     vec3 light_sum = (1.0 - f0) * environment_irradiance_over_pi(n);
     for (uint i = 0u; i < light_count; ++i) {

@@ -1,5 +1,5 @@
-// The surface of one fragment, as glTF 2.0, Appendix B, describes it. HAS_TEXTURES and HAS_MASK compile in what the
-// materials of the draw need.
+// The surface of one fragment, as glTF 2.0, Appendix B, describes it. HAS_TEXTURES, HAS_MASK and
+// HAS_DIELECTRIC_F0 compile in what the materials of the draw need.
 #include "core/shaders/gbuffer/octahedral.glsl"
 #include "core/shared/drawn_scene.h"
 
@@ -24,10 +24,17 @@ layout(location = 2) out vec4 base_color;
 layout(location = 3) out vec4 emission;
 layout(location = 4) out vec2 motion;
 layout(location = 5) out uint material_id;
+#ifdef HAS_DIELECTRIC_F0
+layout(location = 6) out vec4 dielectric_f0;
+#endif
 
 #ifdef HAS_TEXTURES
 #include "core/shaders/gbuffer/textures.glsl"
 #define SLOT(image, slot) slot_value(image, m, slot)
+#ifdef HAS_DIELECTRIC_F0
+uniform sampler2D specular_texture;
+uniform sampler2D specular_color_texture;
+#endif
 
 vec3 mapped_normal(DrawnMaterial m, vec3 n) {
     vec3 local = (2.0 * SLOT(normal_texture, slot_normal).xyz - 1.0) * vec3(m.factors.zz, 1.0);
@@ -55,7 +62,7 @@ void main() {
     float normal_length = length(ws_normal);
     vec3 n = normal_length > 0.0 ? ws_normal / normal_length : ws_front_normal;
 #ifdef HAS_TEXTURES
-    if (scene_has_normal_maps && (m.sampling[slot_normal] & sampling_has_texture) != 0u) n = mapped_normal(m, n);
+    if (scene_has_normal_maps && (m.sampling[0][slot_normal] & sampling_has_texture) != 0u) n = mapped_normal(m, n);
 #endif
     vec3 to_camera = camera.frame.z == 1u ? camera.world_from_view[2].xyz : camera.world_from_view[3].xyz - ws_position;
     bool is_behind = dot(ws_front_normal, to_camera) < 0.0;
@@ -68,6 +75,10 @@ void main() {
     normal = vec4(n, m.factors.y * metalness_roughness.g);
     base_color = is_unlit ? vec4(0.0) : vec4(coloured.rgb, m.factors.x * metalness_roughness.b);
     emission = vec4(radiance, is_unlit ? 0.0 : m.emission.w);
+#ifdef HAS_DIELECTRIC_F0
+    emission.w *= SLOT(specular_texture, slot_specular).a;
+    dielectric_f0 = vec4(min(m.specular_color.rgb * SLOT(specular_color_texture, slot_specular_color).rgb, vec3(1.0)), 0.0);
+#endif
     precise vec2 now = clip_now.xy / clip_now.w, before = clip_before.xy / clip_before.w;  // of what is still: equal
     motion = scene_is_still ? vec2(0.0) : 0.5 * (now - before);
     material_id = material + 1u;

@@ -31,7 +31,7 @@ vec4 filtered(sampler2D image, vec2 uv, uint sampling) {
 
 // The slot's value at this fragment; 1 where the material has no texture.
 vec4 slot_value(sampler2D image, DrawnMaterial m, uint slot) {
-    uint sampling = m.sampling[slot];
+    uint sampling = m.sampling[slot / 4u][slot % 4u];
     if ((sampling & sampling_has_texture) == 0u) return vec4(1.0);
     vec3 uv1 = vec3(m.slot_u[slot].w == 0.0 ? uvs.xy : uvs.zw, 1.0);
     return filtered(image, vec2(dot(m.slot_u[slot].xyz, uv1), dot(m.slot_v[slot].xyz, uv1)), sampling);

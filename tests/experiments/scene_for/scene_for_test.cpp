@@ -192,6 +192,10 @@ TEST_F(SceneForTest, GlbKeepsWhatMaterialsAndLightsSay) {
                         .roughness = 0.35f,
                         .emission = {30, 1, 0},
                         .specular = 0.4f,
+                        .specular_texture = {.texture = 0},
+                        .specular_color = {2, 0.5f, 0},
+                        .specular_color_texture = {.texture = 0, .texcoord = 1},
+                        .dielectric_f0 = 0.1724f,
                         .alpha_mode = AlphaMode::mask,
                         .alpha_cutoff = 0.7f}};
     const auto corner = [](float x, float y) {
@@ -229,6 +233,10 @@ TEST_F(SceneForTest, GlbKeepsWhatMaterialsAndLightsSay) {
     EXPECT_EQ(of_file.metalness, of_scene.metalness);
     EXPECT_EQ(of_file.roughness, of_scene.roughness);
     EXPECT_EQ(of_file.specular, of_scene.specular);
+    EXPECT_EQ(of_file.specular_color, of_scene.specular_color);
+    EXPECT_FLOAT_EQ(of_file.dielectric_f0, of_scene.dielectric_f0);
+    EXPECT_GE(of_file.specular_texture.texture, 0);
+    EXPECT_EQ(of_file.specular_color_texture.texcoord, 1u);
     EXPECT_EQ(of_file.alpha_mode, AlphaMode::mask);
     EXPECT_EQ(of_file.alpha_cutoff, of_scene.alpha_cutoff);
     EXPECT_EQ(of_file.base_color_texture.texcoord, 1u);

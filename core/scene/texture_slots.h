@@ -1,0 +1,15 @@
+#pragma once
+#include "core/scene/scene.h"
+
+/// The slots that decide what is seen, by pointers: those of a const Material point to const.
+template <class AnyMaterial>
+auto texture_slots(AnyMaterial& m) {
+    return std::array{&m.base_color_texture, &m.metalness_roughness_texture, &m.normal_texture, &m.emission_texture,
+                      &m.specular_texture,   &m.specular_color_texture};
+}
+
+/// Whether the reflectance of the dielectric at normal incidence is other than 0.04 for all colours, somewhere on the
+/// material.
+inline bool has_own_dielectric_f0(const Material& m) {
+    return m.dielectric_f0 != 0.04f || m.specular_color != glm::vec3(1.0f) || m.specular_color_texture.texture >= 0;
+}

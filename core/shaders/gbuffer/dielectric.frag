@@ -1,0 +1,4 @@
+// Materials without alpha masks, in scenes where dielectrics reflect other than 0.04.
+#define HAS_TEXTURES
+#define HAS_DIELECTRIC_F0
+#include "core/shaders/gbuffer/surface.glsl"
