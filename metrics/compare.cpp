@@ -3,6 +3,7 @@
 #include "core/digits.h"
 #include "core/error.h"
 #include "core/exr.h"
+#include "core/exr/exr_picture.h"
 #include "core/near_miss.h"
 #include "core/png.h"
 #include "core/reading_limits.h"
@@ -25,10 +26,13 @@ struct Source {
     HostImage linear, codes;
 };
 
-Source read_source(const std::filesystem::path& file, const CompareOptions& options) {
+Source read_source(const std::filesystem::path& file, const CompareOptions& options,
+                   std::vector<std::string>& warnings) {
     const MetricSettings& settings = options.settings;
     if (extension(file) == ".exr") {
-        const HostImage linear = read_exr_rgb(file, options.layer);
+        const ExrPicture picture = read_exr_picture(file, options.layer);
+        std::ranges::copy(picture.notes, std::back_inserter(warnings));
+        const HostImage& linear = picture.rgb;
         return {linear, display_codes(linear, settings.exposure_ev, settings.tone_map)};
     }
     if (extension(file) != ".png") fail("cannot compare ", file.string(), ": images are read from .exr and .png files");
@@ -119,13 +123,13 @@ void check(const CompareOptions& options) {
 Comparison compare(const CompareOptions& options) {
     check(options);
     Comparison comparison{.options = options};
-    const Source reference = read_source(options.reference, options);
+    const Source reference = read_source(options.reference, options, comparison.warnings);
     constexpr double bytes_per_pixel = 300;  // of both images and all maps, as measured with the default metrics
     MemoryShare memory;
     memory.add(double(reference.linear.pixel_count()) * bytes_per_pixel,
                options.reference.string() + ": the comparison of its " +
                    std::to_string(reference.linear.pixel_count()) + " pixels");
-    const Source test = read_source(options.test, options);
+    const Source test = read_source(options.test, options, comparison.warnings);
     if (reference.linear.extent != test.linear.extent)
         fail(options.reference.string(), " has ", reference.linear.extent.x, "x", reference.linear.extent.y,
              " pixels, but ", options.test.string(), " has ", test.linear.extent.x, "x", test.linear.extent.y,

@@ -1,0 +1,28 @@
+#pragma once
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+
+/// CIE 1931 xy of the primaries and the white of a colour space.
+struct Chromaticities {
+    glm::dvec2 red, green, blue, white;
+};
+
+/// ITU-R BT.709, with D65: the space of all colours in ssrlab.
+inline constexpr Chromaticities rec709_chromaticities{{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}, {0.3127, 0.3290}};
+
+/// Whether each coordinate is within 0.001 of Rec. 709's: files have rounded numbers, and no other space is so near.
+bool is_rec709(const Chromaticities& space);
+
+/// "Rec. 2020", "ACES AP0" and the like of spaces in use, else "other primaries".
+std::string name_of(const Chromaticities& space);
+
+/// CIE XYZ of a linear colour of the space, whose white has Y = 1 (SMPTE RP 177-1993). None if the primaries lie on a
+/// line, the white's y is 0, or the white is outside of the triangle of the primaries.
+std::optional<glm::dmat3> xyz_from(const Chromaticities& space);
+
+/// A linear colour in Rec. 709 of one in the space. White stays white: it is adapted by Bradford's transform
+/// (ICC.1:2022, annex E), as OpenEXR's own ImfAcesFile.h does. The space CIE XYZ, whose primaries are the axes, is not
+/// adapted: its numbers are tristimulus values, to which no white belongs. Parts may become negative, or larger than 1:
+/// Rec. 709 has no such colour otherwise. None as xyz_from().
+std::optional<glm::dmat3> rec709_from(const Chromaticities& space);
