@@ -40,10 +40,13 @@ public:
     ExrLayer named(const std::string& name) const {
         if (const ExrLayer* layer = find_layer(header_, layers_, name)) return *layer;
         if (layers_.size() == 1 && layers_.front().in_part.empty()) return layers_.front();
-        for (const ExrLayer& layer : layers_)  // "Z", or "normal.X": a channel of its own
-            for (const ExrComponent& component : layer.components)
-                if (header_.parts[layer.part].channels[component.channel].name == name)
+        for (const ExrLayer& layer : layers_)  // "Z", "normal.X", or with the part's name: a channel of its own
+            for (const ExrComponent& component : layer.components) {
+                const ExrPart& part = header_.parts[layer.part];
+                const std::string& channel = part.channels[component.channel].name;
+                if (channel == name || part.name + "." + channel == name)
                     return {.name = name, .in_part = name, .part = layer.part, .components = {component}};
+            }
         std::vector<std::string> names;
         for (const ExrLayer& layer : layers_) names.push_back(layer.name);
         fail(file_, " has no layer '", name, "'", suggestion(name, names));

@@ -98,9 +98,7 @@ private:
             return;
         }
         auto found = components(*layer, wanted.channels);
-        if (!found)
-            fail(where_, ": layer ", shown(*layer), " has ", layer->components.size(), " channels, but needs ",
-                 wanted.count(), " (", spaced(wanted.channels), ")");
+        if (!found) fail(where_, ": layer ", shown(*layer), " needs the channels ", spaced(wanted.channels));
         check_extent(header_.parts[layer->part]);
         Chosen chosen{.layer = wanted, .components = *found, .planes = {.part = layer->part, .channels = {}}};
         for (const ExrComponent& component : *found) {
@@ -216,7 +214,7 @@ private:
                 return used_.contains({layer.part, c.channel});
             });
             if (rest.components.empty()) continue;
-            const std::string near = nearest_name(layer.name, names);
+            const std::string near = layer.name.empty() ? "" : nearest_name(layer.name, names);
             if (rest.components.size() == layer.components.size() && !near.empty() && near != layer.name)
                 found_.notes.push_back("The layer '" + layer.name + "' is not used; did you mean '" + near + "'?");
             else

@@ -138,7 +138,8 @@ TEST_F(ExrPictures, TheDisplayWindowIsThePicture) {
                     content.compression = kind == 0 ? Imf::ZIP_COMPRESSION : Imf::PIZ_COMPRESSION;
                     for (const char* name : {"R", "G", "B", "A"})
                         content.add(
-                            name, [&](int x, int y) { return value(x - shift.x, y - shift.y) + name[0]; }, Imf::HALF);
+                            name, [&, name](int x, int y) { return value(x - shift.x, y - shift.y) + name[0]; },
+                            Imf::HALF);
                     content.part = kind == 3 ? "a part" : "";
                     if (kind == 0) content.write(file);
                     if (kind == 1) content.write_tiled(file, 3, Imf::MIPMAP_LEVELS);
@@ -158,17 +159,17 @@ TEST_F(ExrPictures, TheDisplayWindowIsThePicture) {
                 }
 }
 
-TEST_F(ExrPictures, EveryLosslessCompressionIsRead) {
+TEST_F(ExrPictures, EveryCompressionIsRead) {
     for (const auto compression :
          {Imf::NO_COMPRESSION, Imf::RLE_COMPRESSION, Imf::ZIPS_COMPRESSION, Imf::ZIP_COMPRESSION, Imf::PIZ_COMPRESSION,
           Imf::PXR24_COMPRESSION, Imf::B44_COMPRESSION, Imf::B44A_COMPRESSION, Imf::DWAA_COMPRESSION,
           Imf::DWAB_COMPRESSION}) {
         ExrContent content(40, 70);
         content.compression = compression;
-        content.add("", "RGB", {0.75, 0.5, 0.25}, Imf::HALF);  // constants survive lossy ones, too
+        content.add("", "RGB", {0.75, 0.5, 0.25}, Imf::HALF);  // constants survive lossy ones
         content.write(file);
         const HostImage rgb = read_exr_picture(file).rgb;
-        for (size_t i = 0; i < rgb.pixel_count(); ++i) expect_near(rgb.rgb(i), amber, 1e-3f);
+        for (size_t i = 0; i < rgb.pixel_count(); ++i) expect_near(rgb.rgb(i), amber, 2e-3f);
     }
 }
 
@@ -208,8 +209,8 @@ TEST_F(ExrPictures, PrimariesBecomeRec709) {
         write("", "RGB", tristimulus, xyz);
         expect_near(color(), rgb, 1e-3f);  // as many digits as the standard prints
     }
-    // ACES (SMPTE ST 2065-1): its white is Rec. 709's, adapted; the matrix with Bradford's transform is S-2014-004's
-    // 2.52169, -1.13413, -0.38756 / -0.27648, 1.37272, -0.09624 / -0.01538, -0.15298, 1.16835.
+    // ACES (SMPTE ST 2065-1): its white is Rec. 709's, adapted; the matrix with Bradford's transform, as it is widely
+    // printed, is 2.52169, -1.13413, -0.38756 / -0.27648, 1.37272, -0.09624 / -0.01538, -0.15298, 1.16835.
     const Imf::Chromaticities aces({0.7347f, 0.2653f}, {0, 1}, {0.0001f, -0.077f}, {0.32168f, 0.33767f});
     write("", "RGB", glm::vec3(1), aces);
     expect_near(color(), glm::vec3(1), 1e-6f);
@@ -236,11 +237,12 @@ TEST_F(ExrPictures, LuminanceAndChromaBecomeColours) {
     {
         Imf::RgbaOutputFile out(file.c_str(), 20, 12, Imf::WRITE_YC);
         out.setFrameBuffer(pixels.data(), 1, 20);
+        out.setYCRounding(10, 10);  // bits; less by default
         out.writePixels(12);
     }
     const HostImage rgb = read_exr_picture(file).rgb;
     ASSERT_EQ(rgb.extent, glm::uvec2(20, 12));
-    for (size_t i = 0; i < rgb.pixel_count(); ++i) expect_near(rgb.rgb(i), seen, 2e-3f);  // halves
+    for (size_t i = 0; i < rgb.pixel_count(); ++i) expect_near(rgb.rgb(i), seen, 4e-3f);  // four roundings to halves
     EXPECT_NE(refused("RY").find("'RY' is subsampled (2 x 2)"), std::string::npos) << refused("RY");
 }
 

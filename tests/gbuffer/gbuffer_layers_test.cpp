@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr glm::uvec2 extent(48, 32);
+constexpr glm::uvec2 extent(96, 72);  // neighbouring rows of a floor must be within 5 % of distance
 
 /// Planes that a camera at (0, 0, 3), which looks along -z, may see.
 struct Plane {
@@ -131,7 +131,7 @@ TEST_F(GBufferLayers, ChannelsAreChosenByName) {
     EXPECT_SAYS(said, "The layer 'motoin' is not used; did you mean 'motion'?");
 
     rename(other, "normal.B", "normal.W");
-    EXPECT_SAYS(refusal(other), "gbuffer.exr: layer 'normal' (R G W) has 3 channels, but needs 3 (X Y Z)");
+    EXPECT_SAYS(refusal(other), "gbuffer.exr: layer 'normal' (R G W) needs the channels X Y Z");
     other.channels.erase("normal.R"), other.channels.erase("normal.G"), other.channels.erase("normal.W");
     EXPECT_SAYS(refusal(other), "lacks the layer 'normal'; it has ");
 }
@@ -157,7 +157,7 @@ TEST_F(GBufferLayers, WhatTheDataWindowLeavesOutIsBackground) {
     ExrContent cropped = content({back_wall});
     cropped.data = {{8, 6}, {39, 25}};
     EXPECT_SAYS(notes(cropped),
-                "896 pixels of the display window (0..47 x 0..31) lie outside of the data window "
+                "6272 pixels of the display window (0..95 x 0..71) lie outside of the data window "
                 "(8..39 x 6..25): they count as background without light.");
     const HostGBuffer g = load().gbuffer;
     for (unsigned y = 0; y < extent.y; ++y)
@@ -169,15 +169,15 @@ TEST_F(GBufferLayers, WhatTheDataWindowLeavesOutIsBackground) {
             ASSERT_EQ(g.material_id.values[i], is_stored ? 1 : 0);
         }
     ExrContent shifted = content({back_wall});  // a crop that was moved to the origin keeps its place in the plane
-    shifted.display = {{100, 200}, {147, 231}}, shifted.data = shifted.display;
+    shifted.display = {{100, 200}, {195, 271}}, shifted.data = shifted.display;
     for (auto& [name, channel] : shifted.channels)
         channel.value = [value = channel.value](int x, int y) { return value(x - 100, y - 200); };
     EXPECT_EQ(notes(shifted), "");
     ExrContent region = content({back_wall});
     region.display = {{0, 0}, {1919, 1079}};
     EXPECT_SAYS(refusal(region),
-                "is 1920 x 1080, but camera.json says 48 x 32; that is its display window (0..1919 x "
-                "0..1079), its data window is 0..47 x 0..31: if that is the picture");
+                "is 1920 x 1080, but camera.json says 96 x 72; that is its display window (0..1919 x "
+                "0..1079), its data window is 0..95 x 0..71: if that is the picture");
 }
 
 TEST_F(GBufferLayers, ColoursAreConvertedAndVectorsAreNot) {
@@ -224,10 +224,10 @@ TEST_F(GBufferLayers, NumbersOfMaterialsAreWholeAndKeptApart) {
                 "layer 'material_id' has the number 2399141889 in pixel (0, 0), but numbers above 16777216");
     file.add("material_id.Y", 2399141889.0);
     EXPECT_SAYS(refusal(file), "layer 'material_id' has the number 2399141");
-    file.add("material_id.Y", [](int x, int) { return x < 24 ? 0 : 7 / 4294967295.0; });
-    EXPECT_SAYS(notes(file), "768 pixels have a material_id that is no whole number. Integers that oiiotool wrote");
+    file.add("material_id.Y", [](int x, int) { return x < 48 ? 0 : 7 / 4294967295.0; });
+    EXPECT_SAYS(notes(file), "3456 pixels have a material_id that is no whole number. Integers that oiiotool wrote");
     file.add("material_id.Y", -1);
-    EXPECT_SAYS(notes(file), "1536 pixels have a material_id that is no whole number");
+    EXPECT_SAYS(notes(file), "6912 pixels have a material_id that is no whole number");
 }
 
 /// glTF 2.0, 5.13: an orthographic camera's near plane may lie at 0.
