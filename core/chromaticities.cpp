@@ -67,7 +67,8 @@ std::optional<glm::dmat3> rec709_from(const Chromaticities& space) {
     static const glm::dmat3 rec709_from_xyz = glm::inverse(*xyz_from(rec709_chromaticities));
     const std::optional<glm::dmat3> xyz = xyz_from(space);
     if (!xyz) return {};
-    const glm::dmat3 adapted = are_near(space, cie_xyz) ? glm::dmat3(1) : bradford(space.white, rec709_chromaticities.white);
+    const glm::dmat3 adapted =
+        are_near(space, cie_xyz) ? glm::dmat3(1) : bradford(space.white, rec709_chromaticities.white);
     const glm::dmat3 result = rec709_from_xyz * adapted * *xyz;
     return is_usable(result) ? std::optional(result) : std::nullopt;
 }

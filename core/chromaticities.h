@@ -21,8 +21,8 @@ std::string name_of(const Chromaticities& space);
 /// line, the white's y is 0, or the white is outside of the triangle of the primaries.
 std::optional<glm::dmat3> xyz_from(const Chromaticities& space);
 
-/// A linear colour in Rec. 709 of one in the space. White stays white: it is adapted by Bradford's transform (ICC.1:2022,
-/// annex E), as OpenEXR's own ImfAcesFile.h does. The space CIE XYZ, whose primaries are the axes, is not adapted: its
-/// numbers are tristimulus values, to which no white belongs. Parts may become negative, or larger than 1: Rec. 709 has
-/// no such colour otherwise. None as xyz_from().
+/// A linear colour in Rec. 709 of one in the space. White stays white: it is adapted by Bradford's transform
+/// (ICC.1:2022, annex E), as OpenEXR's own ImfAcesFile.h does. The space CIE XYZ, whose primaries are the axes, is not
+/// adapted: its numbers are tristimulus values, to which no white belongs. Parts may become negative, or larger than 1:
+/// Rec. 709 has no such colour otherwise. None as xyz_from().
 std::optional<glm::dmat3> rec709_from(const Chromaticities& space);

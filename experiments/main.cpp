@@ -409,8 +409,8 @@ int parse_and_run(int argc, char** argv) {
         ->type_name("NAME");
     compare_command_
         .add_option("--layer", compare.layer,
-                    "Layer of EXR files that have several, such as specular; default: that without a name, else image, "
-                    "as of files by `ssrlab reference`")
+                    "Layer, part, view or channel of EXR files that have several, such as specular; default: that without "
+                    "a name, else image, as of files by `ssrlab reference`, else the only one with R, G and B")
         ->type_name("NAME");
     compare_command_
         .add_option("--map", compare.map,

@@ -213,11 +213,13 @@ CameraFile read_camera(const std::filesystem::path& file) {
     const bool is_reversed = object.choice("depth_direction", {"standard", "reversed"}, "standard") == "reversed";
     const std::string format = object.choice("depth_format", depth_formats, "d32f");
     result.depth_format = DepthFormat(std::ranges::find(depth_formats, format) - depth_formats.begin());
-    const float near = object.number("near", std::numeric_limits<float>::min(), any_length);
+    // No orthographic camera divides by it: glTF 2.0, 5.13, has the minimum 0.
+    const bool is_orthographic = object.boolean("is_orthographic", false);
+    const float near = object.number("near", is_orthographic ? 0 : std::numeric_limits<float>::min(), any_length);
     c.depth = {near, object.number("far", near, any_far_plane), is_reversed ? 0 : 1, is_reversed ? 1 : 0};
     if (c.depth.y == near) fail(object.where(), ": 'far' is ", near, ", but must be beyond 'near'");
 
-    c.frame = {object.integer("frame", 0, max_integer, 0), 0, object.boolean("is_orthographic", false), 0};
+    c.frame = {object.integer("frame", 0, max_integer, 0), 0, is_orthographic, 0};
     c.frame.y = object.integer("seed", 0, max_integer, 0);
     result.exposure_ev = object.number("exposure_ev", -100, 100, 0);
     c.jitter = glm::vec4(pair(object, "jitter", {0, 0}), pair(object, "previous_jitter", {0, 0}));

@@ -96,54 +96,97 @@ void check_camera(const HostGBuffer& g, std::vector<std::string>& notes) {
     if (c.clip_from_view[1][1] > 0)
         notes.push_back(
             "'clip_from_view' of camera.json has clip space with y up, as OpenGL; it must point down: negate its "
-            "second "
-            "row.");
+            "second row, and turn the rows of the layers if the lowest comes first.");
     if (glm::determinant(glm::dmat3(c.view_from_world)) < 0)
         notes.push_back("'view_from_world' of camera.json mirrors: both spaces must be right-handed.");
 }
 
-/// The normal of the surface through a pixel and its neighbours, towards the camera; none at edges.
-std::optional<glm::dvec3> normal_of_depths(const HostGBuffer& g, size_t i) {
-    const size_t width = g.extent().x;
-    const auto distance = [&](size_t j) { return double(view_distance(g.camera, g.depth.values[j])); };
-    for (const size_t j : {i - 1, i + 1, i - width, i + width})
-        if (is_background(g, j) || std::abs(distance(j) - distance(i)) > 0.05 * distance(i)) return {};
-    glm::dvec3 normal = glm::cross(surface_position(g, i - width) - surface_position(g, i + width),
-                                   surface_position(g, i - 1) - surface_position(g, i + 1));
+/// A reading of the file in another convention.
+struct NormalReading {
+    const char* name;
+    std::function<glm::dvec3(glm::dvec3)> normal;
+    bool has_turned_rows = false;      ///< the first row is the lowest, in all layers
+    std::vector<double> cosines = {};  ///< between normals and the surfaces that the depths show
+};
+
+/// The normal of the surface through a pixel and its neighbours, towards the camera; none at edges. With turned rows
+/// the depths of the rows below are taken for those above.
+std::optional<glm::dvec3> normal_of_depths(const HostGBuffer& g, size_t i, bool has_turned_rows) {
+    const size_t width = g.extent().x, rows = g.extent().y;
+    const auto depth = [&](size_t j) {
+        return g.depth.values[has_turned_rows ? (rows - 1 - j / width) * width + j % width : j];
+    };
+    const auto distance = [&](size_t j) { return double(view_distance(g.camera, depth(j))); };
+    for (const size_t j : {i, i - 1, i + 1, i - width, i + width})
+        if (depth(j) == g.camera.depth.z || std::abs(distance(j) - distance(i)) > 0.05 * distance(i)) return {};
+    const auto position = [&](size_t j) { return position_at(g, j, depth(j)); };
+    glm::dvec3 normal = glm::cross(position(i - width) - position(i + width), position(i - 1) - position(i + 1));
     const double length = glm::length(normal);
     if (!(length > 0)) return {};
     normal /= length;
-    return glm::dot(normal, view_direction(g, i)) > 0 ? -normal : normal;
+    const bool is_orthographic = g.camera.frame.z == 1;
+    const glm::dvec3 away =
+        is_orthographic ? view_direction(g, i) : position(i) - glm::dvec3(g.camera.world_from_view[3]);
+    return glm::dot(normal, away) > 0 ? -normal : normal;
+}
+
+constexpr size_t least_pixels = 50;  // fewer say nothing of a convention
+
+/// Of the pixels, some of which show no surface of their own, the share whose normals fit to 25 degrees.
+double fitting_share(const std::vector<double>& cosines) {
+    return double(std::ranges::count_if(cosines, [](double cosine) { return cosine > 0.9; })) /
+           double(std::max<size_t>(cosines.size(), 1));
 }
 
 void check_normals(const HostGBuffer& g, std::vector<std::string>& notes) {
     const glm::dmat3 world_from_view(g.camera.world_from_view);
-    const std::vector<std::pair<std::string, std::function<glm::dvec3(glm::dvec3)>>> readings = {
+    std::vector<NormalReading> readings = {
         {"as they are", [](glm::dvec3 n) { return n; }},
+        {"with the rows turned", [](glm::dvec3 n) { return n; }, true},
         {"in view space", [&](glm::dvec3 n) { return world_from_view * n; }},
         {"in view space with z into the image",
          [&](glm::dvec3 n) { return world_from_view * glm::dvec3(n.x, n.y, -n.z); }},
         {"pointing into the surface", [](glm::dvec3 n) { return -n; }},
         {"in a world with +Z up", [](glm::dvec3 n) { return glm::dvec3(n.x, n.z, -n.y); }},
         {"as encoded in [0, 1]", [](glm::dvec3 n) { return 2.0 * n - 1.0; }}};
-    std::vector<std::vector<double>> cosines(readings.size());
+    const size_t width = g.extent().x, rows = g.extent().y;
+    size_t facing_down = 0;
     for (const size_t i : sampled_pixels(g)) {
-        const auto expected = normal_of_depths(g, i);
-        if (!expected) continue;
-        const glm::dvec3 n(g.normal.rgb(i));
-        for (size_t r = 0; r < readings.size(); ++r) cosines[r].push_back(glm::dot(readings[r].second(n), *expected));
+        const size_t turned = (rows - 1 - i / width) * width + i % width;
+        const auto expected = normal_of_depths(g, i, false), when_turned = normal_of_depths(g, turned, true);
+        if (!expected || !when_turned) continue;
+        facing_down += expected->y < 0;
+        for (NormalReading& reading : readings)
+            reading.cosines.push_back(glm::dot(reading.normal(glm::dvec3(g.normal.rgb(i))),
+                                               reading.has_turned_rows ? *when_turned : *expected));
     }
+    NormalReading &as_read = readings[0], &upside_down = readings[1];
+    if (as_read.cosines.size() < least_pixels) return;
     // Cosines. Normal maps bend normals by up to 45 degrees, half of them by less than 25.
     constexpr double fits = 0.95, may_fit = 0.9, never_fits = 0.7;
-    constexpr size_t least_pixels = 50;  // fewer say nothing of a convention
-    const double as_is = median(cosines.front());
-    if (cosines.front().size() < least_pixels || as_is >= may_fit) return;
+    const double as_is = median(as_read.cosines);
     const std::string text =
         "The normals do not fit the surfaces that the depths show (the median cosine between both is " +
         std::to_string(as_is).substr(0, 5) + ")";
-    for (size_t r = 1; r < readings.size(); ++r)
-        if (median(cosines[r]) > fits) {
-            notes.push_back(text + "; they would, taken " + readings[r].first +
+    // Walls fit either way, so that floors and ceilings decide: most of what is seen is floors, and level normals that
+    // point into what would be ceilings are those of floors, turned.
+    constexpr double more = 0.1;
+    const bool may_be_inward = fitting_share(readings[4].cosines) >= fitting_share(upside_down.cosines);
+    if (median(upside_down.cosines) > fits &&
+        fitting_share(upside_down.cosines) > fitting_share(as_read.cosines) + more &&
+        (!may_be_inward || facing_down > as_read.cosines.size() / 2)) {
+        notes.push_back(
+            "The rows are upside down: the normals fit the surfaces that the depths show if the last row is the first "
+            "one, as OpenGL reads textures (here the cosine between both is above 0.9 in " +
+            percent(fitting_share(as_read.cosines)) + " of the pixels, there in " +
+            percent(fitting_share(upside_down.cosines)) +
+            "). Turn the rows of all layers: `oiiotool gbuffer.exr --flip -d material_id.Y=uint -o turned.exr`.");
+        return;
+    }
+    if (as_is >= may_fit) return;
+    for (size_t r = 2; r < readings.size(); ++r)
+        if (median(readings[r].cosines) > fits) {
+            notes.push_back(text + "; they would, taken " + readings[r].name +
                             ". They must be in world space, +Y up, and point away from the surface.");
             return;
         }

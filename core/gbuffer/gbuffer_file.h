@@ -36,7 +36,8 @@ struct HostGBuffer {
 std::map<std::string, size_t> count_non_finite(const HostGBuffer& gbuffer);
 
 /// A folder with gbuffer.exr and camera.json, so that captures of other engines can stand in for a scene. All images
-/// are float32 or half, of one extent, pixel for pixel in screen order (first row at the top).
+/// are float32 or half, of one extent, pixel for pixel in screen order (first row at the top). The picture is the
+/// display window; how its channels are found is in gbuffer_layers.h.
 ///
 /// gbuffer.exr: layer (channels)    meaning                                                   if absent
 ///   depth (Z)                      device depth of camera.json's direction and format; the   required
@@ -72,6 +73,7 @@ void save_gbuffer(const std::filesystem::path& folder, const HostGBuffer& gbuffe
 
 struct LoadedGBuffer {
     HostGBuffer gbuffer;
+    std::vector<std::string> layers;  ///< those above that the file has
     std::map<std::string, std::string>
         absent;                      ///< what is taken in place of layers that the file lacks, by their names
     std::vector<std::string> notes;  ///< layers not used, and check_gbuffer(): one sentence each
@@ -83,5 +85,6 @@ LoadedGBuffer load_gbuffer(const std::filesystem::path& folder);
 /// environment.json: a scene file's "environment" (scenes/README.md), an image beside it in environment.exr. Comes back
 /// bit by bit, but for the rotation of an image, which is in degrees.
 void save_environment(const std::filesystem::path& folder, const Environment& environment);
-/// None if the folder has no environment.json. Fails with Error if that is malformed.
-std::optional<Environment> load_environment(const std::filesystem::path& folder);
+/// None if the folder has no environment.json. `notes` gets a sentence for each thing that was converted. Fails with
+/// Error if that is malformed.
+std::optional<Environment> load_environment(const std::filesystem::path& folder, std::vector<std::string>& notes);

@@ -7,4 +7,5 @@ bool is_background(const HostGBuffer& gbuffer, size_t pixel);
 glm::dvec2 sample_uv(const HostGBuffer& gbuffer, size_t pixel);  ///< 0..1 over the image, y down, with its jitter
 glm::dvec3 surface_position(const HostGBuffer& gbuffer,
                             size_t pixel);  ///< world space; of the background on the far plane
+glm::dvec3 position_at(const HostGBuffer& gbuffer, size_t pixel, float depth);  ///< the same of another device depth
 glm::dvec3 view_direction(const HostGBuffer& gbuffer, size_t pixel);  ///< unit, world space, away from the camera

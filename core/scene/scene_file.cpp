@@ -3,11 +3,11 @@
 #include "core/error.h"
 #include "core/json.h"
 #include "core/near_miss.h"
-#include "core/radiance_file.h"
 #include "core/scene/camera_planes.h"
 #include "core/scene/camera_reader.h"
 #include "core/scene/content_hash.h"
 #include "core/scene/gltf/load_gltf.h"
+#include "core/scene/latlong_image.h"
 #include "core/scene/load_scene.h"
 #include "core/scene/material_override.h"
 #include "core/scene/ranges.h"
@@ -100,18 +100,6 @@ glm::vec3 read_color(JsonObject& object, const std::string& key, glm::vec3 fallb
     return checked_radiance(color, object.where() + ": '" + key + "'");
 }
 
-HostImage read_latlong(const fs::path& file, float scale) {
-    std::vector<std::string> notes;
-    HostImage image = read_radiance(file, "", notes);
-    for (float& v : image.values) {
-        v *= scale;
-        if (!(v >= 0.0f && v <= any_radiance))
-            fail(file.string(), ": an environment must be finite and not negative, but a texel times its 'scale' is ",
-                 v, "; allowed is [0, ", any_radiance, "]");
-    }
-    return image;
-}
-
 PunctualLight read_light(JsonObject object) {
     PunctualLight light;
     const std::string type = object.text("type");
@@ -140,7 +128,8 @@ PunctualLight read_light(JsonObject object) {
 
 }  // namespace
 
-Environment read_environment(JsonObject object, const fs::path& scene_file, const std::vector<fs::path>& search_path) {
+Environment read_environment(JsonObject object, const fs::path& scene_file, const std::vector<fs::path>& search_path,
+                             std::vector<std::string>& notes) {
     Environment environment;
     if (object.has("gradient")) {
         JsonObject gradient = object.object("gradient");
@@ -154,7 +143,7 @@ Environment read_environment(JsonObject object, const fs::path& scene_file, cons
         environment.rotation = glm::radians(object.number("rotation_deg", -3600.0f, 3600.0f, 0.0f));
         const float scale = object.number("scale", 0.0f, 1e9f, 1.0f);
         environment.latlong =
-            read_latlong(find_file(object.text("image"), scene_file, search_path, object.where()), scale);
+            read_latlong(find_file(object.text("image"), scene_file, search_path, object.where()), scale, notes);
     } else {
         environment.color = read_color(object, "constant", glm::vec3(0.0f));
         if (!object.has("constant")) fail(object.where(), " names no kind: give 'constant', 'gradient' or 'image'");
@@ -197,8 +186,10 @@ Scene load_scene_file(const fs::path& file, const std::vector<fs::path>& search_
     scene.name = fs::absolute(file).parent_path().filename().string();
     const bool is_own = gltf.empty() || fs::absolute(gltf).parent_path() == fs::absolute(file).parent_path();
     scene.asset = is_own ? scene.name : gltf.filename().string();
+    std::vector<std::string> notes;
     if (object.has("environment"))
-        scene.environment = read_environment(object.object("environment"), file, search_path);
+        scene.environment = read_environment(object.object("environment"), file, search_path, notes);
+    for (std::string& note : notes) scene.warnings.push_back({.text = std::move(note)});
     scene.memory.add(double(scene.environment.latlong.values.size()) * sizeof(float),
                      file.string() + ": 'environment'");
     for (JsonObject& light : object.objects("lights")) scene.lights.push_back(read_light(light));

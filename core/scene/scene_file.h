@@ -13,5 +13,6 @@ Scene load_scene_file(const std::filesystem::path& file, const std::vector<std::
 void finish_scene(Scene& scene);
 
 /// A scene file's "environment" (scenes/README.md). An image is looked for beside `file`, then in the search path.
+/// `notes` gets a sentence for each thing that was converted.
 Environment read_environment(JsonObject object, const std::filesystem::path& file,
-                             const std::vector<std::filesystem::path>& search_path);
+                             const std::vector<std::filesystem::path>& search_path, std::vector<std::string>& notes);

@@ -105,6 +105,9 @@ void capture_command(const CaptureCommandOptions& options) {
                 config.frames.size(), config.frames.size() == 1 ? "" : "s", shot.config.extent.x, shot.config.extent.y,
                 contents.has_lit ? "with a" : "without a",
                 capture.environment() ? "with an environment" : "without an environment");
+    std::printf("layers:");
+    for (const std::string& layer : contents.layers) std::printf(" %s", layer.c_str());
+    std::printf("\n");
     const unsigned last = config.frames.back();
     const bool has_before = config.frames.size() > 1;
     std::printf("frame %u:\n", last);

@@ -5,6 +5,7 @@
 #include "core/json.h"
 #include "core/png.h"
 #include "tests/error_message.h"
+#include "tests/exr_writer.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -24,14 +25,15 @@ struct Reading : testing::Test {
     }
     void TearDown() override { fs::remove_all(folder); }
 
-    /// An EXR of 2 x 2 pixels whose header says that its last pixel is another one.
+    /// An EXR of 2 x 2 pixels whose header says that its last pixel is another one, in both windows.
     fs::path with_last_pixel(int32_t x, int32_t y) {
         const fs::path file = folder / "wide.exr";
         write_exr(file, HostImage({2, 2}, 3));
         std::string bytes = read_text(file);
-        const size_t window = bytes.find("dataWindow");
-        const size_t values = window + sizeof("dataWindow") + sizeof("box2i") + sizeof(int32_t);
-        std::memcpy(&bytes[values + 8], &x, sizeof x), std::memcpy(&bytes[values + 12], &y, sizeof y);
+        for (const std::string name : {"dataWindow", "displayWindow"}) {
+            const size_t values = bytes.find(name) + name.size() + 1 + sizeof("box2i") + sizeof(int32_t);
+            std::memcpy(&bytes[values + 8], &x, sizeof x), std::memcpy(&bytes[values + 12], &y, sizeof y);
+        }
         write_text(file, bytes);
         return file;
     }
@@ -67,17 +69,48 @@ TEST_F(Reading, CountsTheChannelsOfAnExr) {
     EXPECT_NE(refused([&] { read_exr(folder / "a.exr"); }).find("400 channels"), std::string::npos);
 }
 
-TEST_F(Reading, ReadsPlainExrsOnly) {
+TEST_F(Reading, RefusesCutHeadersOfExrs) {
     const fs::path file = with_last_pixel(1, 1);
     std::string bytes = read_text(file);
-    bytes[5] = 0x10;  // the flag of several parts
-    write_text(file, bytes);
-    EXPECT_NE(error_message([&] { read_exr(file); }).find("single part"), std::string::npos);
-    for (const size_t size : {0u, 3u, 8u, 20u, 100u}) {
-        write_text(file, bytes.substr(0, size));
-        EXPECT_NE(error_message([&] { read_exr(file); }).find("its header is truncated"), std::string::npos) << size;
-        bytes[5] = 0;
+    for (const char flags : {0, 0x10}) {  // 0x10: several parts
+        bytes[5] = flags;
+        for (const size_t size : {0u, 3u, 8u, 20u, 100u}) {
+            write_text(file, bytes.substr(0, size));
+            EXPECT_NE(error_message([&] { read_exr(file); }).find("its header is truncated"), std::string::npos)
+                << size;
+        }
     }
+    bytes[5] = 0, bytes[4] = 3;
+    write_text(file, bytes);
+    EXPECT_NE(error_message([&] { read_exr(file); }).find("it is of version 3"), std::string::npos);
+}
+
+/// Of each of several parts, too, and of one whose type OpenEXR does not know, which says itself how many blocks it
+/// has.
+TEST_F(Reading, TakesNoMemoryThatAPartOnlyAnnounces) {
+    ExrContent small(2, 2), wide(2, 2);
+    small.part = "small", wide.part = "wide";
+    small.add("", "RGB", {1, 1, 1}), wide.add("Z", 1);
+    const fs::path file = folder / "parts.exr";
+    write_parts(file, {small, wide});
+    const std::string whole = read_text(file);
+    EXPECT_EQ(read_exr(file).layers.size(), 2u);
+    std::string bytes = whole;
+    const size_t window = bytes.rfind("dataWindow") + sizeof("dataWindow") + sizeof("box2i") + sizeof(int32_t);
+    const int32_t last = 999'999'999;
+    std::memcpy(&bytes[window + 12], &last, sizeof last);
+    write_text(file, bytes);
+    const LimitsOf limits({.memory = 1'000'000'000});
+    EXPECT_NE(refused([&] { read_exr_rgb(file, "small"); }).find("parts.exr: its image of 2 x 2 pixels"),
+              std::string::npos);
+    bytes = whole;
+    const size_t type = bytes.rfind("scanlineimage"),
+                 chunks = bytes.rfind("chunkCount") + sizeof("chunkCount") + sizeof("int") + sizeof(int32_t);
+    bytes[type] = 'S';
+    std::memcpy(&bytes[chunks], &last, sizeof last);
+    write_text(file, bytes);
+    EXPECT_NE(refused([&] { read_exr_rgb(file, "small"); }).find("parts.exr: its image of 2 x 2 pixels"),
+              std::string::npos);
 }
 
 /// OpenEXR would set memory aside for lengths that it finds where the attribute does not end for it.

@@ -1,5 +1,7 @@
 // The readers of images, scenes and captures.
+#include "core/error.h"
 #include "core/exr.h"
+#include "core/exr/exr_picture.h"
 #include "core/files.h"
 #include "core/gbuffer/camera_file.h"
 #include "core/gbuffer/gbuffer_file.h"
@@ -21,6 +23,11 @@ void load(const fs::path& file) { load_scene(file.string(), {}); }
 /// A mesh that shows the image, and one that a scene file may name.
 void copy_neighbours(const fs::path& folder) {
     fs::copy(fs::path(SSRLAB_SOURCE_DIR) / "tests/data/fuzz/neighbours", folder);
+}
+
+/// The camera of the inputs of "capture", which are 6 x 4 pixels.
+void write_capture_camera(const fs::path& folder) {
+    write_camera(folder / "camera.json", {camera_data({}, nullptr, {.extent = {6, 4}})});
 }
 
 /// Gives the chunks of a PNG file right checksums, since else hardly a change would get past libpng's look at them. A
@@ -51,7 +58,15 @@ const FuzzTarget targets[] = {
          load(file.parent_path() / "shows_texture.gltf");
      },
      copy_neighbours},
-    {"exr", "input.exr", [](const fs::path& file) { read_exr(file); }},
+    {"exr", "input.exr",
+     [](const fs::path& file) {
+         try {
+             read_exr_picture(file);
+         } catch (const Error&) {
+         }
+         read_exr(file);
+     }},
+    {"capture", "gbuffer.exr", [](const fs::path& file) { load_gbuffer(file.parent_path()); }, write_capture_camera},
     {"png", "input.png",
      [](const fs::path& file) {
          correct_checksums(file);
@@ -63,7 +78,11 @@ const FuzzTarget targets[] = {
          read_radiance_hdr(file, notes);
      }},
     {"camera", "camera.json", [](const fs::path& file) { read_camera(file); }},
-    {"environment", "environment.json", [](const fs::path& file) { load_environment(file.parent_path()); },
+    {"environment", "environment.json",
+     [](const fs::path& file) {
+         std::vector<std::string> notes;
+         load_environment(file.parent_path(), notes);
+     },
      copy_neighbours},
 };
 

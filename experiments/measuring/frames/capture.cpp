@@ -126,7 +126,7 @@ void add_pixel_facts(const HostGBuffer& g, SceneFacts& facts) {
 Capture::Capture(const fs::path& folder) {
     folders_ = capture_frames(folder);
     for (const auto& [frame, path] : folders_) frames_.push_back(frame);
-    environment_ = load_environment(folder);
+    environment_ = load_environment(folder, environment_notes_);
 }
 
 std::optional<unsigned> Capture::recorded_before(unsigned frame) const {
@@ -217,7 +217,7 @@ CaptureContents inspect_capture(const Shot& shot, Capture& capture) {
     for (const unsigned frame : shot.config.frames) {
         const fs::path place = capture.folder_of(frame);
         const LoadedGBuffer now = capture.load(frame);
-        if (frame == first) layout = layout_of(now.gbuffer);
+        if (frame == first) layout = layout_of(now.gbuffer), contents.layers = now.layers;
         if (layout_of(now.gbuffer) != layout)
             fail(place.string(), " is ", layout_of(now.gbuffer), ", but the first frame is ", layout);
         const bool has_lit = !now.absent.contains("lit");
@@ -238,6 +238,7 @@ CaptureContents inspect_capture(const Shot& shot, Capture& capture) {
             for (const std::string& note : check_motion(before, now.gbuffer)) notes.add(note, frame);
     }
     contents.notes = notes.texts(shot.config.frames.size());
+    std::ranges::copy(capture.environment_notes(), std::back_inserter(contents.notes));
     return contents;
 }
 

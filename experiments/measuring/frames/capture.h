@@ -21,6 +21,7 @@ public:
 
     const std::vector<unsigned>& frames() const { return frames_; }  ///< ascending; {0} of one without a number
     const std::optional<Environment>& environment() const { return environment_; }
+    const std::vector<std::string>& environment_notes() const { return environment_notes_; }  ///< what was converted
     const std::filesystem::path& folder_of(unsigned frame) const { return folders_.at(frame); }
 
     /// From its files; valid until the next call, with an empty `fallback` layer filled from the environment.
@@ -33,6 +34,7 @@ private:
     std::map<unsigned, std::filesystem::path> folders_;  ///< by frame
     std::vector<unsigned> frames_;
     std::optional<Environment> environment_;
+    std::vector<std::string> environment_notes_;
     std::optional<PrefilteredEnvironment> prefiltered_;  ///< made when first needed
     std::map<unsigned, std::unique_ptr<LoadedGBuffer>> loaded_;
     std::vector<unsigned> loaded_order_;  ///< the oldest first
@@ -44,9 +46,10 @@ Shot capture_shot(const ShotConfig& config, const Capture& capture);
 
 /// What all frames of a shot hold.
 struct CaptureContents {
-    SceneFacts facts;                ///< what is unknown counts as present, so that nothing is skipped for lack of it
-    bool has_lit = false;            ///< a lit colour of its own
-    std::vector<std::string> notes;  ///< sentences for the user, with the frames that they are about
+    SceneFacts facts;                 ///< what is unknown counts as present, so that nothing is skipped for lack of it
+    bool has_lit = false;             ///< a lit colour of its own
+    std::vector<std::string> layers;  ///< of the first frame
+    std::vector<std::string> notes;   ///< sentences for the user, with the frames that they are about
 };
 
 /// Reads and checks all frames of a shot (gbuffer_checks.h). Fails with Error, naming the file, where a frame has

@@ -1,7 +1,7 @@
 #include "experiments/run/shots/external_frames.h"
 
 #include "core/error.h"
-#include "core/exr.h"
+#include "core/exr/exr_picture.h"
 #include "core/path_inside.h"
 #include "core/png.h"
 #include "experiments/config/points/external_images.h"
@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace {
 
@@ -70,6 +71,8 @@ public:
             if (row.target == "specular") row.negative = 0;
         cell.images = queue_.finish();
         cell.notes.push_back(note());
+        for (const std::string& conversion : conversions_)
+            cell.notes.push_back(point_.shot.name() + ": images of " + images_.engine + ": " + conversion);
         return cell;
     }
 
@@ -81,7 +84,9 @@ private:
         if (!std::filesystem::is_regular_file(file, error))
             fail(file.string(), " is missing: ", images_.engine, " rendered ", ExternalImages::view_name(point_.shot),
                  ", of which each measured frame is asked, with reflections and without");
-        HostImage image = read_exr_rgb(file);
+        ExrPicture picture = read_exr_picture(file);
+        for (const std::string& note : picture.notes) conversions_.insert(note.substr(file.string().size() + 2));
+        HostImage image = std::move(picture.rgb);
         if (image.extent != point_.shot.config.extent)
             fail(file.string(), " has ", image.extent.x, "x", image.extent.y, " pixels; the shot has ",
                  point_.shot.config.extent.x, "x", point_.shot.config.extent.y);
@@ -206,6 +211,7 @@ private:
     ImageQueue queue_;
     std::map<unsigned, ProofPixels> with_reflections_;  ///< by frame
     size_t compared_ = 0, differing_ = 0;               ///< without reflections
+    mutable std::set<std::string> conversions_;         ///< what was converted when images were read
     size_t most_leaks_ = 0;                             ///< of an image with them; 0: none to speak of
 };
 

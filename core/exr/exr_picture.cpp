@@ -1,0 +1,127 @@
+#include "core/exr/exr_picture.h"
+
+#include "core/error.h"
+#include "core/exr/exr_colors.h"
+#include "core/exr/exr_layers.h"
+#include "core/exr/exr_pixels.h"
+#include "core/near_miss.h"
+
+#include <algorithm>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Components = std::vector<ExrComponent>;
+
+bool has_rgb(const ExrLayer& layer) { return components_named(layer, "RGB").has_value(); }
+
+bool has_chroma(const ExrLayer& layer) { return layer.find("Y") && layer.find("RY") && layer.find("BY"); }
+
+/// X Y Z; or one channel, which is grey: Y, or the only one beside A. None if neither is there.
+std::optional<Components> vector_or_grey(const ExrLayer& layer) {
+    if (auto xyz = components_named(layer, "XYZ")) return xyz;
+    auto y = components_named(layer, "Y");
+    if (y && !components_named(layer, "X")) return y;
+    Components others;
+    for (const ExrComponent& component : layer.components)
+        if (component.letter != 'A') others.push_back(component);
+    if (others.empty()) others = layer.components;
+    if (others.size() != 1) return {};
+    return others;
+}
+
+/// A file's layers, and the choice among them.
+class Chooser {
+public:
+    Chooser(const fs::path& file, const ExrHeader& header)
+        : file_(file.string()), header_(header), layers_(layers_of(header)) {}
+
+    ExrLayer named(const std::string& name) const {
+        if (const ExrLayer* layer = find_layer(header_, layers_, name)) return *layer;
+        if (layers_.size() == 1 && layers_.front().in_part.empty()) return layers_.front();
+        for (const ExrLayer& layer : layers_)  // "Z", "normal.X", or with the part's name: a channel of its own
+            for (const ExrComponent& component : layer.components) {
+                const ExrPart& part = header_.parts[layer.part];
+                const std::string& channel = part.channels[component.channel].name;
+                if (channel == name || part.name + "." + channel == name)
+                    return {.name = name, .in_part = name, .part = layer.part, .components = {component}};
+            }
+        std::vector<std::string> names;
+        for (const ExrLayer& layer : layers_) names.push_back(layer.name);
+        fail(file_, " has no layer '", name, "'", suggestion(name, names));
+    }
+
+    ExrLayer picture(std::vector<std::string>& notes) const {
+        const auto is_unnamed = [](const ExrLayer& layer) { return layer.in_part.empty(); };
+        for (const auto& is_colour : {has_rgb, has_chroma})
+            for (const ExrLayer& layer : layers_)
+                if (is_unnamed(layer) && is_colour(layer)) return layer;
+        for (const ExrLayer& layer : layers_)
+            if (layer.name == "image") return layer;
+        if (layers_.size() == 1) return layers_.front();
+        const auto colours = std::ranges::count_if(layers_, has_rgb);
+        if (colours == 1) {
+            const ExrLayer layer = *std::ranges::find_if(layers_, has_rgb);
+            notes.push_back(file_ + ": its picture is taken from the layer " + shown(layer) +
+                            ", the only one with R, G and B.");
+            return layer;
+        }
+        if (colours == 0)
+            for (const ExrLayer& layer : layers_)
+                if (is_unnamed(layer) && vector_or_grey(layer)) return layer;
+        fail(file_,
+             " does not say which of its layers is the picture: ", colours == 0 ? "none" : std::to_string(colours),
+             " of them ", colours == 1 ? "has" : "have", " R, G and B, and none is without a name; it has ",
+             shown(layers_),
+             "; name one with --layer where a command has it, or write R, G and B without a layer's name");
+    }
+
+private:
+    std::string file_;
+    const ExrHeader& header_;
+    std::vector<ExrLayer> layers_;
+};
+
+void convert(const fs::path& file, const ExrPart& part, ExrPicture& picture) {
+    if (const std::string note = convert_to_rec709(file, part, picture.rgb); !note.empty())
+        picture.notes.push_back(note);
+}
+
+}  // namespace
+
+ExrPicture read_exr_picture(const fs::path& file, const std::string& name) {
+    const ExrHeader header = read_exr_header(file);
+    ExrPicture picture;
+    const Chooser chooser(file, header);
+    const ExrLayer layer = name.empty() ? chooser.picture(picture.notes) : chooser.named(name);
+    const ExrPart& part = header.parts[layer.part];
+
+    auto components = components_named(layer, "RGB");
+    const bool is_rgb = components.has_value();
+    if (!is_rgb && has_chroma(layer)) {
+        picture.rgb = read_luminance_chroma(
+            file, header, layer.part, {layer.find("Y")->channel, layer.find("RY")->channel, layer.find("BY")->channel},
+            picture.memory);
+        convert(file, part, picture);
+        return picture;
+    }
+    if (!is_rgb) components = vector_or_grey(layer);
+    if (!components)
+        fail(file.string(), ": layer ", shown(layer), " is no colour: it has ", layer.components.size(),
+             " channels, and neither R, G and B nor X, Y and Z; name one of them with --layer, as '",
+             part.channels[layer.components.front().channel].name, "'");
+    ExrPlanes planes{.part = layer.part, .channels = {}};
+    for (const ExrComponent& component : *components) planes.channels.push_back(component.channel);
+    picture.memory = read_planes(file, header, {&planes, 1});
+    refuse_rounding(file, header, planes);
+    if (planes.channels.size() == 3) {
+        picture.rgb = std::move(planes.image);
+        if (is_rgb) convert(file, part, picture);
+        return picture;
+    }
+    picture.memory.add(double(planes.image.pixel_count()) * sizeof(glm::vec3), file.string() + ": its colours");
+    picture.rgb = HostImage(planes.image.extent, 3);
+    for (size_t i = 0; i < picture.rgb.pixel_count(); ++i) picture.rgb.set_rgb(i, glm::vec3(planes.image.values[i]));
+    return picture;
+}

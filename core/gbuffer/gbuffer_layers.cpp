@@ -1,0 +1,249 @@
+#include "core/gbuffer/gbuffer_layers.h"
+
+#include "core/error.h"
+#include "core/exr/exr_colors.h"
+#include "core/exr/exr_layers.h"
+#include "core/exr/exr_pixels.h"
+#include "core/near_miss.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace {
+
+using G = HostGBuffer;
+const GBufferLayer all_layers[] = {
+    {"depth", "Z", &G::depth, 0, 1, true},
+    {"normal", "XYZ", &G::normal, 0, 4, true},
+    {"roughness", "Y", &G::normal, 3, 4, true},
+    {"base_color", "RGB", &G::base_color, 0, 4, true},
+    {"metalness", "Y", &G::base_color, 3, 4, true},
+    {"lit", "RGB", &G::lit, 0, 4},
+    {"geometric_normal", "XYZ", &G::geometric_normal, 0, 4},
+    {"emission", "RGB", &G::emission, 0, 4},
+    {"specular", "Y", &G::emission, 3, 4},
+    {"dielectric_f0", "RGB", &G::dielectric_f0, 0, 4},
+    {"motion", "XY", &G::motion, 0, 2},
+    {"material_id", "Y", &G::material_id, 0, 1, false, PixelType::uint32},
+    {"previous_depth", "Z", &G::previous_depth, 0, 1},
+    {"previous_normal", "XYZ", &G::previous_normal, 0, 4},
+    {"previous_roughness", "Y", &G::previous_normal, 3, 4},
+    {"fallback", "RGB", &G::fallback, 0, 4},
+};
+
+std::vector<std::string> layer_names() {
+    std::vector<std::string> names;
+    for (const GBufferLayer& layer : all_layers) names.push_back(layer.name);
+    return names;
+}
+
+std::string list(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "'" : ", '") + name + "'";
+    return text;
+}
+
+std::string spaced(std::string_view letters) {
+    std::string text;
+    for (const char letter : letters) text += (text.empty() ? "" : " ") + std::string(1, letter);
+    return text;
+}
+
+/// A layer of the file, and the channels of it that are read.
+struct Chosen {
+    const GBufferLayer& layer;
+    std::vector<ExrComponent> components;
+    ExrPlanes planes;
+};
+
+class LayerReader {
+public:
+    LayerReader(const std::filesystem::path& file, HostGBuffer& gbuffer)
+        : file_(file),
+          where_(file.string()),
+          gbuffer_(gbuffer),
+          header_(read_exr_header(file)),
+          layers_(layers_of(header_)) {}
+
+    FoundLayers read() {
+        std::vector<ExrPlanes> planes;
+        for (const GBufferLayer& layer : all_layers) choose(layer);
+        for (const Chosen& chosen : chosen_) planes.push_back(chosen.planes);
+        found_.memory = read_planes(file_, header_, planes);
+        for (size_t i = 0; i < planes.size(); ++i) take(chosen_[i], planes[i]);
+        note_cropped();
+        note_compression();
+        note_unused();
+        return std::move(found_);
+    }
+
+private:
+    const ExrPart& part_of(const Chosen& chosen) const { return header_.parts[chosen.planes.part]; }
+
+    /// Whose other channels, such as alpha, are not looked at. None if there are others alone.
+    std::optional<std::vector<ExrComponent>> components(const ExrLayer& layer, std::string_view letters) const {
+        if (auto found = components_named(layer, letters)) return found;
+        if (letters == "XYZ") return components_named(layer, "RGB");
+        if (letters == "XY") {
+            auto found = components_named(layer, "RG");
+            return found ? found : components_named(layer, "UV");
+        }
+        if (letters.size() == 1 && layer.components.size() == 1) return layer.components;
+        return {};
+    }
+
+    void choose(const GBufferLayer& wanted) {
+        const ExrLayer* layer = find_layer(header_, layers_, wanted.name);
+        if (!layer) {
+            if (wanted.is_required) refuse_missing(wanted);
+            return;
+        }
+        auto found = components(*layer, wanted.channels);
+        if (!found) fail(where_, ": layer ", shown(*layer), " needs the channels ", spaced(wanted.channels));
+        check_extent(header_.parts[layer->part]);
+        Chosen chosen{.layer = wanted, .components = *found, .planes = {.part = layer->part, .channels = {}}};
+        for (const ExrComponent& component : *found) {
+            chosen.planes.channels.push_back(component.channel);
+            used_.insert({layer->part, component.channel});
+        }
+        chosen_.push_back(std::move(chosen));
+    }
+
+    [[noreturn]] void refuse_missing(const GBufferLayer& wanted) const {
+        for (const ExrLayer& other : layers_)
+            if (nearest_name(other.name, layer_names()) == wanted.name)
+                fail(where_, ": lacks the layer '", wanted.name, "', but has '", other.name, "'");
+        fail(where_, ": lacks the layer '", wanted.name, "'; it has ", shown(layers_));
+    }
+
+    void check_extent(const ExrPart& part) const {
+        const glm::dvec2 extent = part.display.extent(), stored = part.data.extent(),
+                         wanted(gbuffer_.camera.extent.x, gbuffer_.camera.extent.y);
+        if (extent == wanted) return;
+        std::string windows;
+        if (!(part.data == part.display)) {
+            windows =
+                "; that is its display window (" + shown(part.display) + "), its data window is " + shown(part.data);
+            if (stored == wanted)
+                windows +=
+                    ": if that is the picture, say so: `oiiotool gbuffer.exr --fullpixels -d "
+                    "material_id.Y=uint -o full.exr`";
+        }
+        fail(where_, ": is ", extent.x, " x ", extent.y, ", but camera.json says ", wanted.x, " x ", wanted.y, windows);
+    }
+
+    void take(const Chosen& chosen, ExrPlanes& planes) {
+        const GBufferLayer& layer = chosen.layer;
+        if (std::string_view(layer.channels) == "RGB") {
+            const std::string note = convert_to_rec709(file_, part_of(chosen), planes.image);
+            if (!note.empty() && std::ranges::find(found_.notes, note) == found_.notes.end())
+                found_.notes.push_back(note);
+        }
+        if (layer.image == &G::material_id) check_numbers(planes);
+        if (layer.image == &G::depth && part_of(chosen).channels[planes.channels[0]].type == PixelType::half)
+            found_.notes.push_back(
+                "The layer 'depth' is stored as half floats, which tell only 1025 depths from 0.5 to "
+                "1 apart: store it as 32-bit floats.");
+        HostImage& image = gbuffer_.*layer.image;
+        if (image.values.empty()) image = HostImage(planes.image.extent, layer.image_channels);
+        copy_channels(planes.image, 0, image, layer.first_channel, layer.count());
+        found_.names.insert(layer.name);
+        planes = {};
+    }
+
+    /// Of materials: as floats they are kept apart up to 2^24.
+    void check_numbers(const ExrPlanes& planes) {
+        constexpr float most = 16777216;
+        size_t fractions = 0;
+        for (size_t i = 0; i < planes.image.values.size(); ++i) {
+            const float value = planes.image.values[i];
+            const double number = planes.integers.empty() ? double(value) : double(planes.integers[i]);
+            if (number > most)
+                fail(where_, ": layer 'material_id' has the number ", uint64_t(std::min(number, 1e18)), " in pixel (",
+                     i % planes.image.extent.x, ", ", i / planes.image.extent.x, "), but numbers above ",
+                     uint32_t(most), " would not be kept apart: count the materials from 1, or leave the layer out");
+            fractions += !(value >= 0 && value == std::floor(value));
+        }
+        if (fractions > 0)
+            found_.notes.push_back(
+                std::to_string(fractions) +
+                " pixels have a material_id that is no whole number. Integers that oiiotool wrote as shares of "
+                "4294967295 come back with `oiiotool gbuffer.exr -d material_id.Y=uint -o whole.exr`.");
+    }
+
+    /// What was not stored is background: of the far plane's depth, and 0 in all else.
+    void note_cropped() {
+        for (const Chosen& chosen : chosen_) {
+            const GBufferLayer& layer = chosen.layer;
+            const ExrPart& part = part_of(chosen);
+            if (std::string_view(layer.channels) != "Z" || part.data == part.display) continue;
+            HostImage& depth = gbuffer_.*layer.image;
+            size_t outside = 0;
+            for (unsigned y = 0; y < depth.extent.y; ++y)
+                for (unsigned x = 0; x < depth.extent.x; ++x) {
+                    const glm::ivec2 at = part.display.min + glm::ivec2(x, y);
+                    if (at.x >= part.data.min.x && at.x <= part.data.max.x && at.y >= part.data.min.y &&
+                        at.y <= part.data.max.y)
+                        continue;
+                    *depth.pixel(x, y) = gbuffer_.camera.depth.z, ++outside;
+                }
+            if (outside > 0 && layer.image == &G::depth)
+                found_.notes.push_back(std::to_string(outside) + " pixels of the display window (" +
+                                       shown(part.display) + ") lie outside of the data window (" + shown(part.data) +
+                                       "): they count as background without light.");
+        }
+    }
+
+    void note_compression() {
+        std::map<std::string, std::vector<std::string>> layers;
+        for (const Chosen& chosen : chosen_) {
+            const ExrPart& part = part_of(chosen);
+            if (std::ranges::any_of(chosen.planes.channels, [&](size_t c) { return part.is_lossy(part.channels[c]); }))
+                layers[part.compression_name()].push_back(chosen.layer.name);
+        }
+        for (const auto& [name, concerned] : layers)
+            found_.notes.push_back("The file is compressed by " + name + ", which changes the values of " +
+                                   list(concerned) + ": write it with ZIP, PIZ or without compression.");
+    }
+
+    void note_unused() {
+        const std::vector<std::string> names = layer_names();
+        std::string unused;
+        for (const ExrLayer& layer : layers_) {
+            ExrLayer rest = layer;
+            std::erase_if(rest.components, [&](const ExrComponent& c) {
+                return used_.contains({layer.part, c.channel});
+            });
+            if (rest.components.empty()) continue;
+            const std::string near = layer.name.empty() ? "" : nearest_name(layer.name, names);
+            if (rest.components.size() == layer.components.size() && !near.empty() && near != layer.name)
+                found_.notes.push_back("The layer '" + layer.name + "' is not used; did you mean '" + near + "'?");
+            else
+                unused += (unused.empty() ? "" : ", ") + shown(rest);
+        }
+        if (!unused.empty()) found_.notes.push_back("Layers or channels that are not used: " + unused + ".");
+    }
+
+    std::filesystem::path file_;
+    std::string where_;
+    HostGBuffer& gbuffer_;
+    ExrHeader header_;
+    std::vector<ExrLayer> layers_;
+    std::vector<Chosen> chosen_;
+    std::set<std::pair<size_t, size_t>> used_;  ///< part and channel
+    FoundLayers found_;
+};
+
+}  // namespace
+
+std::span<const GBufferLayer> gbuffer_layers() { return all_layers; }
+
+void copy_channels(const HostImage& from, unsigned from_channel, HostImage& to, unsigned to_channel, unsigned count) {
+    for (size_t i = 0; i < from.pixel_count(); ++i)
+        for (unsigned c = 0; c < count; ++c)
+            to.values[i * to.channels + to_channel + c] = from.values[i * from.channels + from_channel + c];
+}
+
+FoundLayers read_gbuffer_layers(const std::filesystem::path& file, HostGBuffer& gbuffer) {
+    return LayerReader(file, gbuffer).read();
+}

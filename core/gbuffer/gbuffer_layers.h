@@ -1,0 +1,34 @@
+#pragma once
+#include "core/exr.h"
+#include "core/gbuffer/gbuffer_file.h"
+
+#include <set>
+#include <span>
+
+/// One layer of gbuffer.exr: some consecutive channels of one image of the G-buffer.
+struct GBufferLayer {
+    const char *name, *channels;
+    HostImage HostGBuffer::*image;
+    unsigned first_channel, image_channels;
+    bool is_required = false;
+    PixelType type = PixelType::float32;
+
+    unsigned count() const { return unsigned(std::char_traits<char>::length(channels)); }
+};
+std::span<const GBufferLayer> gbuffer_layers();
+
+/// `count` channels of one image into another of the same extent.
+void copy_channels(const HostImage& from, unsigned from_channel, HostImage& to, unsigned to_channel, unsigned count);
+
+struct FoundLayers {
+    std::set<std::string> names;
+    std::vector<std::string> notes;  ///< one sentence each: what is not used, what a compression changed
+    MemoryShare memory;
+};
+
+/// Reads the layers of `file`, and no other channels, into the images of `gbuffer`, whose camera says their extent.
+/// Channels are chosen by name: of a vector X Y Z, or R G B as picture programs call them; of one value the letter that
+/// gbuffer_file.h names, or the layer's only channel. The picture is the display window; pixels outside of the data
+/// window of `depth` are background. Colours come in linear Rec. 709. Fails with Error, naming file and layer, if a
+/// required layer or a channel is missing, if the extent is another, and if material numbers are above 2^24.
+FoundLayers read_gbuffer_layers(const std::filesystem::path& file, HostGBuffer& gbuffer);
