@@ -3,6 +3,7 @@
 #include "core/digits.h"
 #include "core/error.h"
 #include "core/exr.h"
+#include "core/files.h"
 #include "core/near_miss.h"
 #include "core/png.h"
 #include "core/reading_limits.h"
@@ -15,23 +16,17 @@
 
 namespace {
 
-std::string extension(const std::filesystem::path& file) {
-    std::string text = file.extension().string();
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-    return text;
-}
-
 struct Source {
     HostImage linear, codes;
 };
 
 Source read_source(const std::filesystem::path& file, const CompareOptions& options) {
     const MetricSettings& settings = options.settings;
-    if (extension(file) == ".exr") {
+    if (lower_case_extension(file) == ".exr") {
         const HostImage linear = read_exr_rgb(file, options.layer);
         return {linear, display_codes(linear, settings.exposure_ev, settings.tone_map)};
     }
-    if (extension(file) != ".png") fail("cannot compare ", file.string(), ": images are read from .exr and .png files");
+    if (lower_case_extension(file) != ".png") fail("cannot compare ", file.string(), ": images are read from .exr and .png files");
     Source source;
     source.codes = source.linear = read_png_codes(file);
     for (float& v : source.linear.values) v = linear_from_srgb(v);
@@ -53,7 +48,7 @@ void choose_flip_exposures(Comparison& comparison, const HostImage& reference) {
     CompareOptions& options = comparison.options;
     if (options.settings.flip_exposures) return;
     const bool is_asked_for = std::ranges::find(options.metrics, "hdr_flip") != options.metrics.end();
-    const bool is_default = options.metrics.empty() && extension(options.reference) == ".exr";
+    const bool is_default = options.metrics.empty() && lower_case_extension(options.reference) == ".exr";
     if (!is_asked_for && !is_default) return;
     try {
         options.settings.flip_exposures = flip_exposure_range(reference, options.settings.hdr_flip_tone_map);
@@ -79,7 +74,7 @@ void report_bad_pixels(Comparison& comparison) {
 }
 
 void write_map(const CompareOptions& options, const std::vector<CompareResult>& results) {
-    if (extension(options.map) == ".png") {
+    if (lower_case_extension(options.map) == ".png") {
         if (results.size() != 1)
             fail("cannot draw the maps of ", results.size(), " metrics into ", options.map.string(),
                  ": name one with --metric, or write .exr");
@@ -109,7 +104,7 @@ nlohmann::json to_json(const PixelCounts& counts) {
 
 void check(const CompareOptions& options) {
     for (const std::string& name : options.metrics) metric_named(name);
-    if (!options.map.empty() && extension(options.map) != ".exr" && extension(options.map) != ".png")
+    if (!options.map.empty() && lower_case_extension(options.map) != ".exr" && lower_case_extension(options.map) != ".png")
         fail("cannot write the error map ", options.map.string(), ": its name must end in .exr or .png");
     if (!(options.map_max > 0)) fail("the scale of the error map is ", options.map_max, ", but must be above 0");
 }
