@@ -1,10 +1,13 @@
 #pragma once
+#include "core/digits.h"
+
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
-/// A mistake of the user: a wrong key, a value out of range, a missing or broken file. Its text is one sentence that names
-/// the culprit, the value found and what is allowed. `main` prints it and exits with code 2.
+/// A mistake of the user: a wrong key, a value out of range, a missing or broken file. Its text is one sentence that
+/// names the culprit, the value found and what is allowed. `main` prints it and exits with code 2.
 struct Error : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -14,18 +17,29 @@ struct MachineError : Error {
     using Error::Error;
 };
 
-/// fail("no variant named '", name, "'"): streams its arguments into the message and throws Error.
+/// The parts of a message in one text. Six digits, as streams write them, would say that 1.5708 lies outside
+/// [0, 1.5708].
+template <class... Args>
+std::string message_text(const Args&... args) {
+    std::ostringstream text;
+    const auto add = [&](const auto& part) {
+        if constexpr (std::is_floating_point_v<std::decay_t<decltype(part)>>)
+            text << message_digits(part);
+        else
+            text << part;
+    };
+    (add(args), ...);
+    return text.str();
+}
+
+/// fail("no variant named '", name, "'"): puts its arguments into the message and throws Error.
 template <class... Args>
 [[noreturn]] void fail(const Args&... args) {
-    std::ostringstream text;
-    (text << ... << args);
-    throw Error(text.str());
+    throw Error(message_text(args...));
 }
 
 /// As fail(), for faults of the machine.
 template <class... Args>
 [[noreturn]] void fail_machine(const Args&... args) {
-    std::ostringstream text;
-    (text << ... << args);
-    throw MachineError(text.str());
+    throw MachineError(message_text(args...));
 }

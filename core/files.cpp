@@ -10,6 +10,13 @@
 #include <cstring>
 #include <fstream>
 
+std::string lower_case_extension(const std::filesystem::path& file) {
+    std::string text = file.extension().string();
+    for (char& c : text)
+        if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+    return text;
+}
+
 void create_folder(const std::filesystem::path& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);

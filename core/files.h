@@ -5,6 +5,9 @@
 #include <string>
 #include <string_view>
 
+/// What a file's name ends with, in lower case: ".exr" of "A.EXR", as cameras and some programs write it; "" without.
+std::string lower_case_extension(const std::filesystem::path& file);
+
 /// Makes the folder and those above it. Fails with MachineError where it cannot.
 void create_folder(const std::filesystem::path& folder);
 

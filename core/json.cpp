@@ -97,6 +97,10 @@ public:
         return true;
     }
     bool parse_error(size_t position, const std::string& last_token, const json::exception& e) override {
+        if (text_.starts_with("\xFF\xFE") || text_.starts_with("\xFE\xFF"))
+            fail(name_,
+                 ": not valid JSON: the text is UTF-16, and JSON is UTF-8 (RFC 8259, 8.1); convert it, e.g. with ",
+                 "iconv -f UTF-16 -t UTF-8");
         const size_t end = std::min(position ? position - 1 : 0, text_.size());
         const auto line = 1 + std::count(text_.begin(), text_.begin() + long(end), '\n');
         const size_t line_start = end == 0 ? std::string::npos : text_.rfind('\n', end - 1);
@@ -220,6 +224,17 @@ std::string member_pointer(const std::string& pointer, const std::string& key) {
 
 std::string shown(const json& value) { return shortened(value.dump()); }
 
+bool is_whole(const json& value) {
+    if (!value.is_number_float()) return value.is_number_integer();
+    constexpr double all_are_exact = 0x1p53;
+    const auto number = value.get<double>();
+    return std::trunc(number) == number && std::abs(number) <= all_are_exact;
+}
+
+json with_whole_as_integer(const json& value) {
+    return value.is_number_float() && is_whole(value) ? json(value.get<int64_t>()) : value;
+}
+
 JsonObject::JsonObject(const nlohmann::json& object, std::string where) : object_(&object), file_(std::move(where)) {
     if (!object.is_object()) fail(file_, " must be a JSON object, not ", shown(object));
 }
@@ -279,8 +294,8 @@ float JsonObject::number(const std::string& key, float min, float max, float fal
 
 int JsonObject::integer(const std::string& key, int min, int max) {
     const nlohmann::json& value = need(key);
-    if (!value.is_number_integer()) fail(at(key), ": '", key, "' must be a whole number, not ", shown(value));
-    const auto number = value.get<long long>();
+    if (!is_whole(value)) fail(at(key), ": '", key, "' must be a whole number, not ", shown(value));
+    const auto number = value.get<double>();  // larger ones are rounded, and stay outside
     if (number < min || number > max)
         fail(at(key), ": '", key, "' = ", shown(value), " is outside [", min, ", ", max, "]");
     return int(number);

@@ -42,6 +42,12 @@ std::string member_pointer(const std::string& pointer, const std::string& key);
 /// The value as messages show it: JSON, cut where it is long.
 std::string shown(const nlohmann::json& value);
 
+/// Whether the number is whole: 3, 3.0 and 3e0 are the same to JSON (RFC 8259, section 6), and programs write each.
+bool is_whole(const nlohmann::json& value);
+
+/// The value, a whole number of at most 2^53 as an integer: 3 for 3.0.
+nlohmann::json with_whole_as_integer(const nlohmann::json& value);
+
 /// Reads the members of one JSON object and remembers which were asked for, so that a misspelt key is an error instead
 /// of a silent default. What begins each message is e.g. "scenes/fence/scene.json: cameras[0]", or with the places of a
 /// JsonDocument "scenes/fence/scene.json:12:7: cameras[0]".

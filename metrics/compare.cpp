@@ -3,6 +3,7 @@
 #include "core/digits.h"
 #include "core/error.h"
 #include "core/exr.h"
+#include "core/files.h"
 #include "core/image_format.h"
 #include "core/near_miss.h"
 #include "core/png.h"
@@ -17,12 +18,6 @@
 #include <span>
 
 namespace {
-
-std::string extension(const std::filesystem::path& file) {
-    std::string text = file.extension().string();
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-    return text;
-}
 
 struct Source {
     HostImage linear, codes;
@@ -90,7 +85,7 @@ void report_bad_pixels(Comparison& comparison) {
 }
 
 void write_map(const CompareOptions& options, const std::vector<CompareResult>& results) {
-    if (extension(options.map) == ".png") {
+    if (lower_case_extension(options.map) == ".png") {
         if (results.size() != 1)
             fail("cannot draw the maps of ", results.size(), " metrics into ", options.map.string(),
                  ": name one with --metric, or write .exr");
@@ -120,7 +115,7 @@ nlohmann::json to_json(const PixelCounts& counts) {
 
 void check(const CompareOptions& options) {
     for (const std::string& name : options.metrics) metric_named(name);
-    if (!options.map.empty() && extension(options.map) != ".exr" && extension(options.map) != ".png")
+    if (!options.map.empty() && lower_case_extension(options.map) != ".exr" && lower_case_extension(options.map) != ".png")
         fail("cannot write the error map ", options.map.string(), ": its name must end in .exr or .png");
     if (!(options.map_max > 0)) fail("the scale of the error map is ", options.map_max, ", but must be above 0");
 }

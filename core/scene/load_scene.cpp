@@ -1,6 +1,7 @@
 #include "core/scene/load_scene.h"
 
 #include "core/error.h"
+#include "core/files.h"
 #include "core/near_miss.h"
 #include "core/scene/gltf/load_gltf.h"
 #include "core/scene/scene_family.h"
@@ -39,11 +40,6 @@ std::vector<std::string> list_scenes(const std::vector<fs::path>& search_path) {
 
 namespace {
 
-std::string lower_case(std::string text) {
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-    return text;
-}
-
 /// A camera before the scene, far enough off to see all of it.
 SceneCamera camera_that_sees_all(const Scene& scene) {
     const auto [low, high] = scene_bounds(scene, pose_scene(scene, 0.0f));
@@ -71,7 +67,7 @@ Scene load_scene(const std::string& name, const std::vector<fs::path>& search_pa
     if (is_of_family(name)) return load_scene_file(scene_file_of_family(name), search_path);
     std::error_code error;  // a name too long for the file system is just unknown
     const fs::path direct = name;
-    const std::string ending = lower_case(direct.extension().string());
+    const std::string ending = lower_case_extension(direct);
     const bool is_scene = ending == ".json", is_gltf = ending == ".gltf" || ending == ".glb";
     const auto load = [&](const fs::path& file) {
         return is_gltf ? load_bare_gltf(file) : load_scene_file(file, search_path);

@@ -61,7 +61,7 @@ std::vector<std::unique_ptr<Device>> open_devices(const std::string& choice) {
 }  // namespace
 
 int stability_command(const StabilityOptions& options, const CommonOptions& common) {
-    const std::string kind = options.figure.extension().string();
+    const std::string kind = lower_case_extension(options.figure);
     if (!options.figure.empty() && kind != ".pdf" && kind != ".png" && kind != ".svg")
         fail("--figure ", options.figure.string(), ": its name must end with .pdf, .png or .svg");
     const std::vector<std::unique_ptr<Device>> devices = open_devices(common.device);

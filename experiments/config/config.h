@@ -29,6 +29,7 @@ struct ShotConfig {
     std::filesystem::path gbuffer;  ///< in place of a scene: a folder with gbuffer.exr and camera.json
     std::filesystem::path
         reference;  ///< of that G-buffer: what `ssrlab reference` wrote; without one nothing is measured
+    size_t reference_pattern_at = 0;  ///< where in its text what the config says begins, behind the config's folder
 
     bool direct_lit = false;           ///< SSR reads rasterised direct light in place of the path-traced lit colour
     bool lit_has_environment = false;  ///< that image also holds the environment's specular reflections

@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 
 bool has_type(const json& value, const std::string& type) {
-    if (type == "integer") return value.is_number_integer();
+    if (type == "integer") return is_whole(value);
     return type == "number"    ? value.is_number()
            : type == "string"  ? value.is_string()
            : type == "boolean" ? value.is_boolean()

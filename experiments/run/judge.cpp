@@ -4,10 +4,10 @@
 #include "core/files.h"
 #include "core/json.h"
 #include "core/scene/load_scene.h"
-#include "core/scene/scene_family.h"
 #include "experiments/config/points/external_images.h"
 #include "experiments/config/shots/capture_folder.h"
 #include "experiments/evaluation/summary.h"
+#include "experiments/run/view_name.h"
 #include "experiments/store/result_images.h"
 
 #include <re2/re2.h>
@@ -23,7 +23,7 @@ using nlohmann::json;
 
 /// A folder of a view's images, by what its name says.
 struct View {
-    std::string scene, camera;
+    ViewName name;
     int width = 0, height = 0;
     std::set<unsigned> frames;
 };
@@ -38,8 +38,8 @@ std::set<unsigned> frames_in(const fs::path& folder) {
     return frames;
 }
 
-/// `scene`: the name of the one that was asked for; "": the name ends at the first dot.
-std::vector<View> views_in(const fs::path& folder, const std::string& scene) {
+/// `scene`: the name of the one that was asked for; "": those of the search path.
+std::vector<View> views_in(const fs::path& folder, const std::string& scene, const std::vector<fs::path>& search_path) {
     static const RE2 size(R"((.+)\.([1-9]\d{0,4})x([1-9]\d{0,4}))");
     std::vector<View> views;
     for (const auto& entry : fs::directory_iterator(folder)) {
@@ -49,21 +49,15 @@ std::vector<View> views_in(const fs::path& folder, const std::string& scene) {
             !RE2::FullMatch(entry.path().filename().string(), size, &names, &view.width, &view.height))
             continue;
         if (!scene.empty() && !names.starts_with(scene + ".")) continue;
-        const size_t dot = scene.empty() ? names.find('.') : scene.size();
-        if (dot == std::string::npos) continue;
-        view.scene = names.substr(0, dot), view.camera = names.substr(dot + 1);
         view.frames = frames_in(entry.path());
-        if (!view.frames.empty()) views.push_back(std::move(view));
+        if (view.frames.empty() || names.find('.') == std::string::npos) continue;
+        view.name = scene.empty() ? view_name(names, entry.path(), search_path)
+                                  : ViewName{scene, names.substr(scene.size() + 1)};
+        views.push_back(std::move(view));
     }
-    std::ranges::sort(views, {}, [](const View& v) { return std::tuple(v.scene, v.camera, v.width, v.height); });
+    std::ranges::sort(views, {},
+                      [](const View& v) { return std::tuple(v.name.scene, v.name.camera, v.width, v.height); });
     return views;
-}
-
-/// As configs name it: results call a scene of a family "room_17".
-std::string scene_of_results(const std::string& name) {
-    for (const SceneFamily& family : scene_families())
-        if (name.starts_with(family.name + "_")) return family.name + ":" + name.substr(family.name.size() + 1);
-    return name;
 }
 
 json shots_of(const JudgeSettings& settings) {
@@ -75,9 +69,9 @@ json shots_of(const JudgeSettings& settings) {
     }
     const std::string name = settings.scene.empty() ? "" : load_scene(settings.scene, settings.run.search_path).name;
     json shots = json::array();
-    for (const View& view : views_in(settings.frames, name))
-        shots.push_back({{"scene", name.empty() ? scene_of_results(view.scene) : settings.scene},
-                         {"camera", view.camera},
+    for (const View& view : views_in(settings.frames, name, settings.run.search_path))
+        shots.push_back({{"scene", name.empty() ? view.name.scene : settings.scene},
+                         {"camera", view.name.camera},
                          {"resolution", {view.width, view.height}},
                          {"frames", view.frames}});
     if (shots.empty())

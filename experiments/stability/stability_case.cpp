@@ -15,9 +15,7 @@ const std::vector<std::pair<std::string, DepthFormat>> depth_formats = {
 glm::uvec2 read_size(JsonObject& object, const std::string& key, glm::uvec2 fallback) {
     if (!object.has(key)) return fallback;
     const nlohmann::json& size = object.any(key);
-    const auto is_side = [](const nlohmann::json& side) {
-        return side.is_number_unsigned() && side >= 1u && side <= 65536u;
-    };
+    const auto is_side = [](const nlohmann::json& side) { return is_whole(side) && side >= 1u && side <= 65536u; };
     if (!size.is_array() || size.size() != 2 || !is_side(size[0]) || !is_side(size[1]))
         fail(object.where(), ": '", key, "' must be [width, height] in pixels from 1 to 65536, not ", shown(size));
     return {size[0].get<unsigned>(), size[1].get<unsigned>()};
@@ -27,7 +25,7 @@ std::vector<unsigned> read_poses(JsonObject& object) {
     if (!object.has("poses")) return std::vector<unsigned>(size_t(object.integer("frames", 1, 100000, 3)), 0u);
     const nlohmann::json& poses = object.any("poses");
     const bool is_list = poses.is_array() && !poses.empty() && std::ranges::all_of(poses, [](const auto& pose) {
-                             return pose.is_number_unsigned() && pose <= std::numeric_limits<unsigned>::max();
+                             return is_whole(pose) && pose >= 0 && pose <= std::numeric_limits<unsigned>::max();
                          });
     if (!is_list) fail(object.where(), ": 'poses' must be an array of frame numbers, not ", shown(poses));
     return poses.get<std::vector<unsigned>>();

@@ -79,6 +79,44 @@ TEST(Json, NumbersBeyondAllRangesAreNamed) {
     EXPECT_NE(message([&] { object.integer("huge", 0, 10); }), "no error");
 }
 
+// RFC 8259, section 6: 3, 3.0 and 3e0 are one number; JSON Schema's "integer" holds each.
+TEST(Json, WholeNumbersMayBeWrittenWithAPointOrAnExponent) {
+    const auto json =
+        parse_json(R"({"a": 3.0, "b": 3e2, "c": -0.0, "d": 2.5, "e": 1e300, "huge": 18446744073709551615})", "c.json");
+    JsonObject object(json, "c.json");
+    EXPECT_EQ(object.integer("a", 0, 10), 3);
+    EXPECT_EQ(object.integer("b", 0, 1000), 300);
+    EXPECT_EQ(object.integer("c", 0, 10), 0);
+    EXPECT_EQ(message([&] { object.integer("a", 4, 10); }), "c.json: 'a' = 3.0 is outside [4, 10]");
+    EXPECT_EQ(message([&] { object.integer("d", 0, 10); }), "c.json: 'd' must be a whole number, not 2.5");
+    EXPECT_NE(message([&] { object.integer("e", 0, 10); }), "no error");
+    EXPECT_NE(message([&] { object.integer("huge", -10, 10); }), "no error");  // -1 as 64 bits with a sign
+    EXPECT_EQ(with_whole_as_integer(json["b"]).dump(), "300");
+    EXPECT_EQ(with_whole_as_integer(json["d"]).dump(), "2.5");
+}
+
+// A byte order mark need not be refused (RFC 8259, section 8.1), and Windows' editors write one, and lines with \r\n.
+TEST(Json, TextsOfOtherSystems) {
+    EXPECT_EQ(parse_json("\xEF\xBB\xBF{\r\n\"a\": 1\r\n}\r\n", "c.json")["a"], 1);
+    EXPECT_NE(message([] { parse_json("\xEF\xBB\xBF{\r\n\"a\" 1}", "c.json"); }).find("c.json:2:"), std::string::npos);
+    using namespace std::string_literals;
+    EXPECT_NE(message([] { parse_json("\xFF\xFE{\0}\0"s, "c.json"); }).find("UTF-16"), std::string::npos);
+}
+
+TEST(Json, MessagesHaveAsManyDigitsAsNumbersNeed) {
+    const auto json = parse_json(R"({"angle": 1.5707964})", "c.json");
+    JsonObject object(json, "c.json");
+    EXPECT_EQ(message([&] { object.number("angle", 0, 1.5707963f); }),
+              "c.json: 'angle' = 1.5707964 is outside [0, 1.5707963]");
+    const auto said = [](auto value) { return message([&] { fail(value); }); };
+    EXPECT_EQ(said(0.1), "0.1");
+    EXPECT_EQ(said(0.1f), "0.1");
+    EXPECT_EQ(said(1e6f), "1e+06");  // as streams write it
+    EXPECT_EQ(said(100000.0), "100000");
+    EXPECT_EQ(said(1.0 + 0x1p-52), "1.0000000000000002");
+    EXPECT_EQ(said(std::numeric_limits<float>::infinity()), "inf");
+}
+
 TEST(Json, MessagesStayShort) {
     const std::string text = "{\"" + std::string(300'000, 'a') + "\": \"" + std::string(300'000, 'b') + "\"}";
     const auto json = parse_json(text, "c.json");

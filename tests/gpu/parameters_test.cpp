@@ -39,6 +39,14 @@ TEST(Parameters, ReadLikePlainValues) {
               R"({"filter":"nearest","max_steps":64,"offset":-1,"refine":true,"thickness":0.25})");
 }
 
+TEST(Parameters, HoldWholeNumbersWrittenWithAPoint) {
+    Demo demo;
+    demo.params.assign({{"max_steps", 8.0}, {"offset", -2.0}});
+    EXPECT_EQ(demo.max_steps, 8u);
+    EXPECT_EQ(demo.params.values().at("max_steps").dump(), "8");
+    EXPECT_EQ(demo.params.values().at("offset").dump(), "-2");
+}
+
 TEST(Parameters, KeepShortDecimals) { EXPECT_EQ(Demo{}.params.values().at("thickness").dump(), "0.05"); }
 
 TEST(Parameters, RejectMistakesBySayingWhatIsAllowed) {

@@ -15,15 +15,14 @@ const std::vector<std::string> parameter_types = {"bool", "float", "int", "uint"
 
 /// A number as a parameter of the type holds it.
 json number_of(const json& value, const std::string& type, const std::string& where) {
-    if (!(type == "float" ? value.is_number() : value.is_number_integer()) ||
-        (type == "uint" && value.get<double>() < 0))
+    if (!(type == "float" ? value.is_number() : is_whole(value)) || (type == "uint" && value.get<double>() < 0))
         fail(where, ": ", shown(value), " is no ", type);
     const auto number = value.get<double>();
     const bool fits = type == "float" ? std::isfinite(float(number))
                       : type == "int" ? number >= -0x1p31 && number < 0x1p31
                                       : number < 0x1p32;
     if (!fits) fail(where, ": ", shown(value), " is too large for a ", type, " of 32 bits");
-    return type == "float" ? json_number(float(number)) : value;
+    return type == "float" ? json_number(float(number)) : with_whole_as_integer(value);
 }
 
 void read_range(JsonObject& object, Parameter& parameter) {

@@ -35,9 +35,7 @@ DeclaredImage read_image(JsonObject object, const KnownValues& known) {
     image.divisor = unsigned(object.integer("divisor", 1, largest_side, 1));
     if (object.has("size")) {
         const json& size = object.any("size");
-        const auto fits = [](const json& side) {
-            return side.is_number_integer() && side >= 1 && side <= largest_side;
-        };
+        const auto fits = [](const json& side) { return is_whole(side) && side >= 1 && side <= largest_side; };
         if (!size.is_array() || size.size() != 2 || !std::ranges::all_of(size, fits))
             fail(object.at("size"), ": 'size' must be [width, height] in pixels, each in [1, ", largest_side, "], not ",
                  shown(size));

@@ -5,7 +5,6 @@
 #include "core/near_miss.h"
 
 #include <climits>
-#include <cmath>
 #include <memory>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
 #include <valijson/schema.hpp>
@@ -282,10 +281,8 @@ bool takes_integers(const json& schema) {
 }
 
 void make_whole(json& value, const json& schema) {
-    constexpr double exact = 9007199254740992.0;  // 2^53: float64 holds all integers up to it
     if (value.is_number_float() && takes_integers(schema)) {
-        const auto number = value.get<double>();
-        if (std::abs(number) <= exact && number == std::floor(number)) value = int64_t(number);
+        value = with_whole_as_integer(value);
     } else if (value.is_array() && schema.contains("items")) {
         for (json& element : value) make_whole(element, schema["items"]);
     } else if (value.is_object()) {

@@ -74,20 +74,20 @@ std::vector<json> axis_values(JsonObject& axes, const std::string& name, const P
     check_axis(axis, p, at, 1);
     std::vector<json> values;
     if (axis.is_array()) {
-        values = axis.get<std::vector<json>>();
+        for (const json& value : axis) values.push_back(p.in_its_type(value));
     } else {
         const Range range = read_range(axis, where);
         const json& count = axis.front()[2];
-        if (!count.is_number_integer() || count < 2 || count > most_points)
+        if (!is_whole(count) || count < 2 || count > most_points)
             fail(where, ": the count must be a whole number in [2, ", most_points, "], not ", shown(count));
         const size_t n = count.get<size_t>();
         for (size_t i = 0; i < n; ++i) values.push_back(rounded(p, range.at(double(i) / double(n - 1))));
         values.erase(std::unique(values.begin(), values.end()), values.end());  // whole numbers that lie close
     }
     if (!axis.is_array()) {  // the others lie between
-        for (const json& end : {values.front(), values.back()}) check_parameter(declared, name, end, at);
+        for (const json& end : {values.front(), values.back()}) checked_value(declared, name, end, at);
     } else {
-        for (const json& value : values) check_parameter(declared, name, value, at);
+        for (const json& value : values) checked_value(declared, name, value, at);
     }
     return values;
 }
@@ -145,7 +145,7 @@ std::vector<json> single_values(const Axes& axes, const ParameterSet& declared) 
 
 /// What an axis of a sample makes of a number in [0, 1). Whole numbers and listed values get equal shares.
 json sampled_value(const json& axis, const Parameter& p, const std::optional<Range>& range, double u) {
-    if (!range) return axis[size_t(u * double(axis.size()))];
+    if (!range) return p.in_its_type(axis[size_t(u * double(axis.size()))]);
     if (p.glsl_type == "float") return rounded(p, range->at(u));
     const double low = std::min(range->from, range->to), high = std::max(range->from, range->to);
     return int64_t(std::min(std::floor(Range{low, high + 1, range->is_log}.at(u)), high));
@@ -161,7 +161,7 @@ std::optional<Range> read_sample_axis(const json& axis, const ParameterSet& decl
     if (!axis.is_array()) range = read_range(axis, where);
     const std::vector<json> extremes =
         range ? std::vector{rounded(p, range->from), rounded(p, range->to)} : axis.get<std::vector<json>>();
-    for (const json& value : extremes) check_parameter(declared, name, value, at);
+    for (const json& value : extremes) checked_value(declared, name, value, at);
     return range;
 }
 
@@ -255,13 +255,13 @@ void check_sample_axis(const json& axis, const ParameterSet& declared, const std
     read_sample_axis(axis, declared, name, at);
 }
 
-void check_parameter(const ParameterSet& declared, const std::string& name, const json& value,
-                     const std::string& where) {
-    find_parameter(declared, name, where);
+json checked_value(const ParameterSet& declared, const std::string& name, const json& value, const std::string& where) {
+    const Parameter& parameter = find_parameter(declared, name, where);
     ParameterSet copy = declared;
     try {
         copy.assign({{name, value}});
     } catch (const Error& e) {
         fail(where, ": ", e.what());
     }
+    return parameter.in_its_type(value);
 }

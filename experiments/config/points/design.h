@@ -24,6 +24,7 @@ Values range_values(int more);
 void check_sample_axis(const nlohmann::json& axis, const ParameterSet& declared, const std::string& name,
                        const std::string& at);
 
-/// Fails unless `name` is a declared parameter and may have the value; `where` begins the message.
-void check_parameter(const ParameterSet& declared, const std::string& name, const nlohmann::json& value,
-                     const std::string& where);
+/// The value as the declared parameter holds it. Fails unless there is one of that name, which may have the value;
+/// `where` begins the message.
+nlohmann::json checked_value(const ParameterSet& declared, const std::string& name, const nlohmann::json& value,
+                             const std::string& where);

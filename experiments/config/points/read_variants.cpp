@@ -42,9 +42,10 @@ std::unique_ptr<Variant> make_checked(const std::string& where, const std::strin
 /// An object of parameter values; null if the key is absent.
 nlohmann::json read_values(ConfigObject& entry, const std::string& key, const ParameterSet& declared) {
     if (!entry.has(key)) return {};
-    const JsonObject values = entry.plain(key);
-    for (const auto& [name, value] : entry[key].items()) check_parameter(declared, name, value, values.at(name));
-    return entry[key];
+    const JsonObject object = entry.plain(key);
+    nlohmann::json values = entry[key];
+    for (auto& [name, value] : values.items()) value = checked_value(declared, name, value, object.at(name));
+    return values;
 }
 
 nlohmann::json with_values(nlohmann::json parameters, const nlohmann::json& changed) {

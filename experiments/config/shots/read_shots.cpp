@@ -191,7 +191,11 @@ void read_names(ConfigObject& entry, std::vector<ShotConfig>& shots) {
 /// be the study's.
 std::vector<ShotConfig> read_capture(ConfigObject& shot, const std::filesystem::path& folder) {
     ShotConfig config{.gbuffer = folder / shot.get<std::string>("gbuffer")};
-    if (shot.has("reference")) config.reference = folder / shot.get<std::string>("reference");
+    if (shot.has("reference")) {
+        config.reference = folder / shot.get<std::string>("reference");
+        if (config.reference.string().starts_with((folder / "").string()))
+            config.reference_pattern_at = (folder / "").string().size();
+    }
     config.frames.clear();
     if (shot.has("frames"))
         config.frames = frames_of(shot["frames"], shot.at("frames") + ": 'frames'");

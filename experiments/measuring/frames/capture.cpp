@@ -245,7 +245,8 @@ CaptureContents inspect_capture(const Shot& shot, Capture& capture) {
 fs::path capture_reference_file(const ShotConfig& config, unsigned frame) {
     std::string name = config.reference.string();
     const size_t last = name.find_last_of('#');
-    if (last == std::string::npos) return config.reference;
+    if (last == std::string::npos || last < config.reference_pattern_at) return config.reference;
+    if (std::error_code error; fs::exists(config.reference, error)) return config.reference;
     const size_t before = name.find_last_not_of('#', last);
     const size_t first = before == std::string::npos ? 0 : before + 1;
     std::string number = std::to_string(frame);

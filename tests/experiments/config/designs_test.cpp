@@ -155,6 +155,17 @@ TEST_F(Designs, AxesAreListsOrRanges) {
                   "study.json:3:38: variants[0]: sweep: 'dda.refine' must be an array of values (true, false), not ");
 }
 
+TEST_F(Designs, WholeNumbersMayBeWrittenWithAPoint) {
+    const Config config = of(dda(R"("parameters": {"dda.max_steps": 1e2}, "sweep": {"dda.stride": [4.0, 2]})"),
+                             R"({"scene": "fence", "frames": 3.0, "resolution": [96.0, 5.4e1]})");
+    EXPECT_EQ(points(config), (Names{"mcguire_dda dda.stride=4", "mcguire_dda dda.stride=2"}))
+        << "not 4.0: another point";
+    EXPECT_EQ(config.variants.at(0).parameters.dump(), R"({"dda.max_steps":100,"dda.stride":4})");
+    EXPECT_EQ(config.shots.at(0).frames, (std::vector<unsigned>{0, 1, 2}));
+    EXPECT_EQ(config.shots.at(0).extent, glm::uvec2(96, 54));
+    EXPECT_NE(mistake(dda(R"("sweep": {"dda.stride": [4.5]})")).find("is a whole number, not 4.5"), std::string::npos);
+}
+
 TEST_F(Designs, CombineAxesInSeveralWays) {
     EXPECT_EQ(
         swept(of(dda(R"("zip": {"dda.stride": [1, 2], "dda.refine": [true, false]})"))),

@@ -278,3 +278,22 @@ TEST_F(CaptureTest, ReferencesAreNamedByAPattern) {
     config.reference = "one.exr";
     EXPECT_EQ(capture_reference_file(config, 7), "one.exr");
 }
+
+// Names of folders may have number signs in them, as names of takes have.
+TEST_F(CaptureTest, NumberSignsOfFoldersAreNoPattern) {
+    const fs::path take = folder / "take#2";
+    const auto file_of = [&](const std::string& reference) {
+        write_text(take / "cap/gbuffer.exr", "not read here");
+        const json study = {{"shots", {{{"gbuffer", "cap"}, {"reference", reference}}}}, {"variants", {{{"variant", "none"}}}}};
+        write_text(take / "study.json", study.dump());
+        return capture_reference_file(read_config(take / "study.json").shots.at(0), 7);
+    };
+    EXPECT_EQ(file_of("truth.exr"), take / "truth.exr");
+    EXPECT_EQ(file_of("truth_##.exr"), take / "truth_07.exr");
+    EXPECT_EQ(file_of("of_#/truth.exr"), take / "of_7/truth.exr");
+    EXPECT_EQ(file_of((take / "truth.exr").string()), take / "truth.exr");
+    const fs::path other = folder / "take#3/truth.exr";  // outside of the study's folder
+    EXPECT_EQ(file_of(other.string()), folder / "take7/truth.exr");
+    write_text(other, "a file of that name");
+    EXPECT_EQ(file_of(other.string()), other);
+}
