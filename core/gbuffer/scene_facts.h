@@ -17,6 +17,7 @@ struct SceneFacts {
         objects_move = false;
     bool has_environment = false;  ///< that is not black
     bool has_textures = false, has_alpha_masks = false, has_normal_maps = false, has_vertex_colors = false;
+    bool hides_backs = false;        ///< a single-sided surface in a scene that does not draw the backs of such
     bool has_faulty_inputs = false;  ///< a G-buffer of files with values that are not finite, or normals that are not
                                      ///< unit; what is rasterised has none
 
