@@ -89,9 +89,18 @@ void add_size(CLI::App& command, Size& size, const std::string& otherwise = "480
         ->check(CLI::Range(1, 16384));
 }
 
+void add_planes(CLI::App& command, ShotOptions& shot) {
+    command
+        .add_option("--planes", shot.planes,
+                    "Near and far planes: camera, its own (default), or scene, derived so that they cut nothing")
+        ->check(CLI::IsMember({"camera", "scene"}))
+        ->type_name("WHOSE");
+}
+
 void add_shot(CLI::App& command, ShotOptions& shot) {
     add_scene(command, shot.scene);
     command.add_option("--camera", shot.camera, "Default: the scene's first")->type_name("NAME");
+    add_planes(command, shot);
     add_size(command, shot.size);
     command.add_option("--frame", shot.frame, "Frame of the camera's path and of the animation; default: 0")
         ->type_name("N");
@@ -594,6 +603,7 @@ int parse_and_run(int argc, char** argv) {
         ->type_name("NAME");
     add_values(record_command_, record.preset, record.parameters);
     record_command_.add_option("--camera", record.shot.camera, "Default: the scene's first")->type_name("NAME");
+    add_planes(record_command_, record.shot);
     add_size(record_command_, record.shot.size, "192 108");
     record_command_.add_option("--frames", record.frames, "Frames of the camera's path and of the animation")
         ->capture_default_str()

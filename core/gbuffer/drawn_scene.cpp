@@ -10,7 +10,9 @@
 
 namespace {
 
-static_assert(sizeof(Vertex) == (vertex_stride - 3) * sizeof(float), "mesh.vert reads vertices as plain floats");
+constexpr unsigned floats_of_triangle = 4;  // that a vertex leads
+static_assert(sizeof(Vertex) == (vertex_stride - floats_of_triangle) * sizeof(float),
+              "mesh.vert reads vertices as plain floats");
 
 template <class T>
 std::span<const std::byte> bytes_of(const std::vector<T>& values) {
@@ -109,7 +111,9 @@ DrawnScene::MeshBuffers DrawnScene::upload_mesh(const Mesh& mesh, size_t index) 
     std::vector<float> floats(leading.source.size() * vertex_stride);
     for (size_t v = 0; v < leading.source.size(); ++v) {
         std::memcpy(&floats[v * vertex_stride], &mesh.vertices[leading.source[v]], sizeof(Vertex));
-        std::memcpy(&floats[(v + 1) * vertex_stride - 3], &leading.triangle_normal[v], sizeof(glm::vec3));
+        float* const of_triangle = &floats[(v + 1) * vertex_stride - floats_of_triangle];
+        std::memcpy(of_triangle, &leading.triangle_normal[v], sizeof(glm::vec3));
+        of_triangle[3] = leading.triangle_alpha[v];
     }
     const std::string suffix = std::to_string(index);
     MeshBuffers buffers{graph_.buffer("Vertices" + suffix, floats.size() * sizeof(float)),
@@ -146,10 +150,18 @@ Draw DrawnScene::make_draw(unsigned instance, const MeshBuffers& buffers, Kind k
     Draw draw{
         .indices = buffers.indices, .index_count = unsigned(mesh.indices.size() / 3 * 3), .first_instance = instance};
     draw.buffers = {buffers.vertices.as("Vertices"), instances_, materials_};
+    draw.cull = cull_of(instance, false);
     if (kind == Kind::plain) return draw;
     for (unsigned slot = 0; slot < slot_count; ++slot)
         draw.reads.push_back({texture_image(slot_of(scene_.materials[mesh.material], slot)).as(slot_names[slot]), {}});
     return draw;
+}
+
+/// A mirrored instance shows its front where its corners run clockwise (glTF 2.0, section 3.7.4).
+Draw::Cull DrawnScene::cull_of(unsigned instance, bool is_mirrored) const {
+    const Material& material = scene_.materials[scene_.meshes[scene_.instances[instance].mesh].material];
+    if (!scene_.hides_backs_of(material)) return Draw::Cull::none;
+    return is_mirrored ? Draw::Cull::front : Draw::Cull::back;
 }
 
 void DrawnScene::pose(const ScenePose& pose, const ScenePose& previous) {
@@ -164,4 +176,6 @@ void DrawnScene::pose(const ScenePose& pose, const ScenePose& previous) {
                              .ids = {scene_.meshes[scene_.instances[i].mesh].material, normals.is_mirrored, 0, 0}});
     }
     graph_.upload(instances_, bytes_of(instances));
+    for (std::vector<Draw>& draws : draws_)
+        for (Draw& draw : draws) draw.cull = cull_of(draw.first_instance, instances[draw.first_instance].ids.y == 1);
 }

@@ -27,6 +27,7 @@ private:
     MeshBuffers upload_mesh(const Mesh& mesh, size_t index);
     Image texture_image(const TextureSlot& slot);
     Kind kind_of(const Material& material) const;
+    Draw::Cull cull_of(unsigned instance, bool is_mirrored) const;
     Draw make_draw(unsigned instance, const MeshBuffers& buffers, Kind kind);
 
     PassGraph& graph_;

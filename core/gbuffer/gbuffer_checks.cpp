@@ -1,6 +1,7 @@
 #include "core/gbuffer/gbuffer_checks.h"
 
 #include "core/gbuffer/pixel_position.h"
+#include "core/scene/depth_precision.h"
 
 #include <algorithm>
 #include <cmath>
@@ -99,6 +100,17 @@ void check_camera(const HostGBuffer& g, std::vector<std::string>& notes) {
             "second row, and turn the rows of the layers if the lowest comes first.");
     if (glm::determinant(glm::dmat3(c.view_from_world)) < 0)
         notes.push_back("'view_from_world' of camera.json mirrors: both spaces must be right-handed.");
+}
+
+/// At the farthest surface: what techniques read is no more exact than the codes of the depth.
+void check_precision(const HostGBuffer& g, std::vector<std::string>& notes) {
+    double farthest = 0;
+    for (size_t i = 0; i < g.depth.pixel_count(); ++i)
+        if (!is_background(g, i)) farthest = std::max(farthest, double(view_distance(g.camera, g.depth.values[i])));
+    const std::string warning =
+        precision_warning("camera.json", g.camera, g.depth_format, farthest,
+                          "The program that makes the frames can put its near plane farther out");
+    if (!warning.empty()) notes.push_back(warning);
 }
 
 /// A reading of the file in another convention.
@@ -253,6 +265,7 @@ std::vector<std::string> check_gbuffer(const HostGBuffer& gbuffer) {
     std::vector<std::string> notes;
     check_values(gbuffer, notes);
     check_camera(gbuffer, notes);
+    check_precision(gbuffer, notes);
     check_normals(gbuffer, notes);
     return notes;
 }

@@ -13,6 +13,12 @@ glm::vec3 triangle_normal(const Mesh& mesh, const uint32_t* corner) {
     return length > 0 ? glm::vec3(n / length) : glm::vec3(0);
 }
 
+/// Of the corners' colours, if they have one alpha, else -1.
+float common_alpha(const Mesh& mesh, const uint32_t* corner) {
+    const float alpha = mesh.vertices[corner[0]].color.a;
+    return mesh.vertices[corner[1]].color.a == alpha && mesh.vertices[corner[2]].color.a == alpha ? alpha : -1.0f;
+}
+
 }  // namespace
 
 LeadingVertices find_leading_vertices(const Mesh& mesh) {
@@ -20,6 +26,7 @@ LeadingVertices find_leading_vertices(const Mesh& mesh) {
     result.source.resize(mesh.vertices.size());
     std::iota(result.source.begin(), result.source.end(), 0u);
     result.triangle_normal.resize(mesh.vertices.size(), glm::vec3(0));
+    result.triangle_alpha.resize(mesh.vertices.size(), -1.0f);
     std::vector<bool> leads(mesh.vertices.size(), false);
 
     for (size_t first = 0; first + 2 < mesh.indices.size(); first += 3) {
@@ -31,10 +38,12 @@ LeadingVertices find_leading_vertices(const Mesh& mesh) {
             turn = 0;
             result.source.push_back(corner[0]);
             result.triangle_normal.emplace_back(0);
+            result.triangle_alpha.emplace_back(-1.0f);
         } else {
             leads[leader] = true;
         }
         result.triangle_normal[leader] = triangle_normal(mesh, corner);
+        result.triangle_alpha[leader] = common_alpha(mesh, corner);
         result.indices.insert(result.indices.end(), {leader, corner[(turn + 1) % 3], corner[(turn + 2) % 3]});
     }
     return result;

@@ -9,6 +9,8 @@ struct LeadingVertices {
     std::vector<uint32_t> indices;  ///< three per triangle, the leading vertex first
     std::vector<glm::vec3>
         triangle_normal;  ///< per vertex: the unit normal of the triangle it leads, in object space; 0 if none
+    std::vector<float> triangle_alpha;  ///< per vertex: what the three colours of that triangle have as alpha; -1: they
+                                        ///< differ, or none
 };
 
 /// Of all triangles of the mesh, in their order.

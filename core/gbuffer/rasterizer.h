@@ -24,8 +24,8 @@ std::vector<LeftOut> left_out_of_rasterizer(const SceneFacts& facts);
 /// Draws the G-buffer of a scene. It has a pass graph of its own, so that its times are not those of a variant;
 /// variants read its images through theirs, after render() has waited for the device.
 ///
-/// Surfaces are drawn from both sides, their normals turned to the camera, as the path tracer sees them; the back of a
-/// single-sided emitter is dark.
+/// Surfaces are drawn from both sides, their normals turned to the camera, as the path tracer sees them, but for backs
+/// that the scene hides (Scene::hides_backs_of()); where they are drawn the back of a single-sided emitter is dark.
 class Rasterizer {
 public:
     /// Uploads the scene and prefilters its environment. `scene` must outlive the rasteriser. Fails with MachineError

@@ -65,6 +65,7 @@ bool has_dielectric_f0(const Material& m) {
 void add_material(SceneFacts& facts, const Scene& scene, const Material& material) {
     facts.has_textures |= has_texture(material);
     facts.has_alpha_masks |= material.alpha_mode == AlphaMode::mask;
+    facts.hides_backs |= scene.hides_backs_of(material);
     facts.has_normal_maps |= material.normal_texture.texture >= 0;
     facts.has_matte |= is_matte(scene, material);
     facts.has_dielectric_f0 |= has_dielectric_f0(material);
@@ -150,6 +151,9 @@ std::vector<SceneFact> list_facts(const Scene& scene, const SceneFacts& f) {
         {"has_textures", yes(f.has_textures), names_of(scene, has_texture)},
         {"has_alpha_masks", yes(f.has_alpha_masks),
          names_of(scene, [](const Material& m) { return m.alpha_mode == AlphaMode::mask; })},
+        {"hides_backs", yes(f.hides_backs),
+         scene.draws_backs ? "single-sided surfaces are seen from behind, too"
+                           : names_of(scene, [&](const Material& m) { return scene.hides_backs_of(m); })},
         {"has_normal_maps", yes(f.has_normal_maps),
          names_of(scene, [](const Material& m) { return m.normal_texture.texture >= 0; })},
         {"has_vertex_colors", yes(f.has_vertex_colors), "vertex colours other than white"},

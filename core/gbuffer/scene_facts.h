@@ -18,6 +18,7 @@ struct SceneFacts {
     bool has_environment = false;  ///< that is not black
     bool has_textures = false, has_alpha_masks = false, has_normal_maps = false, has_vertex_colors = false;
     bool has_dielectric_f0 = false;  ///< a dielectric whose reflectance is not 0.04 times one factor for all of it
+    bool hides_backs = false;        ///< a single-sided surface in a scene that does not draw the backs of such
     bool has_faulty_inputs = false;  ///< a G-buffer of files with values that are not finite, or normals that are not
                                      ///< unit; what is rasterised has none
 

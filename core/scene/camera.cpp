@@ -37,7 +37,8 @@ glm::mat4 without_scale(const glm::mat4& world_from_node) {
 float aspect_of(glm::uvec2 extent) { return float(extent.x) / float(extent.y); }
 
 /// clip_from_view in double precision: inverting the float one would lose the far end of a deep reversed depth range.
-glm::dmat4 projection(const CameraPose& pose, double aspect, DepthDirection direction) {
+glm::dmat4 projection(const CameraPose& unfitted, double aspect, DepthDirection direction) {
+    const CameraPose pose = fitted(unfitted, aspect);
     const double near = pose.near, far = pose.far;
     glm::dmat4 clip_from_view(0.0);
     if (pose.is_orthographic) {
@@ -66,12 +67,24 @@ CameraPose pose_camera(const SceneCamera& camera, const ScenePose& scene_pose, f
                     .vertical_fov = camera.vertical_fov,
                     .orthographic_height = camera.orthographic_height,
                     .near = camera.near,
-                    .far = camera.far};
+                    .far = camera.far,
+                    .aspect = camera.aspect};
     pose.world_from_view = camera.node >= 0 ? without_scale(scene_pose.world_from_node[size_t(camera.node)])
                                             : looking(interpolated_key(camera.keys, frame));
     if (!(glm::length(glm::vec3(pose.world_from_view[0])) > 0.0f))  // a NaN is not, either
         fail("camera '", camera.name, "' hangs on a node with a scale of 0: it has no orientation");
     return pose;
+}
+
+CameraPose fitted(const CameraPose& pose, double image_aspect) {
+    CameraPose result = pose;
+    result.aspect = 0.0f;
+    // Their own rounding is no difference: 16:9 in float32 and in a file's decimals.
+    if (!(double(pose.aspect) > image_aspect * (1.0 + 1e-6))) return result;
+    const double growth = double(pose.aspect) / image_aspect;
+    result.orthographic_height = float(double(pose.orthographic_height) * growth);
+    result.vertical_fov = float(2.0 * std::atan(std::tan(0.5 * double(pose.vertical_fov)) * growth));
+    return result;
 }
 
 glm::mat4 clip_from_view(const CameraPose& pose, float aspect, DepthDirection direction) {
@@ -103,8 +116,9 @@ CameraData camera_data(const CameraPose& pose, const CameraPose* previous, const
             .frame = {view.rendered_index(), view.seed, pose.is_orthographic, previous != nullptr}};
 }
 
-CameraRay camera_ray(const CameraPose& pose, glm::uvec2 extent, glm::vec2 pixel) {
+CameraRay camera_ray(const CameraPose& unfitted, glm::uvec2 extent, glm::vec2 pixel) {
     const float aspect = aspect_of(extent);
+    const CameraPose pose = fitted(unfitted, double(aspect));
     const glm::vec2 ndc = 2.0f * pixel / glm::vec2(extent) - 1.0f;  // y down
     if (pose.is_orthographic) {
         const glm::vec2 half = 0.5f * pose.orthographic_height * glm::vec2(aspect, 1.0f);

@@ -14,8 +14,15 @@ struct CameraPose {
     bool is_orthographic = false;
     float vertical_fov = 0.87f;        ///< radians
     float orthographic_height = 1.0f;  ///< m
-    float near = 0.1f, far = 100.0f;   ///< m
+    float near = 0.1f, far = 100.0f;   ///< m, along -z
+    float aspect = 0.0f;               ///< SceneCamera::aspect; 0: the height of the field holds in every image
 };
+
+/// The pose with the field of view that it has in an image of this aspect (width over height), and no aspect of its
+/// own: where the image is narrower than the frame that the camera's author saw, the field grows in height until that
+/// frame's width fits, for clients should not crop it (glTF 2.0, sections 3.10.3.2 to 3.10.3.4). Functions that take a
+/// pose and an extent or an aspect apply it themselves.
+CameraPose fitted(const CameraPose& pose, double image_aspect);
 
 /// At a frame, which may lie between two. Fails with Error where the node that it hangs on has a scale of 0.
 CameraPose pose_camera(const SceneCamera& camera, const ScenePose& scene_pose, float frame);

@@ -29,12 +29,21 @@ std::vector<CameraKey> read_path(JsonObject& object, glm::vec3 up) {
     return keys;
 }
 
+bool asks_for_planes_of_scene(JsonObject& object) {
+    if (!object.has("planes")) return false;
+    object.choice("planes", {"scene"}, "scene");
+    for (const char* plane : {"near", "far"})
+        if (object.has(plane)) fail(object.where(), ": has '", plane, "' and 'planes': leave one of them out");
+    return true;
+}
+
 SceneCamera gltf_camera(JsonObject& object, const Scene& scene) {
     const std::string name = object.text("gltf");
     SceneCamera camera = scene.camera(name);
     camera.name = object.text("name", name);
     camera.exposure_ev = object.number("exposure_ev", -100.0f, 100.0f, 0.0f);
     camera.frame_count = unsigned(object.integer("frames", 1, any_frames, int(camera.frame_count)));
+    if (asks_for_planes_of_scene(object)) use_planes_of_scene(camera, scene);
     object.finish();
     return camera;
 }
@@ -48,6 +57,7 @@ void read_lens(JsonObject& object, SceneCamera& camera) {
 }
 
 void read_planes(JsonObject& object, const Scene& scene, SceneCamera& camera) {
+    asks_for_planes_of_scene(object);  // as they are where the entry gives none
     const bool is_complete = object.has("near") && object.has("far");
     const CameraPlanes planes = is_complete ? CameraPlanes{} : derive_planes(camera, scene);
     camera.near = object.number("near", camera.is_orthographic ? 0.0f : 1e-9f, any_length, planes.near);

@@ -77,5 +77,6 @@ std::string content_hash(const Scene& scene) {
     hash.all(scene.textures, scene.materials, scene.meshes, scene.nodes, scene.instances, scene.animation, scene.lights,
              scene.environment);
     if (!scene.animation.empty()) hash.add(scene.frame_rate);
+    if (scene.hides_backs()) hash.hash.add(std::string("backs are hidden"));
     return hash.hash.hex();
 }

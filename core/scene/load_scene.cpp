@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/near_miss.h"
+#include "core/scene/camera_planes.h"
 #include "core/scene/gltf/load_gltf.h"
 #include "core/scene/scene_family.h"
 #include "core/scene/scene_file.h"
@@ -40,7 +41,7 @@ std::vector<std::string> list_scenes(const std::vector<fs::path>& search_path) {
 
 namespace {
 
-/// A camera before the scene, far enough off to see all of it.
+/// A camera before the scene, far enough off to see all of it as it is in frame 0, in images of any shape.
 SceneCamera camera_that_sees_all(const Scene& scene) {
     const auto [low, high] = scene_bounds(scene, pose_scene(scene, 0.0f));
     const glm::vec3 center = 0.5f * (low + high);
@@ -48,12 +49,16 @@ SceneCamera camera_that_sees_all(const Scene& scene) {
     SceneCamera camera{.name = "default"};
     const float distance = radius / std::sin(0.5f * camera.vertical_fov);
     camera.keys = {{.position = center + glm::normalize(glm::vec3(0.3f, 0.3f, 1.0f)) * distance, .target = center}};
-    camera.near = 0.01f * distance, camera.far = distance + 2.0f * radius;
+    camera.aspect = 1.0f;
+    camera.frame_count = scene.frame_count;
+    const CameraPlanes planes = planes_for_all_frames({0.01f * distance, distance + 2.0f * radius}, camera, scene);
+    camera.near = planes.near, camera.far = planes.far;
     return camera;
 }
 
 Scene load_bare_gltf(const fs::path& file) {
     Scene scene = load_gltf(file);
+    scene.draws_backs = false;
     scene.environment = {.type = Environment::Type::constant, .color = glm::vec3(1.0f)};
     if (scene.cameras.empty()) scene.cameras.push_back(camera_that_sees_all(scene));
     finish_scene(scene);

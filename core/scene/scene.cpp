@@ -25,6 +25,11 @@ std::vector<std::string> texts_of(const std::vector<SceneWarning>& warnings) {
     return texts;
 }
 
+bool Scene::hides_backs() const {
+    return std::ranges::any_of(
+        instances, [&](const Instance& instance) { return hides_backs_of(materials[meshes[instance.mesh].material]); });
+}
+
 size_t Scene::triangle_count() const {
     size_t count = 0;
     for (const Instance& instance : instances) count += meshes[instance.mesh].indices.size() / 3;

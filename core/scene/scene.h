@@ -64,7 +64,7 @@ struct Material {
     float dielectric_f0 = 0.04f;         ///< reflectance at normal incidence, of the index of refraction (KHR_materials_ior)
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;     ///< a hit counts where alpha >= cutoff (AlphaMode::mask)
-    bool is_double_sided = false;  ///< all surfaces are drawn from both sides; this decides whether the back emits
+    bool is_double_sided = false;  ///< else the back emits nothing, and Scene::draws_backs says whether it is seen
     bool is_unlit = false;         ///< KHR_materials_unlit: radiates its base colour and reflects nothing
 };
 
@@ -188,6 +188,9 @@ struct Scene {
 
     const SceneCamera& camera(const std::string& name) const;  ///< "": the first; Error with a near miss if unknown
     size_t triangle_count() const;                             ///< over all instances
+    /// Whether surfaces of the material are not there for whoever looks at their back: cameras, reflections, shadows.
+    bool hides_backs_of(const Material& material) const { return !draws_backs && !material.is_double_sided; }
+    bool hides_backs() const;  ///< of anything that is drawn
 };
 
 /// The sentences alone.

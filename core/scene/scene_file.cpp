@@ -154,7 +154,7 @@ Environment read_environment(JsonObject object, const fs::path& scene_file, cons
 
 void finish_scene(Scene& scene) {
     for (SceneCamera& camera : scene.cameras)
-        if (camera.far == 0.0f) camera.far = std::max(derive_planes(camera, scene).far, 2.0f * camera.near);
+        if (camera.far == 0.0f) camera.far = std::max(derive_far(camera, scene), 2.0f * camera.near);
     std::set<std::string_view> names;
     for (const SceneCamera& camera : scene.cameras)
         if (!names.insert(camera.name).second)
@@ -196,12 +196,13 @@ Scene load_scene_file(const fs::path& file, const std::vector<fs::path>& search_
     ChangedTexels changed;
     for (JsonObject& entry : object.objects("overrides")) apply_override(entry, scene, changed);
 
+    scene.frame_count = unsigned(object.integer("frame_count", 1, 1000000, int(scene.frame_count)));
+    scene.frame_rate = object.number("frame_rate", 1e-3f, 1e6f, scene.frame_rate);
+    scene.draws_backs = object.choice("back_faces", {"culled", "drawn"}, "culled") == "drawn";
     std::vector<SceneCamera> cameras;
     for (JsonObject& camera : object.objects("cameras")) cameras.push_back(read_camera(camera, scene));
     if (!cameras.empty()) scene.cameras = std::move(cameras);
     if (scene.cameras.empty()) fail(file.string(), ": no camera: name at least one under 'cameras'");
-    scene.frame_count = unsigned(object.integer("frame_count", 1, 1000000, int(scene.frame_count)));
-    scene.frame_rate = object.number("frame_rate", 1e-3f, 1e6f, scene.frame_rate);
     object.finish();
     finish_scene(scene);
     return scene;

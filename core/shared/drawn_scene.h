@@ -37,9 +37,9 @@ struct DrawnInstance {
     uvec4 ids;           ///< material, 1 if the determinant is negative
 };
 
-/// Floats per vertex: position, normal, tangent (4), two uv, colour (4), geometric normal of the triangle that it
-/// leads.
-const uint vertex_stride = 21u;
+/// Floats per vertex: position, normal, tangent (4), two uv, colour (4); then of the triangle that it leads the
+/// geometric normal (3), and the alpha that its corners' colours share, or -1 where they differ.
+const uint vertex_stride = 22u;
 
 /// Texel column or row for an index that may lie outside (glTF 2.0, sampler.wrapS); mode: TextureWrap.
 SHARED int wrap_texel(int index, int size, uint mode) {

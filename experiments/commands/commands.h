@@ -17,8 +17,11 @@ struct CommonOptions {
 /// One frame of one camera.
 struct ShotOptions {
     std::string scene, camera;
+    std::string planes = "camera";  ///< or "scene": derive_planes()
     std::vector<unsigned> size{480, 270};
     unsigned frame = 0;
+
+    bool has_planes_of_scene() const { return planes == "scene"; }
 };
 
 /// A study, by its config. Fails with Error where it is none, where it is `ssrlab tune`'s, and where its tables name
@@ -170,7 +173,7 @@ struct RaysOptions {
 void rays_command(const RaysOptions& options, const CommonOptions& common);
 
 struct RecordOptions {
-    ShotOptions shot{.scene = {}, .camera = {}, .size = {192, 108}};  ///< its frame is not looked at
+    ShotOptions shot{.size = {192, 108}};                             ///< its frame is not looked at
     std::string variant, preset, frames = "0-7";                      ///< a frame, or a range with both ends
     nlohmann::json parameters = nlohmann::json::object();
     unsigned samples = 256;

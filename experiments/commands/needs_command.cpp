@@ -21,6 +21,7 @@ Shot shot_of(const NeedsOptions& options, const CommonOptions& common) {
     std::iota(frames.begin(), frames.end(), options.shot.frame);
     return load_shot({.scene = options.shot.scene,
                       .camera = options.shot.camera,
+                      .has_planes_of_scene = options.shot.has_planes_of_scene(),
                       .extent = {options.shot.size[0], options.shot.size[1]},
                       .frames = frames,
                       .direct_lit = true},

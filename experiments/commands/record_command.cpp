@@ -30,6 +30,7 @@ void record_command(const RecordOptions& options, const CommonOptions& common) {
     const RecordedPage page = record_page(
         device, {.shot = {.scene = options.shot.scene,
                           .camera = options.shot.camera,
+                          .has_planes_of_scene = options.shot.has_planes_of_scene(),
                           .extent = {options.shot.size[0], options.shot.size[1]},
                           .frames = frames,
                           .gbuffer_formats = options.is_packed ? GBufferFormats::packed : GBufferFormats::exact},

@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 Shot shot_of(const ShotOptions& options, const CommonOptions& common) {
     return load_shot({.scene = options.scene,
                       .camera = options.camera,
+                      .has_planes_of_scene = options.has_planes_of_scene(),
                       .extent = {options.size[0], options.size[1]},
                       .frames = {options.frame},
                       .warm_up = 1,

@@ -63,16 +63,20 @@ void gbuffer_command(const GBufferCommandOptions& options, const CommonOptions& 
     const unsigned first = options.frames.empty() ? options.shot.frame : options.frames.front(),
                    last = options.frames.empty() ? first : options.frames.back();
     if (last < first) fail("--frames: ", first, " to ", last, " runs backwards");
-    const ShotConfig config{.scene = options.shot.scene,
-                            .camera = options.shot.camera,
-                            .extent = {options.shot.size[0], options.shot.size[1]},
-                            .frames = {first}};
-    const Shot shot = load_shot(config, scene_search_path(common.scene_path));
-    for (const SceneWarning& warning : shot.scene.warnings)
-        std::fprintf(stderr, "warning: %s\n", shown_text(warning.text).c_str());
     const DepthFormat format = options.depth_format == "d16"   ? DepthFormat::d16
                                : options.depth_format == "d24" ? DepthFormat::d24
                                                                : DepthFormat::d32f;
+    const ShotConfig config{
+        .scene = options.shot.scene,
+        .camera = options.shot.camera,
+        .has_planes_of_scene = options.shot.has_planes_of_scene(),
+        .extent = {options.shot.size[0], options.shot.size[1]},
+        .frames = {first},
+        .depth_format = format,
+        .depth_direction = options.is_reversed ? DepthDirection::reversed : DepthDirection::standard};
+    const Shot shot = load_shot(config, scene_search_path(common.scene_path));
+    for (const SceneWarning& warning : shot.scene.warnings)
+        std::fprintf(stderr, "warning: %s\n", shown_text(warning.text).c_str());
     const std::filesystem::path out =
         options.out.empty() ? std::filesystem::path(shot.scene.name + "_gbuffer") : options.out;
 
@@ -80,9 +84,7 @@ void gbuffer_command(const GBufferCommandOptions& options, const CommonOptions& 
     Rasterizer rasterizer(device, shot.scene, {.extent = config.extent, .depth_format = format});
     for (unsigned frame = first; frame <= last; ++frame) {
         const GBuffer gbuffer = rasterizer.render(
-            shot.camera, {.extent = config.extent,
-                          .depth_direction = options.is_reversed ? DepthDirection::reversed : DepthDirection::standard,
-                          .frame = frame});
+            shot.camera, {.extent = config.extent, .depth_direction = config.depth_direction, .frame = frame});
         rasterizer.light_directly(gbuffer);
         char name[32];
         std::snprintf(name, sizeof name, "frame_%04u", frame);

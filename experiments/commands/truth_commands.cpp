@@ -24,6 +24,7 @@ namespace {
 Shot load_single_shot(const ShotOptions& options, const CommonOptions& common) {
     const ShotConfig config{.scene = options.scene,
                             .camera = options.camera,
+                            .has_planes_of_scene = options.has_planes_of_scene(),
                             .extent = {options.size[0], options.size[1]},
                             .frames = {options.frame}};
     return load_shot(config, scene_search_path(common.scene_path));

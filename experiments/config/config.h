@@ -18,6 +18,7 @@
 struct ShotConfig {
     std::string scene;   ///< a scene's name, or a path to a .json/.gltf/.glb
     std::string camera;  ///< "": the scene's first
+    bool has_planes_of_scene = false;  ///< derive_planes() in place of the camera's own
     glm::uvec2 extent{480, 270};
     std::vector<unsigned> frames{0};  ///< poses, ascending: rendered in this order, so histories work
     unsigned warm_up = 0;             ///< frames at the first pose before it is played: rendered, not measured

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace {
@@ -58,7 +59,9 @@ Environment reflection_probe(glm::vec3 position, const ReferenceSettings& settin
     std::array<Face, 6> faces;
     for (size_t i = 0; i < faces.size(); ++i) {
         faces[i].world_from_view = looking_along(axes[i]);
-        CameraPose camera{.vertical_fov = float(std::numbers::pi / 2)};
+        CameraPose camera{.vertical_fov = float(std::numbers::pi / 2),  // a probe has no planes
+                          .near = 0.0f,
+                          .far = std::numeric_limits<float>::infinity()};
         camera.world_from_view = glm::mat4(faces[i].world_from_view);
         camera.world_from_view[3] = glm::vec4(position, 1.0f);
         of_face.seed = settings.seed + probe_seed + unsigned(i);

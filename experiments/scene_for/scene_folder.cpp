@@ -38,13 +38,18 @@ public:
             fail(settings_.scene, ": a probe is one camera's, and ", shots.size(),
                  " were named: write a folder for each");
         done_.warnings = texts_of(scene.warnings);
+        if (scene.hides_backs())
+            done_.warnings.push_back(
+                "This scene hides the backs of single-sided materials: scene.glb says so of each ('doubleSided'). An "
+                "adapter that draws both sides renders another scene; \"back_faces\": \"drawn\" in scene.json makes "
+                "both the same.");
         json description = {{"scene", scene.name},
                             {"engine", settings_.engine.name},
                             {"samples", settings_.reference.max_samples},
                             {"background", background(settings_.has_probe ? probe(shots.front()) : scene.environment)}};
         std::vector<GlbCamera> cameras;
         for (const Shot& shot : shots) {
-            cameras.push_back({.lens = shot.camera,
+            cameras.push_back({.lens = lens_of(shot),
                                .world_from_camera = shot_frame(shot, settings_.frames.front()).camera.world_from_view,
                                .aspect = float(settings_.extent.x) / float(settings_.extent.y)});
             description["views"].push_back(view(shot));
@@ -60,6 +65,15 @@ public:
     }
 
 private:
+    /// With the field of view that it has in the pictures.
+    SceneCamera lens_of(const Shot& shot) const {
+        const CameraPose pose =
+            fitted(shot_frame(shot, settings_.frames.front()).camera, double(settings_.extent.x) / settings_.extent.y);
+        SceneCamera lens = shot.camera;
+        lens.vertical_fov = pose.vertical_fov, lens.orthographic_height = pose.orthographic_height, lens.aspect = 0.0f;
+        return lens;
+    }
+
     bool is_raw() const { return settings_.engine.format == SceneFormat::raw; }
 
     /// As shots have it that fall back to a probe (experiments/run/shots/open_shot.cpp), from the same cached views.
@@ -103,7 +117,7 @@ private:
 
     json view(const Shot& shot) {
         const std::string name = ExternalImages::view_name(shot);
-        const SceneCamera& lens = shot.camera;
+        const SceneCamera lens = lens_of(shot);
         json view = {{"view", name},
                      {"camera", lens.name},
                      {"width", settings_.extent.x},

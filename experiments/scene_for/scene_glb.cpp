@@ -102,8 +102,8 @@ private:
         if (material.is_unlit) add_extension(all, "KHR_materials_unlit", json::object());
         if (material.alpha_mode == AlphaMode::mask)
             all["alphaMode"] = "MASK", all["alphaCutoff"] = number_of(material.alpha_cutoff);
-        // ssrlab draws both sides of everything: an engine that leaves out backs would show another scene.
-        all["doubleSided"] = true;
+        // Where ssrlab draws both sides an engine that leaves out backs would show another scene.
+        all["doubleSided"] = !scene_.hides_backs_of(material);
         return all;
     }
 

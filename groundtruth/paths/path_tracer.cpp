@@ -308,7 +308,7 @@ FirstHit PathTracer::first_hit(unsigned x, unsigned y) const {
     FirstHit hit;
     hit.view = -camera_ray.direction;
     RTCRayHit ray;
-    if (!intersect(scene.geometry.handle(), camera_ray.origin, camera_ray.direction, ray)) {
+    if (!intersect_from_camera(scene.geometry.handle(), scene.camera, camera_ray.origin, camera_ray.direction, ray)) {
         hit.emitted = scene.scene.environment.radiance(camera_ray.direction);
         return hit;
     }

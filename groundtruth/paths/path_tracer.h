@@ -89,8 +89,11 @@ struct SampleBatch {
 /// over directions cannot hold, which no ray ever meets, and which engines shade in closed form. That highlight is
 /// FirstHit::highlight. `diffuse` includes them, and all outputs do at later vertices.
 ///
-/// Surfaces are seen from both sides, normals turned to the side of the viewer; the geometric normal says which side
-/// that is. Where the viewer is below the horizon of the shading normal the surface reflects nothing. Directions below
+/// Surfaces are seen from both sides, but for backs that the scene hides (Scene::hides_backs_of()): camera rays,
+/// reflections and shadow rays pass these. Normals are turned to the side of the viewer; the geometric normal says
+/// which side that is. Camera rays see what lies between the camera's planes; no other ray knows of planes.
+///
+/// Where the viewer is below the horizon of the shading normal the surface reflects nothing. Directions below
 /// the horizon of the shading normal reflect nothing and are no part of the lobe; directions above it but below the
 /// geometric one meet the surface itself and carry no light. Unlit surfaces radiate their base colour and reflect
 /// nothing.

@@ -28,15 +28,16 @@ bool is_on_screen(const TracedScene& scene, glm::vec3 position, glm::vec3 error,
                   PixelEstimate& estimate) {
     const glm::vec3 to_eye = scene.camera.to_eye(position);
     if (glm::dot(normal, to_eye) <= 0 || !scene.camera.frames(position)) return false;
-    const glm::vec3 origin = offset_origin(position, error, normal, to_eye), direction = position + to_eye - origin;
     ++estimate.rays;
-    return !is_occluded(scene.geometry.handle(), origin, direction, 1.0f);
+    return !is_hidden_from_camera(scene.geometry.handle(), scene.camera, position, error, normal);
 }
 
 bool is_on_screen(const TracedScene& scene, glm::vec3 direction, PixelEstimate& estimate) {
     if (!scene.camera.frames_direction(direction)) return false;
     ++estimate.rays;
-    return !is_occluded(scene.geometry.handle(), scene.camera.eye(), direction, infinite_distance);
+    const float cosine = scene.camera.cosine(direction);
+    return !is_occluded(scene.geometry.handle(), scene.camera.eye(), direction, scene.camera.far() / cosine,
+                        scene.camera.near() / cosine);
 }
 
 std::vector<LeftOut> left_out_features(const TracedScene& traced) {
@@ -50,6 +51,9 @@ std::vector<LeftOut> left_out_features(const TracedScene& traced) {
         features.push_back({"alpha tests", "no alpha masks",
                             "Embree calls no intersection filter, so that every ray stays in its own code.", "",
                             false});
+    if (!traced.geometry.hides_backs())
+        features.push_back({"back-face tests", scene.draws_backs ? "backs are drawn" : "all surfaces are double-sided",
+                            "Every surface that a ray meets is seen.", "", false});
     if (!traced.materials.any_varies())
         features.push_back({"texture lookups", "no textures", "Each material is one set of constants."});
     if (traced.lights.empty())

@@ -28,12 +28,23 @@ std::vector<LeftOut> left_out_features(const TracedScene& traced);
 
 inline constexpr float infinite_distance = std::numeric_limits<float>::infinity();
 
-/// On a hit, instID[0] is the index of the instance, whether it was baked or not.
-inline bool intersect(RTCScene scene, glm::vec3 origin, glm::vec3 direction, RTCRayHit& ray) {
+/// On a hit, instID[0] is the index of the instance, whether it was baked or not. Nothing before `near` (in units of
+/// `direction`) is met.
+inline bool intersect(RTCScene scene, glm::vec3 origin, glm::vec3 direction, RTCRayHit& ray, float near = 0.0f) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    ray.ray = {origin.x,    origin.y, origin.z,          0.0f, direction.x, direction.y,
-               direction.z, 0.0f,     infinite_distance, ~0u,  0,           0};
+    ray.ray = {origin.x,
+               origin.y,
+               origin.z,
+               near,
+               direction.x,
+               direction.y,
+               direction.z,
+               0.0f,
+               infinite_distance,
+               ~0u,
+               unsigned(Viewer::at_origin),
+               0};
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene, &context, &ray);
@@ -42,12 +53,37 @@ inline bool intersect(RTCScene scene, glm::vec3 origin, glm::vec3 direction, RTC
     return true;
 }
 
-inline bool is_occluded(RTCScene scene, glm::vec3 origin, glm::vec3 direction, float far) {
+/// Whether anything stands between `near` and `far` (in units of `direction`).
+inline bool is_occluded(RTCScene scene, glm::vec3 origin, glm::vec3 direction, float far, float near = 0.0f,
+                        Viewer viewer = Viewer::at_origin) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    RTCRay ray{origin.x, origin.y, origin.z, 0.0f, direction.x, direction.y, direction.z, 0.0f, far, ~0u, 0, 0};
+    RTCRay ray{origin.x,    origin.y, origin.z, near, direction.x,      direction.y,
+               direction.z, 0.0f,     far,      ~0u,  unsigned(viewer), 0};
     rtcOccluded1(scene, &context, &ray);
     return ray.tfar < 0;
+}
+
+/// What a camera shows along one of its rays (camera_ray()): the nearest surface between its planes. What the planes
+/// cut is met by camera rays alone: reflections and shadows know of none.
+inline bool intersect_from_camera(RTCScene scene, const CameraView& camera, glm::vec3 origin, glm::vec3 direction,
+                                  RTCRayHit& ray) {
+    const float cosine = camera.cosine(direction);
+    if (!intersect(scene, origin, direction, ray)) return false;
+    const bool is_cut = ray.ray.tfar * cosine < camera.near();
+    if (is_cut && !intersect(scene, origin, direction, ray, camera.near() / cosine)) return false;
+    return ray.ray.tfar * cosine < camera.far();  // on the plane it is no nearer than the depth buffer's clear value
+}
+
+/// Whether a camera that looks at a point finds something before it, behind its near plane. `error`, `normal`: of the
+/// point, which frames() has; `normal` on the side of the eye.
+inline bool is_hidden_from_camera(RTCScene scene, const CameraView& camera, glm::vec3 position, glm::vec3 error,
+                                  glm::vec3 normal) {
+    const glm::vec3 to_eye = camera.to_eye(position);
+    const glm::vec3 origin = offset_origin(position, error, normal, to_eye), direction = position + to_eye - origin;
+    const float depth = camera.depth(origin);
+    const float far = depth > camera.near() ? 1.0f - camera.near() / depth : 0.0f;
+    return is_occluded(scene, origin, direction, far, 0.0f, Viewer::at_end);
 }
 
 /// Relative error of a point along a ray from one point to another: the difference, its product with t, the sum, and as

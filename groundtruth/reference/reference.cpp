@@ -34,7 +34,9 @@ void add(ContentHash& hash, const ScenePose& pose) {
     }
 }
 
-void add(ContentHash& hash, const CameraPose& camera) {
+/// Planes are part of it, cut they or not: who moves them asks for another picture.
+void add(ContentHash& hash, const CameraPose& unfitted, glm::uvec2 extent) {
+    const CameraPose camera = fitted(unfitted, double(extent.x) / extent.y);
     add(hash, camera.world_from_view);
     hash.add(int(camera.is_orthographic));
     for (const float f : {camera.vertical_fov, camera.orthographic_height, camera.near, camera.far}) hash.add(f);
@@ -93,7 +95,7 @@ std::string reference_request(const Scene& scene, const ScenePose& pose, const C
     ContentHash hash;
     hash.add(scene.content_hash);
     add(hash, pose);
-    add(hash, camera);
+    add(hash, camera, extent);
     for (const unsigned value :
          {extent.x, extent.y, settings.max_depth, settings.seed, unsigned(settings.ladder), unsigned(settings.lit_only),
           unsigned(settings.keep_all), unsigned(lit_sample_limit(settings)),

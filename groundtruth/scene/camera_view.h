@@ -1,8 +1,8 @@
 #pragma once
 #include "core/scene/camera.h"
 
-/// Which points are in front of a camera, as for camera_ray(): from the eye on (an orthographic camera: from the
-/// plane through it), independent of the clip planes, within the borders of the image.
+/// Which points a camera's image can show: those between its clip planes, within its borders. Its rays start at the
+/// eye, an orthographic camera's on the plane through it, as camera_ray() has them.
 class CameraView {
 public:
     CameraView(const CameraPose& pose, glm::uvec2 extent);
@@ -16,6 +16,11 @@ public:
                 is_orthographic_ ? along_axis * backward_.z : to_eye.z};
     }
     glm::vec3 eye() const { return eye_; }
+    float near() const { return near_; }  ///< m, along the axis
+    float far() const { return far_; }
+    float depth(glm::vec3 position) const { return glm::dot(eye_ - position, backward_); }  ///< m, along the axis
+    /// How much depth a unit step of this direction takes.
+    float cosine(glm::vec3 direction) const { return -glm::dot(direction, backward_); }
 
     bool frames(glm::vec3 position) const;  ///< world space (m); hidden or not
     /// Whether the image shows what is infinitely far along `direction`. An orthographic camera shows one direction at
@@ -27,4 +32,5 @@ private:
     glm::mat4 view_from_world_;
     glm::vec3 eye_, backward_;  ///< world space; backward: unit, along the view's +z
     glm::vec2 half_extent_;     ///< of the image: at distance 1, or, orthographic, in m
+    float near_, far_;
 };

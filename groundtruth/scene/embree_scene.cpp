@@ -35,17 +35,33 @@ std::vector<TriangleRecord> make_records(const Mesh& mesh, const InstanceRecord&
 
 }  // namespace
 
-/// What the intersection filter of one geometry reads.
-struct EmbreeScene::AlphaTest {
+/// What the intersection filter of one geometry reads. Geometries without a mask and with backs have none: a filter
+/// takes Embree out of its own code at every hit.
+struct EmbreeScene::HitTest {
     const std::vector<TriangleRecord>* records;
     const Mesh* mesh;
     const Material* material;
     const Texture* texture;  ///< nullptr: none
+    bool hides_back;
 };
 
-void EmbreeScene::test_alpha(const RTCFilterFunctionNArguments* arguments) {
-    const AlphaTest& test = *static_cast<const AlphaTest*>(arguments->geometryUserPtr);
+void EmbreeScene::test_hit(const RTCFilterFunctionNArguments* arguments) {
+    const HitTest& test = *static_cast<const HitTest*>(arguments->geometryUserPtr);
     if (arguments->valid[0] != -1) return;
+    if (test.hides_back) {
+        // Both in the space of the mesh, whose front is the front of its instances, mirrored or not.
+        const glm::vec3 direction(RTCRayN_dir_x(arguments->ray, arguments->N, 0),
+                                  RTCRayN_dir_y(arguments->ray, arguments->N, 0),
+                                  RTCRayN_dir_z(arguments->ray, arguments->N, 0)),
+            front(RTCHitN_Ng_x(arguments->hit, arguments->N, 0), RTCHitN_Ng_y(arguments->hit, arguments->N, 0),
+                  RTCHitN_Ng_z(arguments->hit, arguments->N, 0));
+        const bool is_along = glm::dot(direction, front) > 0;
+        const bool is_back = is_along == (RTCRayN_id(arguments->ray, arguments->N, 0) == unsigned(Viewer::at_origin));
+        if (is_back) {
+            arguments->valid[0] = 0;
+            return;
+        }
+    }
     const unsigned triangle = RTCHitN_primID(arguments->hit, arguments->N, 0);
     const float u = RTCHitN_u(arguments->hit, arguments->N, 0), v = RTCHitN_v(arguments->hit, arguments->N, 0);
     if (is_cut_out(*test.material, test.texture, *test.mesh, (*test.records)[triangle].corner, u, v))
@@ -71,13 +87,16 @@ RTCGeometry EmbreeScene::make_triangles(const std::vector<TriangleRecord>& recor
     if (records.empty()) std::fill_n(indices, 3, 0u), std::fill_n(positions, 3, 0.0f);
 
     const Material& material = scene.materials[mesh.material];
-    if (material.alpha_mode == AlphaMode::mask || test_every_alpha) {
+    const bool has_alpha_test = material.alpha_mode == AlphaMode::mask || test_every_alpha,
+               hides_back = scene.hides_backs_of(material);
+    has_alpha_tests_ |= has_alpha_test, hides_backs_ |= hides_back;
+    if (has_alpha_test || hides_back) {
         const int texture = material.base_color_texture.texture;
-        alpha_tests_.push_back(std::make_unique<AlphaTest>(
-            AlphaTest{&records, &mesh, &material, texture < 0 ? nullptr : &scene.textures[size_t(texture)]}));
-        rtcSetGeometryUserData(geometry, alpha_tests_.back().get());
-        rtcSetGeometryIntersectFilterFunction(geometry, test_alpha);
-        rtcSetGeometryOccludedFilterFunction(geometry, test_alpha);
+        hit_tests_.push_back(std::make_unique<HitTest>(
+            HitTest{&records, &mesh, &material, texture < 0 ? nullptr : &scene.textures[size_t(texture)], hides_back}));
+        rtcSetGeometryUserData(geometry, hit_tests_.back().get());
+        rtcSetGeometryIntersectFilterFunction(geometry, test_hit);
+        rtcSetGeometryOccludedFilterFunction(geometry, test_hit);
     }
     rtcCommitGeometry(geometry);
     return geometry;

@@ -34,6 +34,10 @@ struct SurfacePoint {
     glm::vec3 normal;           ///< interpolated vertex normal, of any length
 };
 
+/// Who looks along a ray, kept in RTCRay::id: where a scene hides the backs of surfaces, a ray from a point to the eye
+/// is stopped by those that face the eye.
+enum class Viewer : unsigned { at_origin, at_end };
+
 /// Embree's view of one frame: a mesh drawn once is baked into the top level, one drawn more often becomes a BVH of its
 /// own. Embree moves rays into an instance by the inverse of its transform: where there is none, it is baked too.
 class EmbreeScene {
@@ -46,7 +50,8 @@ public:
 
     RTCScene handle() const { return scene_; }
     const InstanceRecord& instance(uint32_t index) const { return instances_[index]; }
-    bool has_alpha_tests() const { return !alpha_tests_.empty(); }
+    bool has_alpha_tests() const { return has_alpha_tests_; }
+    bool hides_backs() const { return hides_backs_; }  ///< of any surface
 
     /// Of a hit. `u`, `v`: barycentrics of the second and the third corner, as Embree gives them.
     SurfacePoint point(uint32_t instance, uint32_t triangle, float u, float v) const;
@@ -57,18 +62,19 @@ public:
     }
 
 private:
-    struct AlphaTest;
+    struct HitTest;
     RTCDevice device_ = nullptr;
     RTCScene scene_ = nullptr;
     std::vector<std::vector<TriangleRecord>> triangles_;  ///< of each mesh, then of each baked instance
     std::vector<InstanceRecord> instances_;
-    std::vector<std::unique_ptr<AlphaTest>> alpha_tests_;
+    std::vector<std::unique_ptr<HitTest>> hit_tests_;
+    bool has_alpha_tests_ = false, hides_backs_ = false;
     std::vector<RTCScene> mesh_scenes_;
 
     void place(const InstanceRecord& instance, SurfacePoint& point) const;
     RTCGeometry make_triangles(const std::vector<TriangleRecord>& records, const Scene& scene, const Mesh& mesh,
                                bool test_every_alpha);
-    static void test_alpha(const RTCFilterFunctionNArguments* arguments);
+    static void test_hit(const RTCFilterFunctionNArguments* arguments);
 };
 
 /// Bound of the relative error of n float operations in a row (Higham 2002, section 3.1).

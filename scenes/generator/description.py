@@ -67,7 +67,8 @@ def yawing(still, name, degrees, frames):
 
 def scene_json(cameras, environment=DIM, **more):
     """`more`: lights, frame_count, frame_rate."""
-    return {"gltf": "scene.glb", "environment": {"constant": list(environment)}, **more, "cameras": cameras}
+    return {"gltf": "scene.glb", "environment": {"constant": list(environment)}, "back_faces": "drawn", **more,
+            "cameras": cameras}
 
 
 def plain(value):

@@ -37,7 +37,7 @@ DARK = 0.01  # added to the squared mean that variances are relative to, as ssrl
 TRIMMED = 1e-3  # share of pixels, those of the greatest variance, that the trimmed mean leaves out
 ROUNDING = 1e-10  # relative variance of images that differ by the rounding of float alone
 CYCLES_SHARE = 0.5  # time of a render of Cycles over that of ours: its variance times time hardly depends on it
-CARRIED = {"gltf", "also", "environment", "lights", "overrides", "cameras", "frame_count", "frame_rate"}
+CARRIED = {"gltf", "also", "environment", "lights", "overrides", "back_faces", "cameras", "frame_count", "frame_rate"}
 
 
 def children_seconds():
@@ -87,6 +87,7 @@ def scene_for_blender(name):
         environment["image"] = str(found_below(folders, environment["image"]))
     kinds = {light["type"] for light in scene.get("lights", ())}
     lacks = [*(set(scene) - CARRIED - {"gltfs", "specular"}), *(kinds - {"directional", "point"}), *({"gradient"} & set(environment))]
+    lacks += ["hidden backs"] if scene.get("back_faces") != "drawn" else []  # Cycles draws both sides
     lacks += ["rotation_deg"] if environment.get("rotation_deg") else []
     lacks += ["range"] if any("range" in light for light in scene.get("lights", ())) else []
     camera = scene.get("cameras", [{}])[0]

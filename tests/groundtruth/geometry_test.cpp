@@ -291,6 +291,52 @@ TEST(geometry, emission_leaves_the_front_unless_double_sided) {
         }
 }
 
+/// glTF 2.0, section 3.9.5: no ray sees a single-sided surface from behind, so light reaches a floor through a card
+/// whose back faces it, and none whose front does; drawn once (baked) or twice (an instance), mirrored or not.
+TEST(geometry, light_passes_the_hidden_backs_of_single_sided_surfaces) {
+    for (const bool is_instanced : {false, true})
+        for (const bool is_mirrored : {false, true})
+            for (const bool faces_floor : {false, true})
+                for (const bool is_double_sided : {false, true})
+                    for (const bool draws_backs : {false, true}) {
+                        TestScene scene;
+                        scene.scene.draws_backs = draws_backs;
+                        add_floor(scene, scene.add(lambert_material(0.5f)));
+                        scene.quad({-.5f, 2, -.5f}, {.5f, 2, -.5f}, {.5f, 2, .5f}, {-.5f, 2, .5f},
+                                   scene.add(lambert_material(0, 10)));
+                        const size_t card = scene.scene.meshes.size();
+                        Material material = lambert_material(0.0f);
+                        material.is_double_sided = is_double_sided;
+                        add_floor(scene, scene.add(material), 3.0f);
+                        std::swap(scene.scene.meshes[2].indices[1], scene.scene.meshes[2].indices[2]);
+                        std::swap(scene.scene.meshes[2].indices[4], scene.scene.meshes[2].indices[5]);
+                        if (is_instanced) scene.scene.instances.push_back({unsigned(card), 0});
+                        ScenePose pose = scene.pose();
+                        if (is_instanced) pose.world_from_instance.push_back(glm::mat4(1.0f));
+                        for (size_t i = card; i < pose.world_from_instance.size(); ++i) {
+                            glm::mat4& world = pose.world_from_instance[i];
+                            world =
+                                glm::translate(glm::mat4(1.0f), glm::vec3(0, 1 + 0.1f * float(i - card), 0)) * world;
+                            // The card's own front is below. Half a turn about x brings it up.
+                            if (!faces_floor) world = glm::rotate(world, float(M_PI), glm::vec3(1, 0, 0));
+                            if (is_mirrored) world = glm::scale(world, glm::vec3(-1, 1, 1));
+                        }
+                        const PathTracer tracer(scene.scene, pose, looking_along({0, .5f, 0}, {0, -1, 0}), {1, 1},
+                                                {.model = ReflectionModel::lambert});
+                        const PixelMoments pixel = render_pixel(tracer, 0, 0, 256);
+                        const double exact =
+                            5 * polygon_form_factor(glm::dvec3(0), up,
+                                                    {{-.5, 2, -.5}, {.5, 2, -.5}, {.5, 2, .5}, {-.5, 2, .5}});
+                        const bool passes = !draws_backs && !is_double_sided && !faces_floor;
+                        SCOPED_TRACE(testing::Message()
+                                     << is_instanced << is_mirrored << faces_floor << is_double_sided << draws_backs);
+                        // 6 standard errors of 16 batches are exceeded with p = 2.4e-5.
+                        EXPECT_NEAR(pixel.diffuse.mean.x, passes ? exact : 0,
+                                    6 * pixel.diffuse.standard_error.x + 1e-6);
+                        EXPECT_LT(pixel.diffuse.standard_error.x, 0.05 * exact);
+                    }
+}
+
 TEST(geometry, instances_may_be_flat) {
     // A ball twice, the second time flattened to a disk whose two sides, of two hemispheres, are both lit by the sky.
     TestScene scene;

@@ -140,6 +140,8 @@ TEST(ladder, what_the_screen_does_not_show_is_the_fallback) {
         bool is_shown;
         std::function<void(TestScene&)> build;
         float fov = 2.0f;
+        float near = 0, far = 1e9f;  // m, along the axis: the origin is at 4.47
+        bool draws_backs = true;
     };
     const Material bright = lambert_material(0, 5), dark = lambert_material(0);
     Material two_sided = bright;
@@ -156,6 +158,25 @@ TEST(ladder, what_the_screen_does_not_show_is_the_fallback) {
              s.quad({-3, 1.4f, 1}, {3, 1.4f, 1}, {3, 2.6f, 1}, {-3, 2.6f, 1}, s.add(dark));
          }},
         {"sky beyond the upper border", 0.3, false, [](TestScene&) {}, 0.3f},
+        {"behind an obstacle at 2.7 m, which near cuts away", 5, true,
+         [&](TestScene& s) {
+             add_wall(s, bright);
+             s.quad({-3, 1.4f, 1}, {3, 1.4f, 1}, {3, 2.6f, 1}, {-3, 2.6f, 1}, s.add(dark));
+         },
+         2.0f, 3.5f},
+        {"at 7.2 m, beyond far", 5, false, [&](TestScene& s) { add_wall(s, bright); }, 2.0f, 0, 6.0f},
+        {"behind an obstacle whose front the eye sees, backs hidden", 5, false,
+         [&](TestScene& s) {
+             add_wall(s, bright);
+             s.quad({-3, 1.4f, 1}, {3, 1.4f, 1}, {3, 2.6f, 1}, {-3, 2.6f, 1}, s.add(dark));
+         },
+         2.0f, 0, 1e9f, false},
+        {"behind an obstacle whose hidden back faces the eye", 5, true,
+         [&](TestScene& s) {
+             add_wall(s, bright);
+             s.quad({3, 1.4f, 1}, {-3, 1.4f, 1}, {-3, 2.6f, 1}, {3, 2.6f, 1}, s.add(dark));
+         },
+         2.0f, 0, 1e9f, false},
     };
     for (const Case& c : cases) {
         SCOPED_TRACE(c.name);
@@ -163,7 +184,10 @@ TEST(ladder, what_the_screen_does_not_show_is_the_fallback) {
         add_floor(scene, metal_material(1, 0));
         c.build(scene);
         scene.scene.environment.color = glm::vec3(0.3f);
-        const PixelMoments pixel = render_origin(scene, 64, with_ladder, c.fov);
+        scene.scene.draws_backs = c.draws_backs;
+        CameraPose camera = looking_at({0, 0, 0}, c.fov);
+        camera.near = c.near, camera.far = c.far;
+        const PixelMoments pixel = render(scene, camera, 64, with_ladder);
         EXPECT_NEAR(pixel.incident.mean.x, c.truth, 1e-5);
         EXPECT_NEAR(pixel.camera_radiance.mean.x, c.truth, 1e-5);
         EXPECT_NEAR(pixel.on_screen.mean.x, c.is_shown ? c.truth : 0.3, 1e-5);

@@ -89,6 +89,7 @@ CameraPose looking_along(glm::vec3 eye, glm::vec3 direction) {
     CameraPose pose;
     pose.is_orthographic = true;
     pose.orthographic_height = 0.01f;
+    pose.near = 0.0f, pose.far = 1e9f;  // cut nothing
     const glm::vec3 up =
         std::abs(direction.y) < 0.9f * glm::length(direction) ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
     pose.world_from_view =

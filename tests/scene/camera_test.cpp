@@ -42,6 +42,34 @@ TEST(Camera, RaysMeetTheirPixels) {
         }
 }
 
+/// glTF 2.0, 3.10.3.2 to 3.10.3.4: the frame of 16:9 that its author saw is never cropped.
+TEST(Camera, GrowsInHeightWhereTheImageIsNarrowerThanItsFrame) {
+    for (const bool is_orthographic : {false, true}) {
+        CameraPose pose = tilted(is_orthographic);
+        const double half_height = is_orthographic ? 1.5 : std::tan(0.45);
+        pose.aspect = 16.0f / 9;
+        for (const glm::uvec2 extent : {glm::uvec2(640, 360), {1600, 400}, {400, 400}, {90, 160}}) {
+            const double aspect = double(extent.x) / extent.y, width = half_height * std::max(16.0 / 9, aspect);
+            const glm::mat4 clip = clip_from_view(pose, float(aspect), DepthDirection::standard);
+            EXPECT_NEAR(1 / std::abs(double(clip[0][0])), width, 1e-5 * width);
+            EXPECT_NEAR(1 / std::abs(double(clip[1][1])), width / aspect, 1e-5 * width);
+            const CameraData data = camera_data(pose, nullptr, {.extent = extent});
+            EXPECT_EQ(data.clip_from_view, clip);
+            const CameraRay ray = camera_ray(pose, extent, glm::vec2(0));  // the upper left corner
+            const glm::dvec3 corner = glm::dmat4(data.view_from_world) *
+                                      glm::dvec4(glm::dvec3(ray.origin) + 4.0 * glm::dvec3(ray.direction), 1.0);
+            const double scale = is_orthographic ? 1 : -corner.z;
+            EXPECT_NEAR(corner.x, -width * scale, 1e-4);
+            EXPECT_NEAR(corner.y, width / aspect * scale, 1e-4);
+        }
+        CameraPose unnamed = pose;
+        unnamed.aspect = 0;
+        EXPECT_EQ(fitted(pose, 2.0).vertical_fov, unnamed.vertical_fov);  // to the bit
+        EXPECT_EQ(clip_from_view(pose, 16.0f / 9, DepthDirection::standard),
+                  clip_from_view(unnamed, 16.0f / 9, DepthDirection::standard));
+    }
+}
+
 TEST(Camera, DepthRunsFromNearToFar) {
     for (const bool is_orthographic : {false, true}) {
         const CameraPose pose = tilted(is_orthographic);

@@ -116,6 +116,61 @@ TEST_F(SceneFile, HashesWhatLightDependsOn) {
               plain);
 }
 
+/// glTF 2.0, section 3.9.5: what is not double-sided is not seen from behind, unless the scene says otherwise.
+TEST_F(SceneFile, HidesBacksUnlessItSaysThatTheyAreDrawn) {
+    const auto scene = [&](const std::string& keys) { return load(R"({"gltf": "room.glb", )" + keys + camera + "}"); };
+    const Scene plain = scene(""), culled = scene(R"("back_faces": "culled", )"),
+                drawn = scene(R"("back_faces": "drawn", )");
+    EXPECT_FALSE(plain.draws_backs);
+    EXPECT_TRUE(plain.hides_backs());
+    EXPECT_TRUE(drawn.draws_backs);
+    EXPECT_EQ(plain.content_hash, culled.content_hash);
+    EXPECT_NE(plain.content_hash, drawn.content_hash);
+    EXPECT_FALSE(load_scene((root / "room/room.glb").string(), {}).draws_backs);
+    EXPECT_NE(mistake(R"({"gltf": "room.glb", "back_faces": "shown", )" + camera + "}").find("'back_faces'"),
+              std::string::npos);
+    // Where all that is drawn is double-sided the key changes nothing.
+    GltfWriter writer;
+    writer.json["materials"] = {{{"name", "sheet"}, {"doubleSided", true}}};
+    nlohmann::json quad = writer.quad();
+    quad["material"] = 0;
+    writer.add_mesh_node(quad);
+    writer.write_glb(root / "room/room.glb");
+    EXPECT_EQ(scene("").content_hash, scene(R"("back_faces": "drawn", )").content_hash);
+}
+
+TEST_F(SceneFile, PlanesOfTheSceneReplaceThoseOfTheGltf) {
+    GltfWriter writer;
+    writer.add_mesh_node(writer.quad());
+    writer.json["scenes"][0]["nodes"] = {0, 1, 2};
+    writer.json["nodes"].push_back({{"camera", 0}, {"translation", {0, 0, 3}}});
+    writer.json["nodes"].push_back({{"camera", 1}, {"translation", {0, 0, 3}}});
+    writer.json["cameras"] = {{{"name", "lens"},
+                               {"type", "perspective"},
+                               {"perspective", {{"yfov", 0.8}, {"aspectRatio", 1.5}, {"znear", 4}, {"zfar", 5}}}},
+                              {{"name", "flat"},
+                               {"type", "orthographic"},
+                               {"orthographic", {{"xmag", -3}, {"ymag", 1.5}, {"znear", 4}, {"zfar", 5}}}}};
+    writer.write_glb(root / "room/room.glb");
+    const Scene scene = load(R"({"gltf": "room.glb", "cameras": [{"gltf": "lens"}, {"gltf": "flat", "planes": "scene"},
+        {"gltf": "lens", "name": "out", "planes": "scene"},
+        {"name": "own", "position": [0, 0, 3], "target": [0, 0, 0], "vfov_deg": 60, "planes": "scene"}]})");
+    EXPECT_EQ(scene.camera("lens").near, 4);
+    EXPECT_EQ(scene.camera("lens").aspect, 1.5f);
+    EXPECT_EQ(scene.camera("flat").near, 0);
+    EXPECT_EQ(scene.camera("flat").aspect, 2);  // xmag / ymag, whose signs mirror (3.10.3.4: SHOULD NOT be negative)
+    EXPECT_LT(scene.camera("out").near, 3);
+    EXPECT_GT(scene.camera("out").near, 1);
+    for (const char* name : {"out", "flat", "own"})
+        EXPECT_NEAR(scene.camera(name).far, 1.01f * std::sqrt(11.0f), 1e-5f) << name;
+    EXPECT_NE(mistake(R"({"gltf": "room.glb", "cameras": [{"name": "own", "position": [0, 0, 3], "target": [0, 0, 0],
+        "vfov_deg": 60, "planes": "scene", "near": 1}]})")
+                  .find("leave one of them out"),
+              std::string::npos);
+    EXPECT_NE(mistake(R"({"gltf": "room.glb", "cameras": [{"gltf": "lens", "planes": "file"}]})").find("'planes'"),
+              std::string::npos);
+}
+
 TEST(Scenes, AllOfOursLoadWithoutWarning) {
     const fs::path ours = fs::path(SSRLAB_SOURCE_DIR) / "scenes";
     size_t loaded = 0;
@@ -155,11 +210,13 @@ TEST_F(SceneFile, UnknownScenesAndBareFiles) {
     const Scene bare = load_scene((root / "room/room.glb").string(), {});
     EXPECT_EQ(bare.environment.color, glm::vec3(1));
     const CameraPose pose = pose_camera(bare.cameras.at(0), pose_scene(bare, 0), 0);
-    const CameraData data = camera_data(pose, nullptr, {.extent = {100, 100}});
-    for (const Vertex& v : bare.meshes[0].vertices) {  // the default camera sees all of it
-        const glm::vec4 clip = data.clip_from_world * glm::vec4(v.position, 1);
-        EXPECT_LT(std::max({std::abs(clip.x), std::abs(clip.y), clip.z}), clip.w);
-        EXPECT_GT(clip.z, 0.0f);
+    for (const glm::uvec2 extent : {glm::uvec2(100, 100), {300, 100}, {40, 400}}) {
+        const CameraData data = camera_data(pose, nullptr, {.extent = extent});
+        for (const Vertex& v : bare.meshes[0].vertices) {  // the default camera sees all of it
+            const glm::vec4 clip = data.clip_from_world * glm::vec4(v.position, 1);
+            EXPECT_LT(std::max({std::abs(clip.x), std::abs(clip.y), clip.z}), clip.w);
+            EXPECT_GT(clip.z, 0.0f);
+        }
     }
 }
 

@@ -78,11 +78,14 @@ SceneCamera read_camera(const GltfFile& file, int index, int node) {
         const auto& lens = source.orthographic;
         camera.orthographic_height =
             2.0f * checked_number(file, std::abs(lens.ymag), FLT_MIN, any_length, what + ": ymag");
+        camera.aspect = 2.0f * checked_number(file, std::abs(lens.xmag), FLT_MIN, any_length, what + ": xmag") /
+                        camera.orthographic_height;
         camera.near = checked_number(file, lens.znear, 0.0, any_length, what + ": znear");
         camera.far = checked_number(file, lens.zfar, 0.0, any_far_plane, what + ": zfar");
     } else {
         const auto& lens = source.perspective;
         camera.vertical_fov = checked_number(file, lens.yfov, 1e-6, std::numbers::pi - 1e-3, what + ": yfov");
+        camera.aspect = checked_number(file, lens.aspectRatio, 0.0, any_length, what + ": aspectRatio");
         camera.near = checked_number(file, lens.znear, FLT_MIN, any_length, what + ": znear");
         camera.far = checked_number(file, lens.zfar, 0.0, any_far_plane, what + ": zfar");
     }

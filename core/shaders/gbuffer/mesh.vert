@@ -14,6 +14,7 @@ layout(location = 6) precise out vec4 clip_before;
 layout(location = 7) flat out vec3 ws_front_normal;
 layout(location = 8) flat out uint material;
 layout(location = 9) flat out float handedness;
+layout(location = 10) flat out float common_alpha;  // of the triangle's vertex colours, -1: they differ
 
 invariant gl_Position;
 
@@ -37,6 +38,7 @@ void main() {
     vec3 front = mat3(instance.normal_matrix) * attribute3(18u);
     float front_length = length(front);  // 0: a triangle without area, of which no fragment is drawn
     ws_front_normal = front_length > 0.0 ? front / front_length : vec3(0.0);
+    common_alpha = vertices[uint(gl_VertexIndex) * vertex_stride + 21u];
     material = instance.ids.x;
     handedness = instance.ids.y == 1u ? -tangent.w : tangent.w;
 

@@ -1,5 +1,6 @@
 // The surface behind the visible one, by a second drawing that leaves out what lies no farther (Everitt 2001,
-// "Interactive Order-Independent Transparency"). HAS_MASK compiles in alpha masks.
+// "Interactive Order-Independent Transparency"). HAS_MASK compiles in alpha masks. Backs that the scene hides are not drawn
+// here, either: what ends behind one counts as a sheet.
 #include "core/shared/drawn_scene.h"
 
 layout(std430) readonly buffer Materials { DrawnMaterial materials[]; };
@@ -17,6 +18,7 @@ layout(location = 1) out float back_depth;
 
 #ifdef HAS_MASK
 #include "core/shaders/gbuffer/textures.glsl"
+#include "core/shaders/gbuffer/alpha_mask.glsl"
 #endif
 
 void main() {
@@ -25,8 +27,7 @@ void main() {
     if (is_reversed ? gl_FragCoord.z >= visible - depth_step : gl_FragCoord.z <= visible + depth_step) discard;
 #ifdef HAS_MASK
     DrawnMaterial m = materials[material];
-    vec4 coloured = m.base_color * color * slot_value(base_color_texture, m, slot_base_color);
-    if (coloured.a < m.factors.w) discard;
+    if (is_cut_out(m, color.a, slot_value(base_color_texture, m, slot_base_color).a)) discard;
 #endif
     vec3 to_camera = camera.frame.z == 1u ? camera.world_from_view[2].xyz : camera.world_from_view[3].xyz - ws_position;
     bool is_back = dot(ws_front_normal, to_camera) < 0.0;

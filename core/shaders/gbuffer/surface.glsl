@@ -36,6 +36,10 @@ uniform sampler2D specular_texture;
 uniform sampler2D specular_color_texture;
 #endif
 
+#ifdef HAS_MASK
+#include "core/shaders/gbuffer/alpha_mask.glsl"
+#endif
+
 vec3 mapped_normal(DrawnMaterial m, vec3 n) {
     vec3 local = (2.0 * SLOT(normal_texture, slot_normal).xyz - 1.0) * vec3(m.factors.zz, 1.0);
     float tangent_length = length(ws_tangent);
@@ -51,9 +55,10 @@ vec3 mapped_normal(DrawnMaterial m, vec3 n) {
 
 void main() {
     DrawnMaterial m = materials[material];
-    vec4 coloured = m.base_color * color * SLOT(base_color_texture, slot_base_color);
+    vec4 base_color_texel = SLOT(base_color_texture, slot_base_color);
+    vec4 coloured = m.base_color * color * base_color_texel;
 #ifdef HAS_MASK
-    if (coloured.a < m.factors.w) discard;
+    if (is_cut_out(m, color.a, base_color_texel.a)) discard;
 #endif
     vec4 metalness_roughness = SLOT(metalness_roughness_texture, slot_metalness_roughness);
     bool is_unlit = m.flags.x == 1u;

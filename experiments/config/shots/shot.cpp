@@ -1,8 +1,11 @@
 #include "experiments/config/shots/shot.h"
 
+#include "core/scene/camera_planes.h"
 #include "core/scene/load_scene.h"
+#include "experiments/config/shots/plane_warnings.h"
 
 #include <algorithm>
+#include <iterator>
 
 std::vector<FrameStep> timeline(const ShotConfig& config) {
     std::vector<FrameStep> steps;
@@ -47,8 +50,10 @@ Shot load_shot(const ShotConfig& config, const std::vector<std::filesystem::path
               .facts = {},
               .steps = timeline(config)};
     shot.camera = shot.scene.camera(config.camera);
+    if (config.has_planes_of_scene) use_planes_of_scene(shot.camera, shot.scene);
     shot.facts = derive_facts(shot.scene, shot.camera, config.frames);
     shot.facts.has_environment |= config.has_probe;
+    std::ranges::move(plane_warnings(shot), std::back_inserter(shot.scene.warnings));
     return shot;
 }
 

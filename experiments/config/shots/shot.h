@@ -42,7 +42,8 @@ struct Shot {
     StepImages images_of(const FrameStep& step, KeptImages kept) const;
 };
 
-/// Fails with Error if the scene or the camera is unknown (with a near miss) or broken.
+/// Its scene's warnings hold those of the camera's planes, too. Fails with Error if the scene or the camera is unknown
+/// (with a near miss) or broken.
 Shot load_shot(const ShotConfig& config, const std::vector<std::filesystem::path>& search_path);
 
 /// Scene and camera at one frame of a shot.

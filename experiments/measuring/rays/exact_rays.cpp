@@ -15,9 +15,13 @@ struct Met {
     float distance;
 };
 
-std::optional<Met> meet(const EmbreeScene& scene, glm::vec3 origin, glm::vec3 direction) {
+/// `camera`: whose ray that is; none: no camera's.
+std::optional<Met> meet(const EmbreeScene& scene, glm::vec3 origin, glm::vec3 direction,
+                        const CameraView* camera = nullptr) {
     RTCRayHit ray;
-    if (!intersect(scene.handle(), origin, direction, ray)) return {};
+    const bool meets = camera ? intersect_from_camera(scene.handle(), *camera, origin, direction, ray)
+                              : intersect(scene.handle(), origin, direction, ray);
+    if (!meets) return {};
     const SurfacePoint point = scene.point(ray.hit.instID[0], ray.hit.primID, ray.hit.u, ray.hit.v);
     const glm::vec3 normal = glm::dot(point.front_normal, direction) > 0 ? -point.front_normal : point.front_normal;
     return Met{point, normal, glm::length(point.position - origin)};
@@ -43,8 +47,7 @@ ExactHit ExactRays::judged(const SurfacePoint& point, glm::vec3 direction, float
     const glm::vec3 to_eye = view_.to_eye(point.position);
     const glm::vec3 normal = glm::dot(point.front_normal, to_eye) < 0 ? -point.front_normal : point.front_normal;
     if (glm::dot(normal, direction) >= 0) return {position, distance, outcome_hidden};  // its other side is seen
-    const glm::vec3 origin = offset_origin(point.position, point.error, normal, to_eye);
-    const bool is_hidden = is_occluded(scene_.handle(), origin, point.position + to_eye - origin, 1.0f);
+    const bool is_hidden = is_hidden_from_camera(scene_.handle(), view_, point.position, point.error, normal);
     return {position, distance, is_hidden ? outcome_hidden : outcome_hit};
 }
 
@@ -54,7 +57,7 @@ ExactHit ExactRays::hit(glm::uvec2 pixel, const RayRecord& ray) const {
     if (!std::isfinite(direction.x + direction.y + direction.z)) return {.outcome = outcome_own_surface};
     const CameraRay camera_ray = ::camera_ray(pose_, extent_, glm::vec2(pixel) + 0.5f);
     glm::vec3 origin = glm::vec3(camera_.world_from_view * glm::vec4(ray.origin, 1.0f));
-    if (const std::optional<Met> start = meet(scene_, camera_ray.origin, camera_ray.direction)) {
+    if (const std::optional<Met> start = meet(scene_, camera_ray.origin, camera_ray.direction, &view_)) {
         if (glm::dot(start->normal, direction) <= 0) return {.outcome = outcome_own_surface};
         origin = offset_origin(start->point.position, start->point.error, start->normal, direction);
     }
