@@ -67,6 +67,8 @@ def surface_shader(material):
         socket, groups = waiting.pop(0)
         for link in socket.links:
             node = link.from_node
+            if not getattr(link, "is_valid", True):  # one of a circle, which Blender leaves out
+                continue
             if node.bl_idname == "ShaderNodeBsdfPrincipled" or node.bl_idname in OTHER_SHADERS:
                 return node
             if node.bl_idname == "NodeGroupInput":

@@ -86,7 +86,7 @@ class Tree:
 
     def new(self, output, target):
         assert output.is_output and not target.is_output and output.node.id_data is target.node.id_data is self
-        target.links = [SimpleNamespace(from_node=output.node, from_socket=output)]
+        target.links = [SimpleNamespace(from_node=output.node, from_socket=output, is_valid=True)]
 
     def get_output_node(self, engine):
         return next((n for n in self.nodes if n.bl_idname == "ShaderNodeOutputMaterial"), None)
@@ -240,6 +240,27 @@ class BlenderVersionsTest(unittest.TestCase):
             return node.outputs["Shader"]
 
         self.expect(self.material(build), base_color=(0.25, 0.5, 0.75), metallic=0)
+        outer, outer_begin, outer_end = group([("Way", None, "SHADER")])
+        node = put_group(outer, inner)
+        outer.new(outer_begin.outputs["Way"], node.inputs["Shader"])
+        outer.new(node.outputs["Shader"], outer_end.inputs["Shader"])
+
+        def twice(tree):
+            node = put_group(tree, outer)
+            tree.new(tree.nodes.new("ShaderNodeBsdfDiffuse", Color=(0.5, 0.25, 0.125, 1)).outputs[0], node.inputs["Way"])
+            return node.outputs["Shader"]
+
+        self.expect(self.material(twice), base_color=(0.5, 0.25, 0.125))
+
+        def circle(tree):
+            first, second = tree.nodes.new("ShaderNodeMixShader"), tree.nodes.new("ShaderNodeMixShader")
+            tree.new(first.outputs[0], second.inputs["Shader 1"])
+            tree.new(second.outputs[0], first.inputs["Shader 1"])
+            second.inputs["Shader 1"].links[0].is_valid = False  # as Blender 3.4.1 says
+            tree.new(tree.nodes.new("ShaderNodeBsdfDiffuse").outputs[0], second.inputs["Shader 2"])
+            return first.outputs[0]
+
+        self.expect(self.material(circle), base_color=(0.8, 0.8, 0.8))
         empty = self.material(lambda tree: put_group(tree, group()[0]).outputs["Shader"])
         self.assertFalse(self.export.add_outputs(empty), "a group without a shader")
 
