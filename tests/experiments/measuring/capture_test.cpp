@@ -284,8 +284,8 @@ TEST_F(CaptureTest, NumberSignsOfFoldersAreNoPattern) {
     const fs::path take = folder / "take#2";
     const auto file_of = [&](const std::string& reference) {
         write_text(take / "cap/gbuffer.exr", "not read here");
-        const json study = {{"shots", {{{"gbuffer", "cap"}, {"reference", reference}}}}, {"variants", {{{"variant", "none"}}}}};
-        write_text(take / "study.json", study.dump());
+        write_text(take / "study.json", R"({"shots": [{"gbuffer": "cap", "reference": ")" + reference +
+                                            R"("}], "variants": [{"variant": "none"}]})");
         return capture_reference_file(read_config(take / "study.json").shots.at(0), 7);
     };
     EXPECT_EQ(file_of("truth.exr"), take / "truth.exr");
