@@ -115,7 +115,8 @@ nlohmann::json to_json(const PixelCounts& counts) {
 
 void check(const CompareOptions& options) {
     for (const std::string& name : options.metrics) metric_named(name);
-    if (!options.map.empty() && lower_case_extension(options.map) != ".exr" && lower_case_extension(options.map) != ".png")
+    if (!options.map.empty() && lower_case_extension(options.map) != ".exr" &&
+        lower_case_extension(options.map) != ".png")
         fail("cannot write the error map ", options.map.string(), ": its name must end in .exr or .png");
     if (!(options.map_max > 0)) fail("the scale of the error map is ", options.map_max, ", but must be above 0");
 }
