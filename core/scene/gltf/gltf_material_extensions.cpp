@@ -112,18 +112,27 @@ void say_left_out_parts(const MaterialSource& source) {
         if (has(part.extension, part.factor) && (transmits || !part.needs_transmission)) source.warn(part.sentence);
 }
 
-/// 1 - glossiness * A as G, of which materials read roughness; 1 elsewhere.
-template <class Code>
-std::vector<uint8_t> roughness_codes(const std::vector<uint8_t>& rgba, float glossiness) {
-    constexpr float most = float(std::numeric_limits<Code>::max());
-    std::vector<uint8_t> made(rgba.size(), 255);
-    for (size_t at = 0; at + 4 * sizeof(Code) <= rgba.size(); at += 4 * sizeof(Code)) {
-        Code code;
-        std::memcpy(&code, &rgba[at + 3 * sizeof(Code)], sizeof(Code));
-        code = Code(std::lround(most - glossiness * float(code)));
-        std::memcpy(&made[at + sizeof(Code)], &code, sizeof(Code));
+/// Roughness as G, of which materials read it: 1 - glossiness * A, in codes of the type To. 1 elsewhere.
+template <class From, class To>
+std::vector<uint8_t> roughness_codes(const std::vector<uint8_t>& rgba, double glossiness) {
+    constexpr double most = std::numeric_limits<To>::max(), most_before = std::numeric_limits<From>::max();
+    const size_t texels = rgba.size() / (4 * sizeof(From));
+    std::vector<uint8_t> made(texels * 4 * sizeof(To), 255);
+    for (size_t i = 0; i < texels; ++i) {
+        From alpha;
+        std::memcpy(&alpha, &rgba[(4 * i + 3) * sizeof(From)], sizeof(From));
+        const To code = To(std::lround(most * (1.0 - glossiness * alpha / most_before)));
+        std::memcpy(&made[(4 * i + 1) * sizeof(To)], &code, sizeof(To));
     }
     return made;
+}
+
+/// In 16 bits, unless the file's 8 bits hold all of it.
+Texels roughness_texels(const Texture& source, float glossiness) {
+    const std::vector<uint8_t>& rgba = *source.rgba;
+    return make_texels(source.channel_bytes == 2 ? roughness_codes<uint16_t, uint16_t>(rgba, glossiness)
+                       : glossiness == 1.0f      ? roughness_codes<uint8_t, uint8_t>(rgba, glossiness)
+                                                 : roughness_codes<uint8_t, uint16_t>(rgba, glossiness));
 }
 }  // namespace
 
@@ -165,11 +174,11 @@ void make_roughness_textures(const GltfFile& file, Scene& scene) {
         const float glossiness = 1.0f - material.roughness;
         Texels& texels = made[{texture.rgba.get(), glossiness}];
         if (!texels) {
-            scene.memory.add(double(texture.rgba->size()),
+            scene.memory.add(2.0 * double(texture.rgba->size()),
                              file.name() + ": roughness made of texture '" + shortened(texture.name) + "'");
-            texels = make_texels(texture.channel_bytes == 2 ? roughness_codes<uint16_t>(*texture.rgba, glossiness)
-                                                            : roughness_codes<uint8_t>(*texture.rgba, glossiness));
+            texels = roughness_texels(texture, glossiness);
         }
+        texture.channel_bytes = unsigned(texels->size() / (4 * size_t(texture.extent.x) * texture.extent.y));
         texture.rgba = texels;
         texture.is_srgb = false;
         material.roughness = 1.0f;
