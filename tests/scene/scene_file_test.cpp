@@ -159,8 +159,9 @@ TEST_F(SceneFile, PlanesOfTheSceneReplaceThoseOfTheGltf) {
     EXPECT_EQ(scene.camera("lens").aspect, 1.5f);
     EXPECT_EQ(scene.camera("flat").near, 0);
     EXPECT_EQ(scene.camera("flat").aspect, 2);  // xmag / ymag, whose signs mirror (3.10.3.4: SHOULD NOT be negative)
-    EXPECT_LT(scene.camera("out").near, 3);
-    EXPECT_GT(scene.camera("out").near, 1);
+    // Half of the depth that the nearest point, 3 m away, has in the corner of the frame, in pictures from 2:1 to 1:2.
+    const float edge = 1.5f * std::tan(0.4f);
+    EXPECT_NEAR(scene.camera("out").near, 1.5f / std::sqrt(1 + 5 * edge * edge), 1e-5f);
     for (const char* name : {"out", "flat", "own"})
         EXPECT_NEAR(scene.camera(name).far, 1.01f * std::sqrt(11.0f), 1e-5f) << name;
     EXPECT_NE(mistake(R"({"gltf": "room.glb", "cameras": [{"name": "own", "position": [0, 0, 3], "target": [0, 0, 0],
