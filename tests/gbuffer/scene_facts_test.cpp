@@ -14,7 +14,11 @@ TEST(scene_facts, of_a_scene_that_has_everything) {
     EXPECT_FALSE(f.is_still());
     EXPECT_FALSE(f.has_vertex_colors);
     EXPECT_EQ(f.max_roughness, 1.0f);
-    EXPECT_EQ(list_facts(scene, f).size(), 13u);
+    EXPECT_EQ(list_facts(scene, f).size(), 14u);
+    EXPECT_FALSE(f.hides_backs);
+    Scene culled = scene;
+    culled.draws_backs = false;
+    EXPECT_TRUE(material_facts(culled).hides_backs);
 }
 
 TEST(scene_facts, only_what_is_drawn_counts) {
