@@ -88,14 +88,13 @@ TEST(what_is_seen, is_cut_by_depths_and_counted) {
 /// The floor, tilted and mirrored things of the varied scene, where planes cut through them.
 TEST(what_is_seen, is_cut_at_the_same_places) {
     Scene scene = varied_scene();
-    for (const auto& [name, direction] : {std::pair("main", DepthDirection::standard),
-                                          std::pair("orthographic", DepthDirection::reversed)}) {
+    for (const auto& [name, direction] :
+         {std::pair("main", DepthDirection::standard), std::pair("orthographic", DepthDirection::reversed)}) {
         SceneCamera camera = scene.camera(name);
         camera.near = 4.9f, camera.far = 6.5f;
         const ScenePose pose = pose_scene(scene, 0);
         EXPECT_GT(count_plane_cuts(scene, pose, pose_camera(camera, pose, 0), extent).count(), 500u);
-        expect_agreement(compare_with_rays(scene, camera, view_of(extent, 0, direction)),
-                         std::string(name) + ", cut");
+        expect_agreement(compare_with_rays(scene, camera, view_of(extent, 0, direction)), std::string(name) + ", cut");
     }
 }
 
