@@ -1,5 +1,7 @@
 #include "core/scene/view_depths.h"
 
+#include "core/scene/instance_bounds.h"
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 #include <algorithm>
@@ -105,6 +107,18 @@ DepthRange depths_in_view(const Scene& scene, const ScenePose& pose, const Camer
             return found;
         };
         range = joined_range(range, tbb::parallel_reduce(all, no_depth, widen, joined_range));
+    }
+    return range;
+}
+
+DepthRange depths_of_boxes(const Scene& scene, const ScenePose& pose, const CameraPose& camera) {
+    const InstanceBounds bounds(scene);
+    const glm::mat4 view_from_world(glm::inverse(glm::dmat4(camera.world_from_view)));
+    DepthRange range = no_depth;
+    for (size_t i = 0; i < scene.instances.size(); ++i) {
+        const Box box = bounds.at(pose, i).moved(view_from_world);
+        if (!(box.low.z <= 0)) continue;  // behind the eye, or empty
+        range = joined_range(range, {std::max(-box.high.z, 0.0), -box.low.z});
     }
     return range;
 }

@@ -2,29 +2,13 @@
 
 #include "core/near_miss.h"
 #include "core/scene/depth_precision.h"
-#include "core/scene/instance_bounds.h"
 #include "core/scene/view_depths.h"
 #include "groundtruth/paths/plane_cuts.h"
-
-#include <algorithm>
 
 namespace {
 
 const char* const how_to_push_out =
     "A camera's \"planes\": \"scene\" in scene.json, or --planes scene, derives planes that cut nothing";
-
-/// About depths_in_view(), for a few operations each instance.
-DepthRange possible_depths(const Scene& scene, const ScenePose& pose, const CameraPose& camera) {
-    const InstanceBounds bounds(scene);
-    const glm::mat4 view_from_world(glm::inverse(glm::dmat4(camera.world_from_view)));
-    DepthRange range{1e300, -1};
-    for (size_t i = 0; i < scene.instances.size(); ++i) {
-        const Box box = bounds.at(pose, i).moved(view_from_world);
-        if (!(box.low.z <= 0)) continue;  // behind the eye, or empty
-        range = {std::min(range.nearest, std::max(-box.high.z, 0.0)), std::max(range.farthest, -box.low.z)};
-    }
-    return range;
-}
 
 std::string cut_warning(const Shot& shot, const ShotFrame& frame) {
     const glm::uvec2 extent = shot.config.extent;
@@ -50,7 +34,7 @@ std::vector<SceneWarning> plane_warnings(const Shot& shot) {
     const auto may_cut = [&](const DepthRange& depths) {
         return !depths.is_empty() && (depths.nearest < frame.camera.near || depths.farthest >= frame.camera.far);
     };
-    DepthRange depths = possible_depths(shot.scene, frame.scene, frame.camera);
+    DepthRange depths = depths_of_boxes(shot.scene, frame.scene, frame.camera);
     if (!may_cut(depths) && precision(depths).empty()) return {};
     depths = depths_in_view(shot.scene, frame.scene, frame.camera, shot.config.extent);
     std::vector<SceneWarning> warnings;
