@@ -97,8 +97,16 @@ void add_planes(CLI::App& command, ShotOptions& shot) {
         ->type_name("WHOSE");
 }
 
+void add_animation(CLI::App& command, std::string& animation) {
+    command
+        .add_option("--animation", animation,
+                    "Which of the glTF's animations is played; or all, or none; default: as its scene.json says, else "
+                    "the first")
+        ->type_name("NAME");
+}
+
 void add_shot(CLI::App& command, ShotOptions& shot) {
-    add_scene(command, shot.scene);
+    add_scene(command, shot.scene), add_animation(command, shot.animation);
     command.add_option("--camera", shot.camera, "Default: the scene's first")->type_name("NAME");
     add_planes(command, shot);
     add_size(command, shot.size);
@@ -323,6 +331,7 @@ int parse_and_run(int argc, char** argv) {
         ->required()
         ->type_name("ENGINE");
     add_scene(scene_for_command_, scene_for.scene);
+    add_animation(scene_for_command_, scene_for.animation);
     scene_for_command_.add_option("--camera", scene_for.cameras, "One or more; default: the scene's first")
         ->type_name("NAME");
     add_size(scene_for_command_, scene_for.size);
@@ -604,6 +613,7 @@ int parse_and_run(int argc, char** argv) {
     add_values(record_command_, record.preset, record.parameters);
     record_command_.add_option("--camera", record.shot.camera, "Default: the scene's first")->type_name("NAME");
     add_planes(record_command_, record.shot);
+    add_animation(record_command_, record.shot.animation);
     add_size(record_command_, record.shot.size, "192 108");
     record_command_.add_option("--frames", record.frames, "Frames of the camera's path and of the animation")
         ->capture_default_str()

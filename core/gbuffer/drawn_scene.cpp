@@ -1,12 +1,14 @@
 #include "core/gbuffer/drawn_scene.h"
 
-#include "core/gbuffer/leading_vertices.h"
+#include "core/scene/deform.h"
 #include "core/scene/texture_slots.h"
 #include "core/scene/transform.h"
 #include "core/shared/drawn_scene.h"
 
+#include <tbb/parallel_for.h>
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace {
 
@@ -89,13 +91,28 @@ DrawnScene::DrawnScene(PassGraph& graph, const Scene& scene, bool has_dielectric
     instances_ = graph.buffer("Instances", scene.instances.size() * sizeof(DrawnInstance));
 
     std::vector<MeshBuffers> buffers(scene.meshes.size());
+    std::vector<std::shared_ptr<const LeadingVertices>> leading(scene.meshes.size());
     for (unsigned i = 0; i < scene.instances.size(); ++i) {
         const unsigned index = scene.instances[i].mesh;
         const Mesh& mesh = scene.meshes[index];
         if (mesh.indices.empty()) continue;
-        if (!buffers[index].vertices.storage) buffers[index] = upload_mesh(mesh, index);
+        if (!leading[index]) {
+            leading[index] = std::make_shared<const LeadingVertices>(find_leading_vertices(mesh));
+            buffers[index].indices = upload_indices(*leading[index], index);
+        }
+        MeshBuffers of_instance = buffers[index];
+        if (deforms(scene, scene.instances[i])) {
+            const size_t floats = leading[index]->source.size() * (vertex_stride + 3);
+            of_instance.vertices = graph.buffer("Vertices_of_instance" + std::to_string(i), floats * sizeof(float));
+            deformed_.push_back({.instance = i, .leading = leading[index], .vertices = of_instance.vertices});
+            deformed_.back().floats.resize(floats);
+        } else {
+            if (!buffers[index].vertices.storage)
+                buffers[index].vertices = upload_vertices(mesh, *leading[index], index);
+            of_instance.vertices = buffers[index].vertices;
+        }
         const Kind kind = kind_of(scene.materials[mesh.material]);
-        draws_[size_t(kind)].push_back(make_draw(i, buffers[index], kind));
+        draws_[size_t(kind)].push_back(make_draw(i, of_instance, kind));
     }
 }
 
@@ -106,8 +123,13 @@ DrawnScene::Kind DrawnScene::kind_of(const Material& material) const {
     return has_texture || has_dielectric_f0_ ? Kind::textured : Kind::plain;
 }
 
-DrawnScene::MeshBuffers DrawnScene::upload_mesh(const Mesh& mesh, size_t index) {
-    const LeadingVertices leading = find_leading_vertices(mesh);
+Buffer DrawnScene::upload_indices(const LeadingVertices& leading, size_t mesh) {
+    const Buffer buffer = graph_.buffer("Indices" + std::to_string(mesh), leading.indices.size() * sizeof(uint32_t));
+    graph_.upload(buffer, bytes_of(leading.indices));
+    return buffer;
+}
+
+Buffer DrawnScene::upload_vertices(const Mesh& mesh, const LeadingVertices& leading, size_t index) {
     std::vector<float> floats(leading.source.size() * vertex_stride);
     for (size_t v = 0; v < leading.source.size(); ++v) {
         std::memcpy(&floats[v * vertex_stride], &mesh.vertices[leading.source[v]], sizeof(Vertex));
@@ -115,12 +137,44 @@ DrawnScene::MeshBuffers DrawnScene::upload_mesh(const Mesh& mesh, size_t index) 
         std::memcpy(of_triangle, &leading.triangle_normal[v], sizeof(glm::vec3));
         of_triangle[3] = leading.triangle_alpha[v];
     }
-    const std::string suffix = std::to_string(index);
-    MeshBuffers buffers{graph_.buffer("Vertices" + suffix, floats.size() * sizeof(float)),
-                        graph_.buffer("Indices" + suffix, leading.indices.size() * sizeof(uint32_t))};
-    graph_.upload(buffers.vertices, bytes_of(floats));
-    graph_.upload(buffers.indices, bytes_of(leading.indices));
-    return buffers;
+    const Buffer buffer = graph_.buffer("Vertices" + std::to_string(index), floats.size() * sizeof(float));
+    graph_.upload(buffer, bytes_of(floats));
+    return buffer;
+}
+
+void DrawnScene::pose(DeformedInstance& deformed, const ScenePose& pose, const ScenePose& previous) {
+    const auto posed_as = [&](const ScenePose& at, std::vector<Vertex>& vertices) {
+        std::vector<Vertex> storage = std::move(vertices);
+        const std::span<const Vertex> posed = posed_vertices(scene_, at, deformed.instance, storage);
+        if (posed.data() != storage.data()) storage.assign(posed.begin(), posed.end());
+        vertices = std::move(storage);
+    };
+    // Frames mostly follow each other: what was posed for the one before is there already.
+    std::swap(deformed.posed, deformed.before);
+    if (deformed.before.empty() || deformed.deformation != previous.deformations[deformed.instance])
+        posed_as(previous, deformed.before);
+    deformed.deformation = pose.deformations[deformed.instance];
+    if (deformed.deformation == previous.deformations[deformed.instance])
+        deformed.posed = deformed.before;
+    else
+        posed_as(pose, deformed.posed);
+
+    const LeadingVertices& leading = *deformed.leading;
+    const size_t count = leading.source.size();
+    std::vector<float>& floats = deformed.floats;
+    tbb::parallel_for(size_t(0), count, [&](size_t v) {
+        std::memcpy(&floats[v * vertex_stride], &deformed.posed[leading.source[v]], sizeof(Vertex));
+        floats[(v + 1) * vertex_stride - 1] = leading.triangle_alpha[v];
+        std::memcpy(&floats[count * vertex_stride + 3 * v], &deformed.before[leading.source[v]].position,
+                    sizeof(glm::vec3));
+    });
+    tbb::parallel_for(size_t(0), leading.indices.size() / 3, [&](size_t t) {
+        const uint32_t* corner = &leading.indices[3 * t];
+        const auto position = [&](int k) { return deformed.posed[leading.source[corner[k]]].position; };
+        const glm::vec3 normal = triangle_normal(position(0), position(1), position(2));
+        std::memcpy(&floats[(corner[0] + 1) * vertex_stride - floats_of_triangle], &normal, sizeof(glm::vec3));
+    });
+    graph_.upload(deformed.vertices, bytes_of(floats));
 }
 
 Image DrawnScene::texture_image(const TextureSlot& slot) {
@@ -166,14 +220,20 @@ Draw::Cull DrawnScene::cull_of(unsigned instance, bool is_mirrored) const {
 
 void DrawnScene::pose(const ScenePose& pose, const ScenePose& previous) {
     if (scene_.instances.empty()) return;
+    std::vector<uint32_t> previous_positions(scene_.instances.size(), 0);
+    for (DeformedInstance& deformed : deformed_) {
+        this->pose(deformed, pose, previous);
+        previous_positions[deformed.instance] = uint32_t(deformed.leading->source.size()) * vertex_stride;
+    }
     std::vector<DrawnInstance> instances;
     for (size_t i = 0; i < scene_.instances.size(); ++i) {
         const glm::mat4& world_from_object = pose.world_from_instance[i];
         const NormalTransform normals = normal_transform(world_from_object);
-        instances.push_back({.world_from_object = world_from_object,
-                             .previous_world_from_object = previous.world_from_instance[i],
-                             .normal_matrix = glm::mat4(normals.matrix),
-                             .ids = {scene_.meshes[scene_.instances[i].mesh].material, normals.is_mirrored, 0, 0}});
+        instances.push_back(
+            {.world_from_object = world_from_object,
+             .previous_world_from_object = previous.world_from_instance[i],
+             .normal_matrix = glm::mat4(normals.matrix),
+             .ids = {scene_.meshes[scene_.instances[i].mesh].material, normals.is_mirrored, previous_positions[i], 0}});
     }
     graph_.upload(instances_, bytes_of(instances));
     for (std::vector<Draw>& draws : draws_)

@@ -1,8 +1,10 @@
 #pragma once
+#include "core/gbuffer/leading_vertices.h"
 #include "core/gpu/pass_graph.h"
 #include "core/scene/scene.h"
 
 #include <map>
+#include <memory>
 #include <string>
 
 /// A scene on the GPU: what the rasteriser draws.
@@ -15,7 +17,7 @@ public:
     /// with `keep_all` every mesh by the one for masks.
     DrawnScene(PassGraph& graph, const Scene& scene, bool has_dielectric_f0, bool keep_all);
 
-    /// Transforms of this frame; `previous`: of the frame before.
+    /// Transforms and deformed vertices of this frame; `previous`: of the frame before.
     void pose(const ScenePose& pose, const ScenePose& previous);
 
     const std::vector<Draw>& draws(Kind kind) const { return draws_[size_t(kind)]; }
@@ -24,7 +26,19 @@ private:
     struct MeshBuffers {
         Buffer vertices, indices;
     };
-    MeshBuffers upload_mesh(const Mesh& mesh, size_t index);
+    /// An instance whose vertices joints or morph targets move: uploaded for each frame, with those of the frame
+    /// before.
+    struct DeformedInstance {
+        unsigned instance = 0;
+        std::shared_ptr<const LeadingVertices> leading;  ///< those of its mesh
+        Buffer vertices;
+        Deformation deformation;  ///< of `posed`
+        std::vector<Vertex> posed, before;
+        std::vector<float> floats;
+    };
+    Buffer upload_indices(const LeadingVertices& leading, size_t mesh);
+    Buffer upload_vertices(const Mesh& mesh, const LeadingVertices& leading, size_t index);
+    void pose(DeformedInstance& deformed, const ScenePose& pose, const ScenePose& previous);
     Image texture_image(const TextureSlot& slot);
     Kind kind_of(const Material& material) const;
     Draw::Cull cull_of(unsigned instance, bool is_mirrored) const;
@@ -37,4 +51,5 @@ private:
     Image no_texture_;
     std::map<const void*, Image> images_;  ///< by the texels of Scene::textures that draws need
     std::vector<Draw> draws_[3];
+    std::vector<DeformedInstance> deformed_;
 };

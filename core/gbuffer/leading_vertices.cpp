@@ -2,16 +2,14 @@
 
 #include <numeric>
 
-namespace {
-
-/// In double precision: long thin triangles lose theirs otherwise. Zero for triangles without area.
-glm::vec3 triangle_normal(const Mesh& mesh, const uint32_t* corner) {
-    const glm::dvec3 p(mesh.vertices[corner[0]].position);
-    const glm::dvec3 n = glm::cross(glm::dvec3(mesh.vertices[corner[1]].position) - p,
-                                    glm::dvec3(mesh.vertices[corner[2]].position) - p);
+glm::vec3 triangle_normal(glm::vec3 a, glm::vec3 b, glm::vec3 c) {
+    const glm::dvec3 p(a);
+    const glm::dvec3 n = glm::cross(glm::dvec3(b) - p, glm::dvec3(c) - p);
     const double length = glm::length(n);
     return length > 0 ? glm::vec3(n / length) : glm::vec3(0);
 }
+
+namespace {
 
 /// Of the corners' colours, if they have one alpha, else -1.
 float common_alpha(const Mesh& mesh, const uint32_t* corner) {
@@ -42,7 +40,8 @@ LeadingVertices find_leading_vertices(const Mesh& mesh) {
         } else {
             leads[leader] = true;
         }
-        result.triangle_normal[leader] = triangle_normal(mesh, corner);
+        result.triangle_normal[leader] = triangle_normal(
+            mesh.vertices[corner[0]].position, mesh.vertices[corner[1]].position, mesh.vertices[corner[2]].position);
         result.triangle_alpha[leader] = common_alpha(mesh, corner);
         result.indices.insert(result.indices.end(), {leader, corner[(turn + 1) % 3], corner[(turn + 2) % 3]});
     }

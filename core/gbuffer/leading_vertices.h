@@ -13,5 +13,8 @@ struct LeadingVertices {
                                         ///< differ, or none
 };
 
+/// Unit, in double precision: long thin triangles lose theirs otherwise. Zero for triangles without area.
+glm::vec3 triangle_normal(glm::vec3 a, glm::vec3 b, glm::vec3 c);
+
 /// Of all triangles of the mesh, in their order.
 LeadingVertices find_leading_vertices(const Mesh& mesh);

@@ -90,7 +90,8 @@ void add_motion(SceneFacts& facts, const Scene& scene, const SceneCamera& camera
         const ScenePose now = pose_scene(scene, float(frame));
         const glm::mat4 view_now = pose_camera(camera, now, float(frame)).world_from_view;
         facts.camera_moves |= view_now != view_before;
-        facts.objects_move |= now.world_from_instance != before.world_from_instance;
+        facts.objects_move |=
+            now.world_from_instance != before.world_from_instance || now.deformations != before.deformations;
         before = now;
         view_before = view_now;
     }
@@ -143,7 +144,7 @@ std::vector<SceneFact> list_facts(const Scene& scene, const SceneFacts& f) {
         {"min_roughness", decimal(f.min_roughness), roughness},
         {"max_roughness", decimal(f.max_roughness), roughness},
         {"camera_moves", yes(f.camera_moves), "camera poses of successive frames of the shot"},
-        {"objects_move", yes(f.objects_move), "transforms of drawn nodes in successive frames of the shot"},
+        {"objects_move", yes(f.objects_move), "drawn nodes, joints and morph weights in successive frames of the shot"},
         {"has_faulty_inputs", yes(f.has_faulty_inputs),
          "values of a G-buffer from files that are not finite, or normals that are not unit"},
         {"has_environment", yes(f.has_environment),

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/scene/camera.h"
+#include "core/scene/deform.h"
 #include "core/scene/instance_bounds.h"
 #include "core/scene/triangle_tree.h"
 
@@ -53,7 +54,8 @@ public:
         : camera_(camera), scene_(scene), bounds_(scene), trees_(scene.meshes.size()) {
         if (!many) return;
         std::vector<unsigned char> is_drawn(scene.meshes.size(), 0);
-        for (const Instance& instance : scene.instances) is_drawn[instance.mesh] = 1;
+        for (const Instance& instance : scene.instances)
+            if (!deforms(scene, instance)) is_drawn[instance.mesh] = 1;
         tbb::parallel_for(size_t(0), trees_.size(), [&](size_t i) {
             if (is_drawn[i] && scene.meshes[i].indices.size() / 3 >= least_triangles_of_tree)
                 trees_[i].emplace(scene.meshes[i]);
@@ -71,8 +73,13 @@ public:
             if (bounds_.at(pose, i).nearest_to(eye) >= limit) continue;
             const unsigned mesh = scene_.instances[i].mesh;
             const glm::mat4& matrix = pose.world_from_instance[i];
-            limit = trees_[mesh] ? trees_[mesh]->nearest(matrix, eye, limit)
-                                 : std::min(limit, nearest_distance(scene_.meshes[mesh], matrix, eye));
+            if (trees_[mesh] && !deforms(scene_, scene_.instances[i])) {
+                limit = trees_[mesh]->nearest(matrix, eye, limit);
+                continue;
+            }
+            std::vector<Vertex> deformed;
+            const std::span<const Vertex> vertices = posed_vertices(scene_, pose, i, deformed);
+            limit = std::min(limit, nearest_distance(scene_.meshes[mesh].indices, vertices, matrix, eye));
         }
         return limit;
     }
@@ -81,9 +88,10 @@ public:
     double farthest(const ScenePose& pose, glm::vec3 eye, double limit) const {
         for (size_t i = 0; i < scene_.instances.size(); ++i) {
             if (bounds_.at(pose, i).farthest_from(eye) <= limit) continue;
-            const Mesh& mesh = scene_.meshes[scene_.instances[i].mesh];
-            for (const uint32_t index : mesh.indices) {
-                const glm::vec3 p = pose.world_from_instance[i] * glm::vec4(mesh.vertices[index].position, 1.0f);
+            std::vector<Vertex> deformed;
+            const std::span<const Vertex> vertices = posed_vertices(scene_, pose, i, deformed);
+            for (const uint32_t index : scene_.meshes[scene_.instances[i].mesh].indices) {
+                const glm::vec3 p = pose.world_from_instance[i] * glm::vec4(vertices[index].position, 1.0f);
                 limit = std::max(limit, glm::distance(glm::dvec3(p), glm::dvec3(eye)));
             }
         }

@@ -53,11 +53,36 @@ struct SceneHash {
         add_bytes(mesh.vertices);
         add_bytes(mesh.indices);
         add(mesh.material);
+        if (mesh.targets.empty() && mesh.joint_weights.empty()) return;
+        hash.add(std::string_view("deforms"));
+        add(int(mesh.is_flat_shaded));
+        add(mesh.targets);
+        static_assert(sizeof(JointWeight) == 2 * sizeof(float));
+        add(mesh.joints_per_vertex);
+        add_bytes(mesh.joint_weights);
     }
-    void add(const Node& n) { all(n.parent, n.parent_from_node, n.translation, n.rotation, n.scale); }
-    void add(const Instance& instance) { all(instance.mesh, instance.node); }
+    void add(const MorphTarget& target) {
+        for (const auto* deltas : {&target.positions, &target.normals, &target.tangents}) add_bytes(*deltas);
+    }
+    void add(const Skin& skin) {
+        add_bytes(skin.joints);
+        add_bytes(skin.joint_from_mesh);
+    }
+    void add(const Node& n) {
+        all(n.parent, n.parent_from_node, n.translation, n.rotation, n.scale);
+        if (n.weights.empty()) return;
+        hash.add(std::string_view("weights"));
+        add_bytes(n.weights);
+    }
+    void add(const Instance& instance) {
+        all(instance.mesh, instance.node);
+        if (instance.skin < 0 && instance.weights_node < 0) return;
+        hash.add(std::string_view("skin"));
+        all(instance.skin, instance.weights_node);
+    }
     void add(const AnimationChannel& channel) {
         all(int(channel.property), channel.node, int(channel.interpolation));
+        if (channel.property == AnimationChannel::Property::weight) add(channel.target);
         add_bytes(channel.times);
         add_bytes(channel.values);
     }
@@ -76,6 +101,7 @@ std::string content_hash(const Scene& scene) {
     SceneHash hash;
     hash.all(scene.textures, scene.materials, scene.meshes, scene.nodes, scene.instances, scene.animation, scene.lights,
              scene.environment);
+    if (!scene.skins.empty()) hash.add(scene.skins);
     if (!scene.animation.empty()) hash.add(scene.frame_rate);
     if (scene.hides_backs()) hash.hash.add(std::string("backs are hidden"));
     return hash.hash.hex();

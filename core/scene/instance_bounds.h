@@ -23,6 +23,12 @@ public:
     Box at(const ScenePose& pose, size_t instance) const;
 
 private:
+    /// Object space.
+    struct MeshBoxes {
+        Box all;
+        std::vector<Box> of_joints;   ///< about the vertices that follow each joint
+        std::vector<Box> of_targets;  ///< about what each morph target adds to positions
+    };
     const Scene& scene_;
-    std::vector<Box> of_mesh_;  ///< object space
+    std::vector<MeshBoxes> of_mesh_;
 };

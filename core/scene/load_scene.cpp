@@ -4,7 +4,6 @@
 #include "core/files.h"
 #include "core/near_miss.h"
 #include "core/scene/camera_planes.h"
-#include "core/scene/gltf/load_gltf.h"
 #include "core/scene/scene_family.h"
 #include "core/scene/scene_file.h"
 
@@ -56,8 +55,9 @@ SceneCamera camera_that_sees_all(const Scene& scene) {
     return camera;
 }
 
-Scene load_bare_gltf(const fs::path& file) {
-    Scene scene = load_gltf(file);
+Scene load_bare_gltf(const fs::path& file, const GltfChoices& choices) {
+    Scene scene = load_gltf(file, choices);
+    check_animation(scene, choices.animation);
     scene.draws_backs = false;
     scene.environment = {.type = Environment::Type::constant, .color = glm::vec3(1.0f)};
     if (scene.cameras.empty()) scene.cameras.push_back(camera_that_sees_all(scene));
@@ -67,22 +67,22 @@ Scene load_bare_gltf(const fs::path& file) {
 
 }  // namespace
 
-Scene load_scene(const std::string& name, const std::vector<fs::path>& search_path) {
+Scene load_scene(const std::string& name, const std::vector<fs::path>& search_path, const GltfChoices& choices) {
     if (name.size() >= PATH_MAX) fail("unknown scene '", shortened(name), "': no path is as long");
-    if (is_of_family(name)) return load_scene_file(scene_file_of_family(name), search_path);
+    if (is_of_family(name)) return load_scene_file(scene_file_of_family(name), search_path, choices);
     std::error_code error;  // a name too long for the file system is just unknown
     const fs::path direct = name;
     const std::string ending = lower_case_extension(direct);
     const bool is_scene = ending == ".json", is_gltf = ending == ".gltf" || ending == ".glb";
     const auto load = [&](const fs::path& file) {
-        return is_gltf ? load_bare_gltf(file) : load_scene_file(file, search_path);
+        return is_gltf ? load_bare_gltf(file, choices) : load_scene_file(file, search_path, choices);
     };
     if ((is_scene || is_gltf) && fs::exists(direct, error) && !fs::is_directory(direct, error)) return load(direct);
     for (const fs::path& folder : search_path)
         if (!name.empty() && fs::exists(folder / name / "scene.json", error))
-            return load_scene_file(folder / name / "scene.json", search_path);
+            return load_scene_file(folder / name / "scene.json", search_path, choices);
     if (!name.empty() && fs::exists(direct / "scene.json", error))
-        return load_scene_file(direct / "scene.json", search_path);
+        return load_scene_file(direct / "scene.json", search_path, choices);
     if (is_scene || is_gltf) return load(direct);  // which says what is wrong with it
     if (!name.empty() && fs::exists(direct, error))
         fail(shortened(name), fs::is_directory(direct, error) ? " is a folder without a scene.json" : " is no scene",

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/scene/scene.h"
+#include "core/scene/gltf/load_gltf.h"
 
 #include <filesystem>
 #include <vector>
@@ -15,5 +15,6 @@ std::vector<std::string> list_scenes(const std::vector<std::filesystem::path>& s
 /// ending in letters of any case, that file, else `<folder of the search path>/<name>/scene.json` (its keys:
 /// scenes/README.md), else the scene.json of the folder that `name` is a path to. A bare glTF gets its own cameras, a
 /// default one that sees all of it, and a white environment. Fails with Error if something is missing, truncated or
-/// malformed.
-Scene load_scene(const std::string& name, const std::vector<std::filesystem::path>& search_path);
+/// malformed, or has no animation of the name that `choices` have. They take the place of the scene.json's.
+Scene load_scene(const std::string& name, const std::vector<std::filesystem::path>& search_path,
+                 const GltfChoices& choices = {});

@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/near_miss.h"
 #include "core/scene/animation.h"
+#include "core/scene/deform.h"
 #include "core/scene/ranges.h"
 #include "core/scene/transform.h"
 
@@ -52,6 +53,9 @@ std::vector<Node> animated_nodes(const Scene& scene, float time) {
             case AnimationChannel::Property::scale:
                 node.scale = value;
                 break;
+            case AnimationChannel::Property::weight:
+                node.weights[channel.target] = value.x;
+                continue;
         }
         node.parent_from_node = transform(node.translation, node.rotation, node.scale);
     }
@@ -86,6 +90,7 @@ ScenePose pose_scene(const Scene& scene, float frame) {
     }
     for (const Instance& instance : scene.instances)
         pose.world_from_instance.push_back(pose.world_from_node[instance.node]);
+    add_deformations(scene, nodes, pose);
     for (const PunctualLight& light : scene.lights) pose.lights.push_back(posed_light(light, pose.world_from_node));
     return pose;
 }
@@ -93,10 +98,11 @@ ScenePose pose_scene(const Scene& scene, float frame) {
 std::array<glm::vec3, 2> scene_bounds(const Scene& scene, const ScenePose& pose) {
     const float infinity = std::numeric_limits<float>::infinity();
     glm::vec3 low(infinity), high(-infinity);
+    std::vector<Vertex> deformed;
     for (size_t i = 0; i < scene.instances.size(); ++i) {
-        const Mesh& mesh = scene.meshes[scene.instances[i].mesh];
-        for (const uint32_t index : mesh.indices) {
-            const glm::vec3 position = pose.world_from_instance[i] * glm::vec4(mesh.vertices[index].position, 1.0f);
+        const std::span<const Vertex> vertices = posed_vertices(scene, pose, i, deformed);
+        for (const uint32_t index : scene.meshes[scene.instances[i].mesh].indices) {
+            const glm::vec3 position = pose.world_from_instance[i] * glm::vec4(vertices[index].position, 1.0f);
             low = glm::min(low, position);
             high = glm::max(high, position);
         }

@@ -75,17 +75,41 @@ struct Vertex {
     glm::vec4 color;  ///< COLOR_0, multiplies base colour and alpha; 1 if absent
 };
 
+/// What weight 1 of a morph target adds to each vertex of its mesh (glTF 2.0, section 3.7.2.2), in object space; an
+/// empty list adds nothing.
+struct MorphTarget {
+    std::vector<glm::vec3> positions, normals, tangents;
+};
+
+/// How far a vertex follows a joint of its instance's skin.
+struct JointWeight {
+    uint32_t joint = 0;  ///< index into Skin::joints
+    float weight = 0.0f;
+};
+
 /// One glTF primitive, always indexed triangles. Shared by all its instances.
 struct Mesh {
     std::string name;
     std::vector<Vertex> vertices;
     std::vector<uint32_t> indices;
     unsigned material = 0;
+    bool is_flat_shaded = false;  ///< its normals are those of its triangles, also where they are deformed
+    std::vector<MorphTarget> targets;
+    unsigned joints_per_vertex = 0;
+    std::vector<JointWeight> joint_weights;  ///< `joints_per_vertex` of each vertex, which sum to 1
+};
+
+/// The joints that instances follow in place of their node (glTF 2.0, section 3.7.3).
+struct Skin {
+    std::vector<unsigned> joints;            ///< indices into Scene::nodes
+    std::vector<glm::mat4> joint_from_mesh;  ///< inverse bind matrices, one per joint
 };
 
 /// A node that draws a mesh.
 struct Instance {
     unsigned mesh = 0, node = 0;
+    int skin = -1;          ///< index into Scene::skins; -1: the mesh stands as its node does
+    int weights_node = -1;  ///< the node whose morph weights it has; -1: `node`
 };
 
 enum class LightType { directional, point, spot };
@@ -146,17 +170,25 @@ struct Node {
     glm::vec3 translation{0.0f};
     glm::vec4 rotation{0.0f, 0.0f, 0.0f, 1.0f};  ///< unit quaternion xyzw
     glm::vec3 scale{1.0f};
+    std::vector<float> weights;  ///< of the morph targets of the meshes that it draws
 };
 
 enum class Interpolation { step, linear, cubic_spline };
 
 /// One glTF animation channel: keys of one property of one node.
 struct AnimationChannel {
-    enum class Property { translation, rotation, scale } property{};
+    enum class Property { translation, rotation, scale, weight } property{};
     unsigned node = 0;
+    unsigned target = 0;  ///< weight: the morph target's, which is the x of the values
     Interpolation interpolation = Interpolation::linear;
     std::vector<float> times;       ///< s, ascending
     std::vector<glm::vec4> values;  ///< rotation: quaternion xyzw; cubic_spline: in-tangent, value, out-tangent per key
+};
+
+/// One of the animations that a file holds, of which not all need be played.
+struct AnimationClip {
+    std::string name;
+    bool is_played = false;
 };
 
 /// What a file holds and ssrlab does not show as the file says, or chose for it: one sentence, and whom it concerns.
@@ -174,8 +206,10 @@ struct Scene {
     std::vector<Material> materials;
     std::vector<Mesh> meshes;
     std::vector<Node> nodes;  ///< parents before children
+    std::vector<Skin> skins;
     std::vector<Instance> instances;
-    std::vector<AnimationChannel> animation;
+    std::vector<AnimationChannel> animation;  ///< of the clips that are played
+    std::vector<AnimationClip> clips;         ///< all of the files
     std::vector<PunctualLight> lights;
     Environment environment;
     std::vector<SceneCamera> cameras;
@@ -196,9 +230,20 @@ struct Scene {
 /// The sentences alone.
 std::vector<std::string> texts_of(const std::vector<SceneWarning>& warnings);
 
+/// What moves the vertices of an instance at one instant; both are empty where its mesh keeps its shape.
+struct Deformation {
+    std::vector<glm::mat4> instance_from_mesh;  ///< per joint of its skin
+    std::vector<float> weights;                 ///< per morph target of its mesh
+
+    bool operator==(const Deformation&) const = default;
+};
+
 /// The scene at one instant: what moves, in world space.
 struct ScenePose {
-    std::vector<glm::mat4> world_from_instance;  ///< one per Scene::instances
+    /// One per Scene::instances. Where joints place the vertices, a mirroring or nothing: that of the skin's first
+    /// joint.
+    std::vector<glm::mat4> world_from_instance;
+    std::vector<Deformation> deformations;  ///< one per Scene::instances; none where all meshes keep their shapes
     std::vector<glm::mat4> world_from_node;
     std::vector<PunctualLight> lights;
 };

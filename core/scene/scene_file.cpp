@@ -12,6 +12,7 @@
 #include "core/scene/material_override.h"
 #include "core/scene/ranges.h"
 #include "core/scene/texture_slots.h"
+#include "core/scene/unique_names.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +29,7 @@ void append(std::vector<T>& list, std::vector<T>& more) {
 
 /// Appends all that `other` draws, lights and animates to `scene`, with its cameras and warnings.
 void merge(Scene& scene, Scene other) {
-    const auto textures = int(scene.textures.size()), nodes = int(scene.nodes.size());
+    const auto textures = int(scene.textures.size()), nodes = int(scene.nodes.size()), skins = int(scene.skins.size());
     const auto materials = unsigned(scene.materials.size()), meshes = unsigned(scene.meshes.size());
     for (Material& material : other.materials) {
         for (TextureSlot* slot : texture_slots(material))
@@ -38,7 +39,13 @@ void merge(Scene& scene, Scene other) {
     for (Mesh& mesh : other.meshes) mesh.material += materials;
     for (Node& node : other.nodes)
         if (node.parent >= 0) node.parent += nodes;
-    for (Instance& instance : other.instances) instance = {instance.mesh + meshes, instance.node + unsigned(nodes)};
+    for (Skin& skin : other.skins)
+        for (unsigned& joint : skin.joints) joint += unsigned(nodes);
+    for (Instance& instance : other.instances) {
+        instance.mesh += meshes, instance.node += unsigned(nodes);
+        if (instance.skin >= 0) instance.skin += skins;
+        if (instance.weights_node >= 0) instance.weights_node += nodes;
+    }
     for (AnimationChannel& channel : other.animation) channel.node += unsigned(nodes);
     for (PunctualLight& light : other.lights)
         if (light.node >= 0) light.node += nodes;
@@ -48,8 +55,10 @@ void merge(Scene& scene, Scene other) {
     append(scene.materials, other.materials);
     append(scene.meshes, other.meshes);
     append(scene.nodes, other.nodes);
+    append(scene.skins, other.skins);
     append(scene.instances, other.instances);
     append(scene.animation, other.animation);
+    append(scene.clips, other.clips);
     append(scene.lights, other.lights);
     append(scene.cameras, other.cameras);
     make_names_unique(scene.cameras);
@@ -162,14 +171,15 @@ void finish_scene(Scene& scene) {
     scene.content_hash = content_hash(scene);
 }
 
-Scene load_scene_file(const fs::path& file, const std::vector<fs::path>& search_path) {
+Scene load_scene_file(const fs::path& file, const std::vector<fs::path>& search_path, GltfChoices choices) {
     const JsonDocument document = read_json_document(file);
     JsonObject object(document, file.string());
     Scene scene;
+    const std::string animation = object.text("animation", "");
+    if (choices.animation.empty()) choices.animation = animation;
     const fs::path gltf =
         object.has("gltf") ? find_file(object.text("gltf"), file, search_path, file.string()) : fs::path();
-    GltfChoices choices;
-    choices.draws_blended_opaque = object.value_of<bool>("blended", {{"cut", false}, {"opaque", true}});
+    choices.draws_blended_opaque |= object.value_of<bool>("blended", {{"cut", false}, {"opaque", true}});
     GltfChoices choices_of_gltf = choices;
     choices_of_gltf.material_variant = object.text("material_variant", "");
     if (gltf.empty() && !choices_of_gltf.material_variant.empty())
@@ -185,6 +195,7 @@ Scene load_scene_file(const fs::path& file, const std::vector<fs::path>& search_
     if (object.has("light_scale")) scale_lights(scene, object.number("light_scale", 0.0f, 1e9f));
     scene.name = fs::absolute(file).parent_path().filename().string();
     const bool is_own = gltf.empty() || fs::absolute(gltf).parent_path() == fs::absolute(file).parent_path();
+    check_animation(scene, choices.animation);
     scene.asset = is_own ? scene.name : gltf.filename().string();
     std::vector<std::string> notes;
     if (object.has("environment"))

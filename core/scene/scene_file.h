@@ -1,12 +1,15 @@
 #pragma once
 #include "core/json.h"
+#include "core/scene/gltf/load_gltf.h"
 #include "core/scene/scene.h"
 
 #include <filesystem>
 #include <vector>
 
-/// Reads a scene.json; its keys are in scenes/README.md. The scene's name is that of the folder.
-Scene load_scene_file(const std::filesystem::path& file, const std::vector<std::filesystem::path>& search_path);
+/// Reads a scene.json; its keys are in scenes/README.md. The scene's name is that of the folder. `choices` that are
+/// made take the place of the file's.
+Scene load_scene_file(const std::filesystem::path& file, const std::vector<std::filesystem::path>& search_path,
+                      GltfChoices choices = {});
 
 /// The last steps of loading: gives a far plane to the glTF's cameras that have none, refuses two cameras of one name,
 /// and makes the content hash.

@@ -33,6 +33,19 @@ NormalTransform normal_transform(const glm::mat4& world_from_object) {
     return result;
 }
 
+glm::vec3 direction_or_zero(glm::vec3 v) {
+    const float largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    if (!(largest > 0.0f) || !std::isfinite(largest)) return glm::vec3(0.0f);
+    v /= largest;  // before squaring, which would underflow for the triangles of a scene of millimetres
+    return v / glm::length(v);
+}
+
+glm::vec3 any_perpendicular(glm::vec3 n) {
+    const float sign = std::copysign(1.0f, n.z);
+    const float a = -1.0f / (sign + n.z);
+    return {1.0f + sign * n.x * n.x * a, sign * n.x * n.y * a, -sign * n.x};
+}
+
 void split_transform(const glm::mat4& matrix, glm::vec3& translation, glm::vec4& rotation, glm::vec3& scale) {
     translation = matrix[3];
     glm::mat3 axes(matrix);

@@ -16,6 +16,12 @@ struct NormalTransform {
 };
 NormalTransform normal_transform(const glm::mat4& world_from_object);
 
+/// Of unit length; zero where `v` has no direction: is zero, or not finite.
+glm::vec3 direction_or_zero(glm::vec3 v);
+
+/// Unit and perpendicular to the unit vector `n` (Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017).
+glm::vec3 any_perpendicular(glm::vec3 n);
+
 /// The parts of a matrix without shear; a mirrored one gets a negative scale along x.
 void split_transform(const glm::mat4& matrix, glm::vec3& translation, glm::vec4& rotation, glm::vec3& scale);
 

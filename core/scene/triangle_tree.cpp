@@ -24,9 +24,10 @@ glm::dvec3 closest_point(glm::dvec3 p, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c)
     return area > 0 ? a + (ab * area_b + ac * area_c) / area : a;
 }
 
-double distance_of(const Mesh& mesh, size_t triangle, const glm::mat4& world_from_mesh, glm::vec3 point) {
+double distance_of(const std::vector<uint32_t>& indices, std::span<const Vertex> vertices, size_t triangle,
+                   const glm::mat4& world_from_mesh, glm::vec3 point) {
     const auto corner = [&](size_t k) {
-        return glm::dvec3(world_from_mesh * glm::vec4(mesh.vertices[mesh.indices[triangle * 3 + k]].position, 1.0f));
+        return glm::dvec3(world_from_mesh * glm::vec4(vertices[indices[triangle * 3 + k]].position, 1.0f));
     };
     return glm::distance(glm::dvec3(point), closest_point(point, corner(0), corner(1), corner(2)));
 }
@@ -34,13 +35,14 @@ double distance_of(const Mesh& mesh, size_t triangle, const glm::mat4& world_fro
 constexpr uint32_t triangles_of_leaf = 8;
 }  // namespace
 
-double nearest_distance(const Mesh& mesh, const glm::mat4& world_from_mesh, glm::vec3 point) {
+double nearest_distance(const std::vector<uint32_t>& indices, std::span<const Vertex> vertices,
+                        const glm::mat4& world_from_mesh, glm::vec3 point) {
     const auto nearer = [&](const tbb::blocked_range<size_t>& triangles, double nearest) {
         for (size_t i = triangles.begin(); i < triangles.end(); ++i)
-            nearest = std::min(nearest, distance_of(mesh, i, world_from_mesh, point));
+            nearest = std::min(nearest, distance_of(indices, vertices, i, world_from_mesh, point));
         return nearest;
     };
-    const tbb::blocked_range<size_t> all(0, mesh.indices.size() / 3, 4096);
+    const tbb::blocked_range<size_t> all(0, indices.size() / 3, 4096);
     return tbb::parallel_reduce(all, std::numeric_limits<double>::infinity(), nearer,
                                 [](double a, double b) { return std::min(a, b); });
 }
@@ -105,7 +107,8 @@ double TriangleTree::nearest(const glm::mat4& world_from_mesh, glm::vec3 point, 
         const Node& node = nodes_[at.node];
         if (node.second_child == 0) {
             for (uint32_t i = node.first; i < node.first + node.count; ++i)
-                nearest = std::min(nearest, distance_of(mesh_, triangles_[i], world_from_mesh, point));
+                nearest = std::min(nearest,
+                                   distance_of(mesh_.indices, mesh_.vertices, triangles_[i], world_from_mesh, point));
             continue;
         }
         Visit nearer = visit(at.node + 1), farther = visit(node.second_child);

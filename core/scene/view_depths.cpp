@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include "core/scene/deform.h"
 
 namespace {
 
@@ -93,14 +94,16 @@ private:
 DepthRange depths_in_view(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent) {
     const Frustum frustum(camera, extent);
     DepthRange range = no_depth;
+    std::vector<Vertex> deformed;
     for (size_t i = 0; i < scene.instances.size(); ++i) {
         const Mesh& mesh = scene.meshes[scene.instances[i].mesh];
+        const std::span<const Vertex> vertices = posed_vertices(scene, pose, i, deformed);
         const glm::dmat4 view_from_object = frustum.view_from_world() * glm::dmat4(pose.world_from_instance[i]);
         const tbb::blocked_range<size_t> all(0, mesh.indices.size() / 3, 4096);
         const auto widen = [&](const tbb::blocked_range<size_t>& triangles, DepthRange found) {
             for (size_t t = triangles.begin(); t < triangles.end(); ++t) {
                 const auto corner = [&](size_t k) {
-                    return frustum.place(view_from_object, mesh.vertices[mesh.indices[3 * t + k]].position);
+                    return frustum.place(view_from_object, vertices[mesh.indices[3 * t + k]].position);
                 };
                 found = joined_range(found, frustum.depths_of({corner(0), corner(1), corner(2)}));
             }

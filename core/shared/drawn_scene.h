@@ -34,11 +34,13 @@ struct DrawnInstance {
     mat4 world_from_object;
     mat4 previous_world_from_object;
     mat4 normal_matrix;  ///< of world_from_object: NormalTransform::matrix
-    uvec4 ids;           ///< material, 1 if the determinant is negative
+    uvec4 ids;           ///< material, 1 if the determinant is negative, where in `vertices` the positions of the frame
+                         ///< before begin (floats; 0: they are those of this frame)
 };
 
 /// Floats per vertex: position, normal, tangent (4), two uv, colour (4); then of the triangle that it leads the
-/// geometric normal (3), and the alpha that its corners' colours share, or -1 where they differ.
+/// geometric normal (3), and the alpha that its corners' colours share, or -1 where they differ. Of deformed instances
+/// three more follow all vertices for each: its position in the frame before.
 const uint vertex_stride = 22u;
 
 /// Texel column or row for an index that may lie outside (glTF 2.0, sampler.wrapS); mode: TextureWrap.

@@ -20,6 +20,7 @@ struct ShotOptions {
     std::string planes = "camera";  ///< or "scene": derive_planes()
     std::vector<unsigned> size{480, 270};
     unsigned frame = 0;
+    std::string animation;  ///< "": the scene's
 
     bool has_planes_of_scene() const { return planes == "scene"; }
 };
@@ -83,6 +84,7 @@ int judge_command(const JudgeOptions& options, const CommonOptions& common);  //
 
 struct SceneForOptions {
     std::string engine, scene;
+    std::string animation;             ///< "": the scene's
     std::vector<std::string> cameras;  ///< empty: the scene's first
     std::vector<unsigned> size{480, 270};
     std::vector<std::string> frames{"0"};                                    ///< each one's number, or "0-63"

@@ -20,6 +20,7 @@ Shot shot_of(const NeedsOptions& options, const CommonOptions& common) {
     std::vector<unsigned> frames(options.frames);
     std::iota(frames.begin(), frames.end(), options.shot.frame);
     return load_shot({.scene = options.shot.scene,
+                      .choices = {.animation = options.shot.animation},
                       .camera = options.shot.camera,
                       .has_planes_of_scene = options.shot.has_planes_of_scene(),
                       .extent = {options.shot.size[0], options.shot.size[1]},

@@ -29,6 +29,7 @@ void record_command(const RecordOptions& options, const CommonOptions& common) {
     Progress progress(1.0);
     const RecordedPage page = record_page(
         device, {.shot = {.scene = options.shot.scene,
+                          .choices = {.animation = options.shot.animation},
                           .camera = options.shot.camera,
                           .has_planes_of_scene = options.shot.has_planes_of_scene(),
                           .extent = {options.shot.size[0], options.shot.size[1]},

@@ -36,6 +36,7 @@ void scene_for_command(const SceneForOptions& options, const CommonOptions& comm
     const SceneFolder written =
         write_scene_folder({.engine = engine,
                             .scene = options.scene,
+                            .choices = {.animation = options.animation},
                             .cameras = options.cameras,
                             .extent = {options.size[0], options.size[1]},
                             .frames = frames,

@@ -68,6 +68,7 @@ void gbuffer_command(const GBufferCommandOptions& options, const CommonOptions& 
                                                                : DepthFormat::d32f;
     const ShotConfig config{
         .scene = options.shot.scene,
+        .choices = {.animation = options.shot.animation},
         .camera = options.shot.camera,
         .has_planes_of_scene = options.shot.has_planes_of_scene(),
         .extent = {options.shot.size[0], options.shot.size[1]},

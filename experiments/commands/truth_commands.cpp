@@ -23,6 +23,7 @@ namespace {
 
 Shot load_single_shot(const ShotOptions& options, const CommonOptions& common) {
     const ShotConfig config{.scene = options.scene,
+                            .choices = {.animation = options.animation},
                             .camera = options.camera,
                             .has_planes_of_scene = options.has_planes_of_scene(),
                             .extent = {options.size[0], options.size[1]},

@@ -2,6 +2,7 @@
 #include "core/gbuffer/composite.h"
 #include "core/gbuffer/gbuffer_formats.h"
 #include "core/scene/camera.h"
+#include "core/scene/gltf/load_gltf.h"
 #include "experiments/config/targets.h"
 #include "groundtruth/reference/reference.h"
 
@@ -17,6 +18,7 @@
 /// One camera of one scene at one resolution, over some frames; or one G-buffer from files.
 struct ShotConfig {
     std::string scene;   ///< a scene's name, or a path to a .json/.gltf/.glb
+    GltfChoices choices;  ///< of the command line, in place of the scene's own
     std::string camera;  ///< "": the scene's first
     bool has_planes_of_scene = false;  ///< derive_planes() in place of the camera's own
     glm::uvec2 extent{480, 270};

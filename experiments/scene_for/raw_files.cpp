@@ -1,6 +1,7 @@
 #include "experiments/scene_for/raw_files.h"
 
 #include "core/files.h"
+#include "core/scene/deform.h"
 #include "core/scene/texture_slots.h"
 #include "experiments/scene_for/scene_numbers.h"
 #include "experiments/scene_for/texture_png.h"
@@ -96,7 +97,10 @@ void write_hdr(const std::filesystem::path& file, const HostImage& rgb) {
     write_text(file, text);
 }
 
-void write_raw_meshes(const std::filesystem::path& folder, const Scene& scene, const std::vector<std::string>& names) {
+void write_raw_meshes(const std::filesystem::path& folder, const Scene& as_loaded, const ScenePose& pose,
+                      const std::vector<std::string>& names) {
+    Scene storage;
+    const Scene& scene = with_posed_meshes(as_loaded, pose, storage);
     TextureFiles textures(folder, scene);
     json all = {{"materials", json::array()}, {"meshes", json::array()}, {"nodes", json::object()}};
     for (const Material& material : scene.materials) all["materials"].push_back(material_of(material, textures));

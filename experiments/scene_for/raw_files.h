@@ -16,5 +16,7 @@ void write_raw_floats(const std::filesystem::path& file, const HostImage& image)
 void write_hdr(const std::filesystem::path& file, const HostImage& rgb);
 
 /// scene.meshes.json and textures/N.png in `folder`: for each of scene.instances, by the names of instance_names(), its
-/// vertices in object space as arrays, indices of triangles, and its material's factors and textures.
-void write_raw_meshes(const std::filesystem::path& folder, const Scene& scene, const std::vector<std::string>& names);
+/// vertices in object space as arrays, as joints and morph targets deform them at `pose`, indices of triangles, and its
+/// material's factors and textures.
+void write_raw_meshes(const std::filesystem::path& folder, const Scene& scene, const ScenePose& pose,
+                      const std::vector<std::string>& names);

@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/exr.h"
 #include "core/files.h"
+#include "core/near_miss.h"
 #include "core/path_inside.h"
 #include "core/shared/environment.h"
 #include "experiments/config/points/external_images.h"
@@ -30,13 +31,17 @@ public:
         std::vector<Shot> shots;
         const std::vector<std::string> first = {""};
         for (const std::string& camera : settings_.cameras.empty() ? first : settings_.cameras)
-            shots.push_back(load_shot(
-                {.scene = settings_.scene, .camera = camera, .extent = settings_.extent, .frames = settings_.frames},
-                settings_.search_path));
+            shots.push_back(load_shot({.scene = settings_.scene,
+                                       .choices = settings_.choices,
+                                       .camera = camera,
+                                       .extent = settings_.extent,
+                                       .frames = settings_.frames},
+                                      settings_.search_path));
         const Scene& scene = shots.front().scene;  // that of all
         if (settings_.has_probe && shots.size() > 1)
             fail(settings_.scene, ": a probe is one camera's, and ", shots.size(),
                  " were named: write a folder for each");
+        check_shapes(scene);
         done_.warnings = texts_of(scene.warnings);
         if (scene.hides_backs())
             done_.warnings.push_back(
@@ -54,10 +59,10 @@ public:
                                .aspect = float(settings_.extent.x) / float(settings_.extent.y)});
             description["views"].push_back(view(shot));
         }
-        write_scene_glb(settings_.out / "scene.glb", scene, shot_frame(shots.front(), settings_.frames.front()).scene,
-                        cameras);
+        const ScenePose first_pose = shot_frame(shots.front(), settings_.frames.front()).scene;
+        write_scene_glb(settings_.out / "scene.glb", scene, first_pose, cameras);
         if (is_raw()) {
-            write_raw_meshes(settings_.out, scene, instance_names(scene));
+            write_raw_meshes(settings_.out, scene, first_pose, instance_names(scene));
             description["meshes"] = "scene.meshes.json";
         }
         write_text(settings_.out / "scene.json", description.dump() + "\n");
@@ -72,6 +77,22 @@ private:
         SceneCamera lens = shot.camera;
         lens.vertical_fov = pose.vertical_fov, lens.orthographic_height = pose.orthographic_height, lens.aspect = 0.0f;
         return lens;
+    }
+
+    /// Frames differ by the matrices of nodes alone.
+    void check_shapes(const Scene& scene) const {
+        const auto shapes_in = [&](unsigned frame) { return pose_scene(scene, float(frame)).deformations; };
+        const std::vector<Deformation> first = shapes_in(settings_.frames.front());
+        if (first.empty()) return;
+        for (const unsigned frame : settings_.frames) {
+            const std::vector<Deformation> now = shapes_in(frame);
+            for (size_t i = 0; i < first.size(); ++i)
+                if (now[i] != first[i])
+                    fail(settings_.scene, ": joints or morph targets give node '",
+                         shortened(scene.nodes[scene.instances[i].node].name), "' other shapes in frames ",
+                         settings_.frames.front(), " and ", frame,
+                         ", and the folder has one shape of each node: write a folder for each frame (--frames)");
+        }
     }
 
     bool is_raw() const { return settings_.engine.format == SceneFormat::raw; }

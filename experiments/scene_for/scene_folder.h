@@ -26,6 +26,7 @@ const std::vector<SceneEngine>& scene_engines();
 struct SceneFolderSettings {
     SceneEngine engine;
     std::string scene;
+    GltfChoices choices;               ///< in place of the scene's own
     std::vector<std::string> cameras;  ///< empty: the scene's first
     glm::uvec2 extent{480, 270};
     std::vector<unsigned> frames{0};  ///< ascending

@@ -1,5 +1,6 @@
 #include "experiments/scene_for/scene_glb.h"
 
+#include "core/scene/deform.h"
 #include "core/scene/gltf/tangents.h"
 #include "experiments/scene_for/glb_file.h"
 #include "experiments/scene_for/scene_numbers.h"
@@ -244,5 +245,6 @@ std::vector<std::string> instance_names(const Scene& scene) {
 
 void write_scene_glb(const std::filesystem::path& file, const Scene& scene, const ScenePose& pose,
                      const std::vector<GlbCamera>& cameras) {
-    Writer(scene, pose).write(file, cameras);
+    Scene storage;
+    Writer(with_posed_meshes(scene, pose, storage), pose).write(file, cameras);
 }

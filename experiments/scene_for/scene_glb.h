@@ -17,10 +17,11 @@ struct GlbCamera {
 };
 
 /// Writes what the scene draws as one binary glTF: a node for each instance (instance_names()), without parents and
-/// posed as in `pose`, materials with their textures as PNG, punctual lights, and cameras. What scene.json overrides is
-/// in it. Loading it gives the same triangles, materials and matrices to the bit, but for normals (made of unit length
-/// again), emission (a factor times a strength), reflectances of dielectrics (an index of refraction) and for
-/// transforms of textures (an angle and scales), which may differ by rounding; and all materials are double-sided, as
-/// ssrlab draws them, which in ssrlab also says that backs emit. Fails as GlbFile::write().
+/// posed as in `pose`, with joints and morph targets applied, materials with their textures as PNG, punctual lights,
+/// and cameras. What scene.json overrides is in it. Loading it gives the same triangles, materials and matrices to the
+/// bit, but for normals (made of unit length again), emission (a factor times a strength), reflectances of dielectrics
+/// (an index of refraction) and for transforms of textures (an angle and scales), which may differ by rounding; and all
+/// materials are double-sided, as ssrlab draws them, which in ssrlab also says that backs emit. Fails as
+/// GlbFile::write().
 void write_scene_glb(const std::filesystem::path& file, const Scene& scene, const ScenePose& pose,
                      const std::vector<GlbCamera>& cameras);

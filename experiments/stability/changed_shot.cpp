@@ -15,7 +15,9 @@ void scale_nodes(Scene& scene, glm::vec3 scale) {
     root.parent_from_node = glm::mat4(1.0f);
     for (int axis = 0; axis < 3; ++axis) root.parent_from_node[axis][axis] = scale[axis];
     scene.nodes.insert(scene.nodes.begin(), root);
-    for (Instance& instance : scene.instances) ++instance.node;
+    for (Skin& skin : scene.skins)
+        for (unsigned& joint : skin.joints) ++joint;
+    for (Instance& instance : scene.instances) ++instance.node, instance.weights_node += instance.weights_node >= 0;
     for (AnimationChannel& channel : scene.animation) ++channel.node;
     for (PunctualLight& light : scene.lights) light.node += light.node >= 0;
     for (SceneCamera& camera : scene.cameras) camera.node += camera.node >= 0;
@@ -41,19 +43,34 @@ void brighten(Scene& scene, float factor) {
     for (float& value : scene.environment.latlong.values) value *= factor;
 }
 
+/// A mesh by the inverse of `scale`.
+void unscale(Mesh& mesh, glm::vec3 scale) {
+    for (size_t i = 0; i < mesh.vertices.size(); ++i) {
+        Vertex& v = mesh.vertices[i];
+        const float normal = glm::length(v.normal * scale), tangent = glm::length(glm::vec3(v.tangent) / scale);
+        for (MorphTarget& target : mesh.targets) {
+            if (!target.positions.empty()) target.positions[i] /= scale;
+            if (!target.normals.empty()) target.normals[i] *= scale / normal;
+            if (!target.tangents.empty()) target.tangents[i] /= scale * tangent;
+        }
+        v.position /= scale;
+        v.normal = glm::normalize(v.normal * scale);
+        v.tangent = glm::vec4(glm::normalize(glm::vec3(v.tangent) / scale), v.tangent.w);
+    }
+}
+
 /// Each mesh by the inverse of `scale`, below which its instances hang: the picture stays, but the normals go through a
 /// transform as ill-conditioned as the ratio of its parts.
 void scale_instances(Scene& scene, glm::vec3 scale) {
-    for (Mesh& mesh : scene.meshes)
-        for (Vertex& v : mesh.vertices) {
-            v.position /= scale;
-            v.normal = glm::normalize(v.normal * scale);
-            v.tangent = glm::vec4(glm::normalize(glm::vec3(v.tangent) / scale), v.tangent.w);
-        }
+    for (Mesh& mesh : scene.meshes) unscale(mesh, scale);
+    for (Skin& skin : scene.skins)  // in place of the node, which does not move what joints do
+        for (glm::mat4& joint_from_mesh : skin.joint_from_mesh)
+            for (int axis = 0; axis < 3; ++axis) joint_from_mesh[axis] *= scale[axis];
     for (Instance& instance : scene.instances) {
         Node node{.name = "instance scale", .parent = int(instance.node)};
         node.scale = scale;
         for (int axis = 0; axis < 3; ++axis) node.parent_from_node[axis][axis] = scale[axis];
+        if (instance.weights_node < 0) instance.weights_node = int(instance.node);
         instance.node = unsigned(scene.nodes.size());
         scene.nodes.push_back(node);
     }

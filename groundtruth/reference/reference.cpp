@@ -26,6 +26,12 @@ void add(ContentHash& hash, glm::vec3 v) {
 void add(ContentHash& hash, const ScenePose& pose) {
     hash.add(pose.world_from_instance.size());
     for (const glm::mat4& matrix : pose.world_from_instance) add(hash, matrix);
+    for (const Deformation& deformation : pose.deformations) {  // none where all meshes keep their shapes
+        hash.add(deformation.instance_from_mesh.size());
+        for (const glm::mat4& matrix : deformation.instance_from_mesh) add(hash, matrix);
+        hash.add(deformation.weights.size());
+        for (const float weight : deformation.weights) hash.add(weight);
+    }
     hash.add(pose.lights.size());
     for (const PunctualLight& light : pose.lights) {
         hash.add(int(light.type));

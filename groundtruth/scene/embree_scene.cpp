@@ -1,6 +1,7 @@
 #include "groundtruth/scene/embree_scene.h"
 
 #include "core/error.h"
+#include "core/scene/deform.h"
 #include "core/scene/transform.h"
 #include "groundtruth/scene/alpha_mask.h"
 
@@ -12,7 +13,8 @@ namespace {
 
 glm::mat3 absolute(const glm::mat3& m) { return {glm::abs(m[0]), glm::abs(m[1]), glm::abs(m[2])}; }
 
-/// Triangles of a mesh, moved by `world_from_object`; mirrored ones swap two corners to keep their front.
+/// Triangles of a mesh with the instance's vertices, moved by `world_from_object`; mirrored ones swap two corners to
+/// keep their front.
 std::vector<TriangleRecord> make_records(const Mesh& mesh, const InstanceRecord& instance) {
     std::vector<TriangleRecord> records(mesh.indices.size() / 3);
     tbb::parallel_for(size_t(0), records.size(), [&](size_t t) {
@@ -20,7 +22,7 @@ std::vector<TriangleRecord> make_records(const Mesh& mesh, const InstanceRecord&
         for (int k = 0; k < 3; ++k) {
             const int corner = instance.is_mirrored && k > 0 ? 3 - k : k;
             const uint32_t index = mesh.indices[3 * t + corner];
-            const Vertex& vertex = mesh.vertices[index];
+            const Vertex& vertex = instance.vertices[index];
             record.corner[k] = index;
             record.position[k] = glm::vec3(instance.world_from_object * glm::vec4(vertex.position, 1.0f));
             record.normal[k] = instance.normal_matrix * vertex.normal;
@@ -121,6 +123,7 @@ EmbreeScene::EmbreeScene(const Scene& scene, const ScenePose& pose, bool test_ev
 
     scene_ = new_scene();
     instances_.resize(scene.instances.size());
+    deformed_.resize(scene.instances.size());
     triangles_.resize(scene.meshes.size() + scene.instances.size());
     mesh_scenes_.resize(scene.meshes.size(), nullptr);
     for (unsigned i = 0; i < scene.instances.size(); ++i) {
@@ -129,12 +132,13 @@ EmbreeScene::EmbreeScene(const Scene& scene, const ScenePose& pose, bool test_ev
         const glm::mat4& transform = pose.world_from_instance[i];
         InstanceRecord& record = instances_[i];
         record.mesh = &mesh;
+        record.vertices = posed_vertices(scene, pose, i, deformed_[i]).data();
         record.material = mesh.material;
         record.world_from_object = transform;
         const NormalTransform normals = normal_transform(transform);
         record.normal_matrix = normals.matrix;
         record.is_mirrored = normals.is_mirrored;
-        record.is_baked = use_count[mesh_index] == 1 || normals.is_flat;
+        record.is_baked = use_count[mesh_index] == 1 || normals.is_flat || !deformed_[i].empty();
 
         std::vector<TriangleRecord>& triangles = triangles_[record.is_baked ? scene.meshes.size() + i : mesh_index];
         if (record.is_baked) {
@@ -142,7 +146,7 @@ EmbreeScene::EmbreeScene(const Scene& scene, const ScenePose& pose, bool test_ev
             attach(scene_, make_triangles(triangles, scene, mesh, test_every_alpha), i);
         } else {
             if (!mesh_scenes_[mesh_index]) {
-                triangles = make_records(mesh, InstanceRecord{});
+                triangles = make_records(mesh, InstanceRecord{.vertices = mesh.vertices.data()});
                 mesh_scenes_[mesh_index] = new_scene();
                 attach(mesh_scenes_[mesh_index], make_triangles(triangles, scene, mesh, test_every_alpha), 0);
                 rtcCommitScene(mesh_scenes_[mesh_index]);

@@ -20,6 +20,7 @@ struct alignas(64) TriangleRecord {
 struct InstanceRecord {
     const TriangleRecord* triangles = nullptr;
     const Mesh* mesh = nullptr;
+    const Vertex* vertices = nullptr;  ///< the mesh's, as posed
     uint32_t material = 0;
     bool is_baked = true;
     bool is_mirrored = false;  ///< see NormalTransform
@@ -39,7 +40,8 @@ struct SurfacePoint {
 enum class Viewer : unsigned { at_origin, at_end };
 
 /// Embree's view of one frame: a mesh drawn once is baked into the top level, one drawn more often becomes a BVH of its
-/// own. Embree moves rays into an instance by the inverse of its transform: where there is none, it is baked too.
+/// own. Embree moves rays into an instance by the inverse of its transform: where there is none, it is baked too, and
+/// so is what joints or morph targets deform.
 class EmbreeScene {
 public:
     /// Geometry ids are indices of Scene::instances. Fails with MachineError if Embree cannot build it.
@@ -67,6 +69,7 @@ private:
     RTCScene scene_ = nullptr;
     std::vector<std::vector<TriangleRecord>> triangles_;  ///< of each mesh, then of each baked instance
     std::vector<InstanceRecord> instances_;
+    std::vector<std::vector<Vertex>> deformed_;  ///< of each instance that is
     std::vector<std::unique_ptr<HitTest>> hit_tests_;
     bool has_alpha_tests_ = false, hides_backs_ = false;
     std::vector<RTCScene> mesh_scenes_;

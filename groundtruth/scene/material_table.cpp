@@ -44,7 +44,7 @@ MaterialTable::MaterialTable(const Scene& scene, const EmbreeScene& geometry, bo
 MaterialTable::Corners MaterialTable::corners(uint32_t instance_index, uint32_t triangle, float u, float v) const {
     const InstanceRecord& instance = geometry_.instance(instance_index);
     const TriangleRecord& record = instance.triangles[triangle];
-    const Vertex* vertices = instance.mesh->vertices.data();
+    const Vertex* vertices = instance.vertices;
     return {{vertices + record.corner[0], vertices + record.corner[1], vertices + record.corner[2]},
             {1.0f - u - v, u, v}};
 }
@@ -53,7 +53,7 @@ void MaterialTable::prefetch_corners(uint32_t instance_index, uint32_t triangle)
     const InstanceRecord& instance = geometry_.instance(instance_index);
     if (!constants_[instance.material].varies) return;
     for (const uint32_t corner : instance.triangles[triangle].corner) {
-        const char* vertex = reinterpret_cast<const char*>(&instance.mesh->vertices[corner]);
+        const char* vertex = reinterpret_cast<const char*>(&instance.vertices[corner]);
         __builtin_prefetch(vertex);
         __builtin_prefetch(vertex + sizeof(Vertex) - 1);
     }

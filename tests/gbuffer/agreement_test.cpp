@@ -81,6 +81,18 @@ TEST(agreement, roughness_of_16_bits_is_kept) {
     EXPECT_FLOAT_EQ(material_facts(scene).min_roughness, 6808 / 65535.0f);
 }
 
+TEST(agreement, of_what_joints_and_morph_targets_deform) {
+    const Scene scene = deforming_scene();
+    for (const unsigned frame : {0u, 17u})
+        expect_agreement(compare_with_rays(scene, scene.camera("orthographic"), view_of({317, 241}, frame)),
+                         "deformed, frame " + std::to_string(frame));
+    Scene mirrored = scene;
+    for (Node& node : mirrored.nodes)
+        if (node.name == "hip") node.parent_from_node = glm::mat4(1), node.parent_from_node[0][0] = -1;
+    mirrored.animation.clear();
+    expect_agreement(compare_with_rays(mirrored, scene.camera("main"), view_of({317, 241}, 0)), "deformed, mirrored");
+}
+
 TEST(agreement, keep_all_shaders_see_the_same) {
     const Scene scene = varied_scene();
     expect_agreement(compare_with_rays(scene, scene.camera("main"), view_of({160, 90}), {.keep_all = true}),

@@ -5,6 +5,8 @@
 #include "tests/gbuffer/test_scenes.h"
 
 #include <gtest/gtest.h>
+#include <functional>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace {
 
@@ -39,17 +41,15 @@ glm::dvec3 world_position(const HostGBuffer& g, unsigned x, unsigned y) {
     return glm::dvec3(glm::dmat4(g.camera.world_from_view) * (view / view.w));
 }
 
-}  // namespace
-
-TEST(motion, is_what_two_projections_in_double_precision_give) {
-    const Scene scene = varied_scene();
+/// `deformed`: what instance 1 is moved by beside its transform, at a pose.
+void expect_motion_of(const Scene& scene, const std::function<glm::dmat4(const ScenePose&)>& deformed) {
     FrameView view = view_of({200, 151}, 8, DepthDirection::reversed);
     view.jitter = {0.3f, -0.2f};
     const HostGBuffer g = render(scene, scene.camera("main"), view);
     const ScenePose now = pose_scene(scene, 8), before = pose_scene(scene, 7);
+    const auto place = [&](const ScenePose& pose) { return glm::dmat4(pose.world_from_instance[1]) * deformed(pose); };
     // The moving quad is alone in using its material, so its id shows where the pixel's surface was.
-    const glm::dmat4 moved =
-        glm::dmat4(before.world_from_instance[1]) * glm::inverse(glm::dmat4(now.world_from_instance[1]));
+    const glm::dmat4 moved = place(before) * glm::inverse(place(now));
     size_t moving = 0, background = 0;
     for (unsigned y = 0; y < g.extent().y; ++y)
         for (unsigned x = 0; x < g.extent().x; ++x) {
@@ -76,6 +76,43 @@ TEST(motion, is_what_two_projections_in_double_precision_give) {
         }
     EXPECT_GT(moving, 100u);
     EXPECT_GT(background, 100u);
+}
+
+}  // namespace
+
+TEST(motion, is_what_two_projections_in_double_precision_give) {
+    expect_motion_of(varied_scene(), [](const ScenePose&) { return glm::dmat4(1); });
+}
+
+/// Every vertex follows the joints alike, and the morph target moves all alike, which makes an affine map of both.
+TEST(motion, of_joints_and_morph_targets_is_theirs) {
+    const Scene scene = deforming_scene();
+    const Mesh& mesh = scene.meshes[scene.instances[1].mesh];
+    expect_motion_of(scene, [&](const ScenePose& pose) {
+        const Deformation& deformation = pose.deformations[1];
+        const glm::dmat4 joints =
+            0.25 * glm::dmat4(deformation.instance_from_mesh[0]) + 0.75 * glm::dmat4(deformation.instance_from_mesh[1]);
+        return joints *
+               glm::translate(glm::dmat4(1), double(deformation.weights[0]) * glm::dvec3(mesh.targets[0].positions[0]));
+    });
+}
+
+TEST(rasterizer, deformed_frames_in_a_row_are_those_drawn_alone) {
+    const Scene scene = deforming_scene();
+    const SceneCamera& camera = scene.camera("orthographic");
+    const glm::uvec2 extent{91, 77};
+    Rasterizer rasterizer(test_device(), scene, {.extent = extent});
+    struct Step {
+        unsigned frame, previous;
+    };
+    for (const Step step : {Step{4, 3}, {5, 4}, {6, 5}, {6, 6}, {12, 6}, {7, 6}}) {  // also held, and jumping
+        FrameView view = view_of(extent, step.frame);
+        view.index = step.frame, view.previous_frame = step.previous;
+        const GBuffer gbuffer = rasterizer.render(camera, view);
+        const HostGBuffer in_a_row =
+            download_gbuffer(rasterizer.graph(), gbuffer, rasterizer.camera(), DepthFormat::d32f);
+        EXPECT_EQ(differing_bits(in_a_row, render(scene, camera, view)), 0u) << step.frame;
+    }
 }
 
 TEST(motion, is_zero_where_nothing_moves) {

@@ -21,6 +21,18 @@ TEST(scene_facts, of_a_scene_that_has_everything) {
     EXPECT_TRUE(material_facts(culled).hides_backs);
 }
 
+TEST(scene_facts, deformed_meshes_move) {
+    const Scene scene = deforming_scene();
+    const SceneCamera& still = scene.camera("orthographic");
+    EXPECT_TRUE(derive_facts(scene, still, std::array{3u, 4u}).objects_move);
+    EXPECT_FALSE(derive_facts(scene, still, std::array{40u, 41u}).objects_move) << "behind the last key";
+    for (const size_t channels : {2u, 1u}) {  // without the joints'
+        Scene weights = scene;
+        weights.animation.erase(weights.animation.begin(), weights.animation.begin() + long(channels));
+        EXPECT_TRUE(derive_facts(weights, still, std::array{3u, 4u}).objects_move) << channels;
+    }
+}
+
 TEST(scene_facts, only_what_is_drawn_counts) {
     Scene scene = varied_scene();
     scene.instances.resize(1);  // the floor, of roughness 0.2

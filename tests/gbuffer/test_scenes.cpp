@@ -1,6 +1,7 @@
 #include "tests/gbuffer/test_scenes.h"
 
 #include <gtest/gtest.h>
+#include <cmath>
 #include <cstring>
 
 namespace {
@@ -105,6 +106,62 @@ Scene dielectric_scene() {
     scene.materials[2].specular_texture.uv_transform = glm::mat3(2.0f);
     scene.materials[3].specular_texture = {1}, scene.materials[3].metalness = 0;
     scene.materials[4].dielectric_f0 = 0.0201f;
+    return scene;
+}
+
+Scene deforming_scene() {
+    Scene scene = varied_scene();
+    const auto first = unsigned(scene.nodes.size());
+    Node hip{.name = "hip"}, knee{.name = "knee", .parent = int(first)};
+    hip.translation = {0, 0.1f, -0.2f}, knee.translation = {0.3f, 0.2f, 0};
+    for (Node* node : {&hip, &knee}) {
+        node->parent_from_node[3] = glm::vec4(node->translation, 1);
+        scene.nodes.push_back(*node);
+    }
+    scene.skins = {{.joints = {first, first + 1}, .joint_from_mesh = {glm::mat4(1), glm::mat4(1)}}};
+    scene.skins[0].joint_from_mesh[1][3] = {0, -0.2f, 0, 1};
+    scene.animation.clear();
+    const auto animate = [&](AnimationChannel::Property property, unsigned node, glm::vec4 from, glm::vec4 to) {
+        scene.animation.push_back({.property = property, .node = node, .times = {0, 1}, .values = {from, to}});
+    };
+    animate(AnimationChannel::Property::translation, first, glm::vec4(hip.translation, 0), {0.4f, 0.3f, 0.5f, 0});
+    animate(AnimationChannel::Property::rotation, first + 1, {0, 0, 0, 1}, {0.1f, 0.3f, 0, std::sqrt(0.9f)});
+    for (const unsigned i : {1u, 3u}) {
+        scene.instances[i].skin = 0;
+        scene.nodes[scene.instances[i].node].weights = {0};
+        animate(AnimationChannel::Property::weight, scene.instances[i].node, {0.1f, 0, 0, 0}, {1, 0, 0, 0});
+    }
+
+    Mesh& flat = scene.meshes[scene.instances[1].mesh];
+    flat.targets = {{.positions = std::vector<glm::vec3>(4, {0.2f, 0.5f, 0.3f})}};
+    flat.joints_per_vertex = 2;
+    for (int i = 0; i < 4; ++i)
+        flat.joint_weights.insert(flat.joint_weights.end(),
+                                  {{.joint = 0, .weight = 0.25f}, {.joint = 1, .weight = 0.75f}});
+
+    Mesh& grid = scene.meshes[scene.instances[3].mesh];
+    const std::vector<Vertex> corner = grid.vertices;
+    constexpr unsigned side = 16;
+    grid.vertices.clear(), grid.indices.clear();
+    grid.targets = {{}}, grid.joints_per_vertex = 2;
+    const float pi = 3.14159265f;
+    for (unsigned y = 0; y <= side; ++y)
+        for (unsigned x = 0; x <= side; ++x) {
+            const glm::vec2 uv = glm::vec2(x, y) / float(side);
+            Vertex vertex = corner[0];
+            vertex.position +=
+                uv.x * (corner[1].position - corner[0].position) + uv.y * (corner[3].position - corner[0].position);
+            vertex.uv[0] = uv;
+            grid.vertices.push_back(vertex);
+            grid.targets[0].positions.push_back(0.2f * std::sin(pi * uv.x) * std::sin(pi * uv.y) * vertex.normal);
+            grid.targets[0].normals.push_back({-0.3f * std::cos(pi * uv.x), -0.3f * std::cos(pi * uv.y), 0});
+            grid.targets[0].tangents.push_back({0, 0, 0.3f * std::cos(pi * uv.x)});
+            grid.joint_weights.insert(grid.joint_weights.end(),
+                                      {{.joint = 0, .weight = 1 - uv.y}, {.joint = 1, .weight = uv.y}});
+            if (x == side || y == side) continue;
+            const unsigned at = y * (side + 1) + x, above = at + side + 1;
+            grid.indices.insert(grid.indices.end(), {at, at + 1, above + 1, at, above + 1, above});
+        }
     return scene;
 }
 

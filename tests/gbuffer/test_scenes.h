@@ -14,6 +14,11 @@ Scene varied_scene();
 /// The same with dielectrics of other reflectances than 0.04, by factors and textures, coloured and above 1.
 Scene dielectric_scene();
 
+/// varied_scene() with two deformed meshes, which joints and a morph target move from frame to frame: the textured quad
+/// (instance 1), whose vertices all follow its joints alike, so that it stays flat, and in place of the normal-mapped
+/// quad (instance 3) a grid that bends and bulges.
+Scene deforming_scene();
+
 Device& test_device();  ///< one for all tests, validated as SSRLAB_VALIDATE says
 
 FrameView view_of(glm::uvec2 extent, unsigned frame = 0, DepthDirection direction = DepthDirection::standard);

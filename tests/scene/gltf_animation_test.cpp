@@ -47,7 +47,7 @@ TEST_F(AnimatedGltf, ReplacesOnlyWhatTheChannelNames) {
                                    {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "rotation"}}}},
                                     {{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}}}};
     Scene scene = load();
-    EXPECT_TRUE(mentions(scene.warnings, "morph weights"));
+    EXPECT_TRUE(scene.warnings.empty()) << "there are no morph targets whose weights could change anything";
     EXPECT_EQ(scene.frame_count, 61u);                                         // 2 s at 30 frames per second, both ends
     const glm::mat4 middle = pose_scene(scene, 30).world_from_instance.at(0);  // 90 degrees of 180
     expect_near(middle * glm::vec4(1, 0, 0, 1), {1, 4, 3}, 1e-5f);

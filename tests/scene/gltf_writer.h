@@ -18,11 +18,17 @@ struct GltfWriter {
 
     /// Returns the index of the accessor.
     int floats(const std::vector<float>& values, const std::string& type) {
-        const int components = type == "SCALAR" ? 1 : type == "VEC2" ? 2 : type == "VEC3" ? 3 : 4;
+        const int components = type == "SCALAR" ? 1 : type == "VEC2" ? 2 : type == "VEC3" ? 3 : type == "MAT4" ? 16 : 4;
         nlohmann::json accessor = {
             {"componentType", 5126}, {"type", type}, {"count", values.size() / size_t(components)}};
         if (type == "VEC3") accessor["min"] = {-1e6, -1e6, -1e6}, accessor["max"] = {1e6, 1e6, 1e6};
         return add(accessor, values.data(), values.size() * 4);
+    }
+    /// Of vec4, as joints and their weights are.
+    int bytes_of_4(const std::vector<uint8_t>& values, bool is_normalized = false) {
+        return add(
+            {{"componentType", 5121}, {"type", "VEC4"}, {"count", values.size() / 4}, {"normalized", is_normalized}},
+            values.data(), values.size());
     }
     int indices(const std::vector<uint16_t>& values) {
         return add({{"componentType", 5123}, {"type", "SCALAR"}, {"count", values.size()}}, values.data(),

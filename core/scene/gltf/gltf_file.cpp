@@ -67,6 +67,10 @@ struct PartsOfOurs {
                     primitive.erase("indices");
                 }
             }
+        // Which glTF 2.0, section 3.11, lets out, and tinygltf does not.
+        if (root.contains("animations"))
+            for (json& animation : root["animations"])
+                for (json& channel : animation["channels"]) channel["target"].emplace("node", -1);
     }
 
     void put_into(tinygltf::Model& model) const {

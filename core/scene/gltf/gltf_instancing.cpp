@@ -53,7 +53,8 @@ bool add_mesh_copies(const GltfFile& file, const tinygltf::Node& source, const s
             copy.rotation = glm::vec4(glm::normalize(rotation));
         }
         copy.parent_from_node = transform(copy.translation, copy.rotation, copy.scale);
-        for (const unsigned mesh : meshes) scene.instances.push_back({mesh, unsigned(scene.nodes.size())});
+        for (const unsigned mesh : meshes)
+            scene.instances.push_back({mesh, unsigned(scene.nodes.size()), source.skin, int(node)});
         scene.nodes.push_back(std::move(copy));
     }
     return true;

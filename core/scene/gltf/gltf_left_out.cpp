@@ -21,6 +21,11 @@ void say_animated_properties(GltfFile& file, const std::vector<int>& node_of, co
         const bool is_material = material >= 0 && size_t(material) < file.model.materials.size();
         const bool is_node = node >= 0 && size_t(node) < node_of.size();
         if (is_node && node_of[size_t(node)] < 0) continue;  // outside the scene that is shown
+        const std::string property = pointer.substr(pointer.rfind('/') + 1);
+        const bool is_read =
+            is_node && pointer == "/nodes/" + std::to_string(node) + "/" + property &&
+            (property == "translation" || property == "rotation" || property == "scale" || property == "weights");
+        if (is_read) continue;
         const std::string whose = is_material
                                       ? " of material '" + shortened(scene.materials[size_t(material)].name) + "'"
                                   : is_node ? " of node '" + shortened(file.model.nodes[size_t(node)].name) + "'"

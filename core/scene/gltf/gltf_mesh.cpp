@@ -1,7 +1,8 @@
+#include "core/scene/gltf/gltf_deformers.h"
 #include "core/scene/gltf/gltf_parts.h"
+#include "core/scene/gltf/tangents.h"
 
 #include "core/error.h"
-#include "core/scene/gltf/tangents.h"
 #include "core/scene/ranges.h"
 
 #include <tbb/parallel_for.h>
@@ -78,12 +79,14 @@ void set_aside(const GltfFile& file, const tinygltf::Primitive& primitive, size_
     size_t index_count = has_indices ? file.model.accessors[size_t(primitive.indices)].count : vertex_count;
     if (primitive.mode > TINYGLTF_MODE_TRIANGLES) index_count *= 3;
     const size_t most_vertices = std::max(vertex_count, index_count);  // where normals or tangents part them
-    memory.add(double(most_vertices) * sizeof(Vertex) + double(index_count) * sizeof(uint32_t),
+    memory.add(double(most_vertices) * (sizeof(Vertex) + deformation_bytes(primitive)) +
+                   double(index_count) * sizeof(uint32_t),
                file.name() + ": " + what + " of " + std::to_string(vertex_count) + " vertices and " +
                    std::to_string(index_count) + " indices");
 }
 
-Mesh read_mesh(const GltfFile& file, Scene& scene, size_t mesh_index, size_t primitive_index, int variant) {
+Mesh read_mesh(const GltfFile& file, Scene& scene, size_t mesh_index, size_t primitive_index, int variant,
+               std::string& warning) {
     const tinygltf::Primitive& primitive = primitive_of(file, mesh_index, primitive_index);
     const std::string what = "mesh " + std::to_string(mesh_index) + " primitive " + std::to_string(primitive_index);
     Mesh mesh;
@@ -119,18 +122,15 @@ Mesh read_mesh(const GltfFile& file, Scene& scene, size_t mesh_index, size_t pri
         v.color = glm::clamp(glm::vec4(x[0], x[1], x[2], components == 4 ? x[3] : 1.0f), 0.0f, 1.0f);
     });
     mesh.indices = read_triangles(file, primitive, mesh.vertices.size(), what);
-
-    if (has_normals)
-        repair_normals(mesh);
-    else
-        make_flat_normals(mesh);
+    mesh.is_flat_shaded = !has_normals;
     const TextureSlot& normal_texture = scene.materials[mesh.material].normal_texture;
-    if (normal_texture.texture < 0)
-        make_any_tangents(mesh);
-    else if (has_tangents && has_normals)
-        repair_tangents(mesh), turn_tangents(mesh, normal_texture);
-    else
-        derive_tangents(mesh, normal_texture);
+    if (!deforms_vertices(primitive)) {
+        finish_normals(mesh, has_tangents, normal_texture);
+        return mesh;
+    }
+    const Mesh as_in_file = mesh;
+    finish_normals(mesh, has_tangents, normal_texture);
+    add_deformers({file, primitive, as_in_file, has_tangents, what}, normal_texture, mesh, warning);
     return mesh;
 }
 
@@ -138,11 +138,10 @@ Mesh read_mesh(const GltfFile& file, Scene& scene, size_t mesh_index, size_t pri
 bool is_drawn(GltfFile& file, size_t mesh_index, size_t primitive_index) {
     const tinygltf::Primitive& primitive = primitive_of(file, mesh_index, primitive_index);
     const std::string name = file.model.meshes[mesh_index].name;
-    if (!primitive.targets.empty()) file.warn("The morph targets of mesh '" + name + "' are ignored.");
     for (const auto& [attribute, accessor] : primitive.attributes) {
         static const std::set<std::string> known = {"POSITION",   "NORMAL",     "TANGENT",
                                                     "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"};
-        if (!known.contains(attribute))
+        if (!known.contains(attribute) && !is_of_joints(primitive, attribute))
             file.warn("The vertex attribute " + attribute + " of mesh '" + name + "' is ignored.");
     }
     const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
@@ -172,8 +171,13 @@ std::vector<std::vector<unsigned>> add_meshes(GltfFile& file, Scene& scene, cons
         }
     const size_t first = scene.meshes.size();
     scene.meshes.resize(first + drawn.size());
+    std::vector<std::string> warnings(drawn.size());
     tbb::parallel_for(size_t(0), drawn.size(), [&](size_t i) {
-        scene.meshes[first + i] = read_mesh(file, scene, drawn[i].first, drawn[i].second, variant);
+        scene.meshes[first + i] = read_mesh(file, scene, drawn[i].first, drawn[i].second, variant, warnings[i]);
     });
+    for (size_t i = 0; i < drawn.size(); ++i) {
+        warn_of_targets(file, drawn[i].first, drawn[i].second);
+        if (!warnings[i].empty()) file.warn(warnings[i], int(scene.meshes[first + i].material));
+    }
     return meshes_of;
 }

@@ -1,3 +1,4 @@
+#include "core/scene/gltf/gltf_deformers.h"
 #include "core/scene/gltf/gltf_parts.h"
 #include "core/scene/gltf/gltf_value.h"
 
@@ -35,6 +36,23 @@ Node read_node(const GltfFile& file, const tinygltf::Node& source, size_t index)
             checked_number(file, source.matrix[size_t(i)], -any_length, any_length, what + ": matrix");
     split_transform(node.parent_from_node, node.translation, node.rotation, node.scale);
     return node;
+}
+
+/// Weights of the morph targets of what a node draws: its own, else its mesh's, else 0 (glTF 2.0, section 3.7.2.2).
+std::vector<float> morph_weights(const GltfFile& file, const tinygltf::Node& node, size_t index) {
+    if (node.mesh < 0) return {};
+    const size_t mesh = checked_index(file, node.mesh, file.model.meshes.size(), "mesh");
+    std::vector<float> weights(target_count(file, mesh), 0.0f);
+    if (weights.empty()) return {};
+    const bool are_own = !node.weights.empty();
+    const std::vector<double>& given = are_own ? node.weights : file.model.meshes[mesh].weights;
+    const std::string what = are_own ? "node " + std::to_string(index) + " ('" + shortened(node.name) + "'): weights"
+                                     : "mesh " + std::to_string(mesh) + ": weights";
+    if (!given.empty() && given.size() != weights.size())
+        fail(file.name(), ": ", what, " has ", given.size(), " numbers, but the mesh has ", weights.size(),
+             " morph targets");
+    for (size_t i = 0; i < given.size(); ++i) weights[i] = checked_number(file, given[i], -FLT_MAX, FLT_MAX, what);
+    return weights;
 }
 
 LightType light_type(const GltfFile& file, const std::string& type) {
@@ -128,7 +146,7 @@ void add_meshes_of(const GltfFile& file, const tinygltf::Node& source,
                    const std::vector<std::vector<unsigned>>& meshes_of, unsigned node, Scene& scene) {
     const auto& meshes = meshes_of[checked_index(file, source.mesh, meshes_of.size(), "mesh")];
     if (add_mesh_copies(file, source, meshes, node, "node '" + shortened(source.name) + "'", scene)) return;
-    for (const unsigned mesh : meshes) scene.instances.push_back({mesh, node});
+    for (const unsigned mesh : meshes) scene.instances.push_back({mesh, node, source.skin});
 }
 
 void add_contents(GltfFile& file, const tinygltf::Node& source, const std::vector<std::vector<unsigned>>& meshes_of,
@@ -136,8 +154,6 @@ void add_contents(GltfFile& file, const tinygltf::Node& source, const std::vecto
     if (source.camera >= 0) scene.cameras.push_back(read_camera(file, source.camera, int(node)));
     if (!is_visible) return;
     if (source.mesh >= 0) add_meshes_of(file, source, meshes_of, node, scene);
-    if (source.skin >= 0)
-        file.warn("The skin of node '" + source.name + "' is ignored: its mesh is drawn in bind pose.");
     if (const auto light = source.extensions.find("KHR_lights_punctual"); light != source.extensions.end())
         scene.lights.push_back(
             read_light(file, index_member(file, light->second, "light", "node '" + source.name + "'"), int(node)));
@@ -170,6 +186,7 @@ std::vector<int> add_nodes(GltfFile& file, const std::vector<std::vector<unsigne
         node_of[index] = int(scene.nodes.size());
         scene.nodes.push_back(read_node(file, nodes[index], index));
         scene.nodes.back().parent = open[next].parent;
+        scene.nodes.back().weights = morph_weights(file, nodes[index], index);
         place(index);
         const bool is_visible = open[next].is_visible && !is_hidden(nodes[index]);
         add_contents(file, nodes[index], meshes_of, unsigned(node_of[index]), is_visible, scene);

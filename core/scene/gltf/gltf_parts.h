@@ -3,8 +3,6 @@
 #include "core/scene/gltf/load_gltf.h"
 #include "core/scene/scene.h"
 
-#include <map>
-
 // The steps of load_gltf(), in order. Each appends to the scene what one part of the file says, and to file.warnings
 // what it leaves out.
 
@@ -27,7 +25,7 @@ int material_of(const GltfFile& file, const tinygltf::Primitive& primitive, int 
 void cut_blended_materials(GltfFile& file, Scene& scene, const GltfChoices& choices);
 
 /// The nodes of the file's scene, parents first, with their instances, lights and cameras. Returns the index of each
-/// glTF node among Scene::nodes, -1 for those outside the scene.
+/// glTF node among Scene::nodes, -1 for those outside the scene. Instances name the file's skins until add_skins().
 std::vector<int> add_nodes(GltfFile& file, const std::vector<std::vector<unsigned>>& meshes_of, Scene& scene);
 
 /// The copies of EXT_mesh_gpu_instancing: a node below `node` for each, which draws `meshes`. Returns whether the glTF
@@ -39,5 +37,5 @@ bool add_mesh_copies(const GltfFile& file, const tinygltf::Node& source, const s
 /// than those of nodes, light of images, units of lights.
 void say_what_is_left_out(GltfFile& file, const std::vector<int>& node_of, const Scene& scene);
 
-/// The channels of all animations; several animations play at once, as they do in glTF viewers by default.
-void add_animation(GltfFile& file, const std::vector<int>& node_of, Scene& scene);
+/// The clips, and the channels of those that are played (load_gltf.h).
+void add_animation(GltfFile& file, const std::vector<int>& node_of, const std::string& wanted, Scene& scene);

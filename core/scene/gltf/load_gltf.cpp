@@ -1,21 +1,15 @@
 #include "core/scene/gltf/load_gltf.h"
 
+#include "core/error.h"
+#include "core/near_miss.h"
 #include "core/scene/animation.h"
 #include "core/scene/content_hash.h"
+#include "core/scene/gltf/gltf_deformers.h"
 #include "core/scene/gltf/gltf_parts.h"
+#include "core/scene/unique_names.h"
 
-#include <map>
+#include <algorithm>
 #include <set>
-
-void make_names_unique(std::vector<SceneCamera>& cameras) {
-    std::set<std::string> taken;
-    std::map<std::string, int> count;
-    for (SceneCamera& camera : cameras) {
-        const std::string name = camera.name;
-        int& number = count[name];
-        while (!taken.insert(camera.name).second) camera.name = name + "_" + std::to_string(++number + 1);
-    }
-}
 
 namespace {
 /// A material that no instance has changes nothing.
@@ -35,7 +29,8 @@ Scene load_gltf(const std::filesystem::path& path, const GltfChoices& choices) {
     const auto meshes_of = add_meshes(file, scene, choices);
     cut_blended_materials(file, scene, choices);
     const auto node_of = add_nodes(file, meshes_of, scene);
-    add_animation(file, node_of, scene);
+    add_skins(file, node_of, scene);
+    add_animation(file, node_of, choices.animation, scene);
     say_what_is_left_out(file, node_of, scene);
     make_names_unique(scene.cameras);
     scene.frame_count = animation_frames(scene);
@@ -44,4 +39,15 @@ Scene load_gltf(const std::filesystem::path& path, const GltfChoices& choices) {
     drop_warnings_about_what_is_not_drawn(scene);
     scene.content_hash = content_hash(scene);
     return scene;
+}
+
+void check_animation(const Scene& scene, const std::string& animation) {
+    if (animation.empty() || animation == "all" || animation == "none") return;
+    std::vector<std::string> names;
+    for (const AnimationClip& clip : scene.clips) names.push_back(clip.name);
+    if (names.empty())
+        fail("scene '", shortened(scene.name), "' has no animation '", shortened(animation), "': it has none at all");
+    if (std::ranges::find(names, animation) == names.end())
+        fail("scene '", shortened(scene.name), "' has no animation '", shortened(animation), "'",
+             suggestion(animation, names));
 }

@@ -1,5 +1,7 @@
 #include "core/scene/gltf/tangents.h"
 
+#include "core/scene/transform.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -7,27 +9,12 @@
 #include <unordered_map>
 
 namespace {
-/// Zero where `v` has no direction.
-glm::vec3 direction_or_zero(glm::vec3 v) {
-    const float largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-    if (!(largest > 0.0f) || !std::isfinite(largest)) return glm::vec3(0.0f);
-    v /= largest;  // before squaring, which would underflow for the triangles of a scene of millimetres
-    return v / glm::length(v);
-}
-
 glm::vec3 triangle_normal(const Mesh& mesh, size_t triangle) {
     const auto corner = [&](size_t i) { return mesh.vertices[mesh.indices[triangle * 3 + i]].position; };
     const glm::dvec3 a = corner(0), b = corner(1), c = corner(2);
     const glm::dvec3 cross = glm::cross(b - a, c - a);
     const double length = glm::length(cross);
     return length > 0.0 ? glm::vec3(cross / length) : glm::vec3(0.0f);
-}
-
-/// Unit and perpendicular to the unit vector `n` (Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017).
-glm::vec3 any_perpendicular(glm::vec3 n) {
-    const float sign = std::copysign(1.0f, n.z);
-    const float a = -1.0f / (sign + n.z);
-    return {1.0f + sign * n.x * n.x * a, sign * n.x * n.y * a, -sign * n.x};
 }
 
 /// Per vertex, the index of the first vertex equal to it in position, normal and texture coordinates.
@@ -201,4 +188,17 @@ void turn_tangents(Mesh& mesh, const TextureSlot& slot) {
         tangent = glm::vec4(turn.x * along_u + turn.y * glm::cross(n, along_u), tangent.w * from.w * to.w);
     }
     repair_tangents(mesh);
+}
+
+void finish_normals(Mesh& mesh, bool has_tangents, const TextureSlot& normal_texture) {
+    if (mesh.is_flat_shaded)
+        make_flat_normals(mesh);
+    else
+        repair_normals(mesh);
+    if (normal_texture.texture < 0)
+        make_any_tangents(mesh);
+    else if (has_tangents && !mesh.is_flat_shaded)
+        repair_tangents(mesh), turn_tangents(mesh, normal_texture);
+    else
+        derive_tangents(mesh, normal_texture);
 }

@@ -27,3 +27,7 @@ bool turns_tangents(const glm::mat3& uv_transform);
 
 /// Any tangent perpendicular to each normal, for meshes without a normal map.
 void make_any_tangents(Mesh& mesh);
+
+/// Makes normals and tangents of what the file holds: normals where it has some (not Mesh::is_flat_shaded), tangents
+/// where it `has_tangents`, too; the others are made from its triangles, tangents as `normal_texture` needs them.
+void finish_normals(Mesh& mesh, bool has_tangents, const TextureSlot& normal_texture);

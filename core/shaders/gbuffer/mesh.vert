@@ -44,8 +44,14 @@ void main() {
 
     clip_now = camera.clip_from_world * world;
     clip_before = clip_now;
-    if (!scene_is_still)
-        clip_before = camera.previous_clip_from_world * (instance.previous_world_from_object * os_position);
+    if (!scene_is_still) {
+        vec4 os_before = os_position;
+        if (instance.ids.z != 0u) {
+            uint at = instance.ids.z + 3u * uint(gl_VertexIndex);
+            os_before.xyz = vec3(vertices[at], vertices[at + 1u], vertices[at + 2u]);
+        }
+        clip_before = camera.previous_clip_from_world * (instance.previous_world_from_object * os_before);
+    }
     gl_Position = clip_now;
     // A sample lies at pixel centre + jitter, so the image moves the other way.
     gl_Position.xy -= 2.0 * camera.jitter.xy * camera.extent.zw * clip_now.w;

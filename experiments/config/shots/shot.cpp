@@ -45,7 +45,7 @@ StepImages Shot::images_of(const FrameStep& step, KeptImages kept) const {
 
 Shot load_shot(const ShotConfig& config, const std::vector<std::filesystem::path>& search_path) {
     Shot shot{.config = config,
-              .scene = load_scene(config.scene, search_path),
+              .scene = load_scene(config.scene, search_path, config.choices),
               .camera = {},
               .facts = {},
               .steps = timeline(config)};

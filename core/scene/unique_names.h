@@ -1,0 +1,18 @@
+#pragma once
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+/// glTF lets cameras share a name, nodes a camera, and animations a name; here a name means one of them. The second of
+/// a name gets "_2".
+template <class Named>
+void make_names_unique(std::vector<Named>& list) {
+    std::set<std::string> taken;
+    std::map<std::string, int> count;
+    for (Named& named : list) {
+        const std::string name = named.name;
+        int& number = count[name];
+        while (!taken.insert(named.name).second) named.name = name + "_" + std::to_string(++number + 1);
+    }
+}
