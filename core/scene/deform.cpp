@@ -28,19 +28,30 @@ void add_target(const MorphTarget& target, float weight, const Range& range, std
             vertices[i].tangent += glm::vec4(weight * target.tangents[i], 0.0f);
 }
 
+/// 1 over the largest number of the joints' linear parts, by which products of three of them neither overflow nor
+/// vanish.
+float inverse_of_largest(const std::vector<glm::mat4>& joints) {
+    float largest = 0.0f;
+    for (const glm::mat4& joint : joints)
+        for (int column = 0; column < 3; ++column)
+            for (int row = 0; row < 3; ++row) largest = std::max(largest, std::abs(joint[column][row]));
+    return largest > 0.0f ? 1.0f / largest : 0.0f;
+}
+
 /// The inverse transpose but for a positive factor, as NormalTransform::matrix, in float32: there is one for each
 /// vertex.
-glm::mat3 moves_normals(glm::mat3 m) {
-    float largest = 0.0f;
-    for (int column = 0; column < 3; ++column)
-        for (int row = 0; row < 3; ++row) largest = std::max(largest, std::abs(m[column][row]));
-    if (!(largest > 0.0f)) return glm::mat3(0.0f);
-    m *= 1.0f / largest;  // products of three numbers neither overflow nor vanish
+glm::mat3 moves_normals(const glm::mat3& m) {
     const glm::mat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
     return glm::dot(m[0], cofactors[0]) < 0.0f ? -cofactors : cofactors;
 }
 
-void follow_joints(const Mesh& mesh, const std::vector<glm::mat4>& joints, const Range& range,
+/// direction_or_zero(), at once where squares of float32 do.
+glm::vec3 unit(glm::vec3 v) {
+    const float square = glm::dot(v, v);
+    return square > 1e-20f && square < 1e20f ? v * (1.0f / std::sqrt(square)) : direction_or_zero(v);
+}
+
+void follow_joints(const Mesh& mesh, const std::vector<glm::mat4>& joints, const Range& range, float normal_scale,
                    std::vector<Vertex>& vertices) {
     for (size_t i = range.begin(); i < range.end(); ++i) {
         const JointWeight* followed = &mesh.joint_weights[i * mesh.joints_per_vertex];
@@ -50,19 +61,22 @@ void follow_joints(const Mesh& mesh, const std::vector<glm::mat4>& joints, const
         Vertex& vertex = vertices[i];
         const glm::mat3 linear(blended);
         vertex.position = linear * vertex.position + glm::vec3(blended[3]);
-        vertex.normal = moves_normals(linear) * vertex.normal;
+        vertex.normal = moves_normals(normal_scale * linear) * vertex.normal;
         vertex.tangent = glm::vec4(linear * glm::vec3(vertex.tangent), vertex.tangent.w);
     }
 }
 
-void make_orthonormal(const Range& range, std::vector<Vertex>& vertices) {
+/// Any tangents where no normal map reads them.
+void make_orthonormal(const Range& range, bool has_normal_map, std::vector<Vertex>& vertices) {
     for (size_t i = range.begin(); i < range.end(); ++i) {
         Vertex& vertex = vertices[i];
-        vertex.normal = direction_or_zero(vertex.normal);
-        const glm::vec3 along = direction_or_zero(glm::vec3(vertex.tangent)),
-                        tangent = direction_or_zero(along - vertex.normal * glm::dot(vertex.normal, along));
-        vertex.tangent =
-            glm::vec4(tangent == glm::vec3(0.0f) ? any_perpendicular(vertex.normal) : tangent, vertex.tangent.w);
+        const glm::vec3 normal = vertex.normal = unit(vertex.normal);
+        glm::vec3 tangent(0.0f);
+        if (has_normal_map) {
+            const glm::vec3 along = unit(glm::vec3(vertex.tangent));
+            tangent = unit(along - normal * glm::dot(normal, along));
+        }
+        vertex.tangent = glm::vec4(tangent == glm::vec3(0.0f) ? any_perpendicular(normal) : tangent, vertex.tangent.w);
     }
 }
 
@@ -87,23 +101,24 @@ bool is_in_range(const Range& range, const std::vector<Vertex>& vertices) {
 }
 
 /// False if a position leaves +-any_length.
-bool deform(const Mesh& mesh, const Deformation& by, std::vector<Vertex>& vertices) {
+bool deform(const Mesh& mesh, const Deformation& by, bool has_normal_map, std::vector<Vertex>& vertices) {
     vertices.resize(mesh.vertices.size());
+    const float normal_scale = inverse_of_largest(by.instance_from_mesh);
     std::atomic<bool> is_everywhere_in_range = true;
     tbb::parallel_for(Range(0, vertices.size(), vertices_per_task), [&](const Range& range) {
         const auto first = std::ptrdiff_t(range.begin()), end = std::ptrdiff_t(range.end());
         std::copy(mesh.vertices.begin() + first, mesh.vertices.begin() + end, vertices.begin() + first);
         for (size_t t = 0; t < by.weights.size(); ++t)
             if (by.weights[t] != 0.0f) add_target(mesh.targets[t], by.weights[t], range, vertices);
-        if (!by.instance_from_mesh.empty()) follow_joints(mesh, by.instance_from_mesh, range, vertices);
-        if (!mesh.is_flat_shaded) make_orthonormal(range, vertices);
+        if (!by.instance_from_mesh.empty()) follow_joints(mesh, by.instance_from_mesh, range, normal_scale, vertices);
+        if (!mesh.is_flat_shaded) make_orthonormal(range, has_normal_map, vertices);
         if (!is_in_range(range, vertices)) is_everywhere_in_range = false;
     });
     if (!mesh.is_flat_shaded || !is_everywhere_in_range) return is_everywhere_in_range;
     tbb::parallel_for(Range(0, mesh.indices.size() / 3, vertices_per_task),
                       [&](const Range& triangles) { set_flat_normals(mesh, triangles, vertices); });
     tbb::parallel_for(Range(0, vertices.size(), vertices_per_task),
-                      [&](const Range& range) { make_orthonormal(range, vertices); });
+                      [&](const Range& range) { make_orthonormal(range, has_normal_map, vertices); });
     return true;
 }
 
@@ -122,7 +137,8 @@ std::span<const Vertex> posed_vertices(const Scene& scene, const ScenePose& pose
                                        std::vector<Vertex>& deformed) {
     const Mesh& mesh = scene.meshes[scene.instances[instance].mesh];
     if (pose.deformations.empty() || pose.deformations[instance] == Deformation{}) return mesh.vertices;
-    if (!deform(mesh, pose.deformations[instance], deformed))
+    const bool has_normal_map = scene.materials[mesh.material].normal_texture.texture >= 0;
+    if (!deform(mesh, pose.deformations[instance], has_normal_map, deformed))
         fail("scene '", scene.name, "': joints or morph targets take vertices of mesh '", shortened(mesh.name),
              "' (node '", shortened(scene.nodes[scene.instances[instance].node].name), "') out of +-", any_length,
              " m");
