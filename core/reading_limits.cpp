@@ -42,6 +42,11 @@ bool is_below(const fs::path& path, const fs::path& folder) {
 
 uint64_t machine_memory() { return uint64_t(sysconf(_SC_PHYS_PAGES)) * uint64_t(sysconf(_SC_PAGE_SIZE)); }
 
+uint64_t memory_left() {
+    const uint64_t limit = reading_limits().memory, taken = all_shares;
+    return limit - std::min(limit, taken);
+}
+
 ReadingLimits& reading_limits() {
     static ReadingLimits limits{.memory = machine_memory() / 2};
     return limits;

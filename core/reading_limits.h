@@ -16,6 +16,9 @@ ReadingLimits& reading_limits();
 /// Of this machine, bytes.
 uint64_t machine_memory();
 
+/// What shares may still set aside, bytes.
+uint64_t memory_left();
+
 /// Memory set aside for what a file brings, before it is spent: readers add what the file's header announces. Given
 /// back with the last copy. All shares together stay within reading_limits().memory. Threads may add to one at a time.
 class MemoryShare {

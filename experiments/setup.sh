@@ -5,7 +5,7 @@ build_packages=(
     g++ cmake ninja-build ccache pkg-config git ca-certificates
     libvulkan-dev mesa-vulkan-drivers glslang-dev spirv-tools
     libembree-dev libtbb-dev libopenexr-dev libpng-dev libjpeg-dev libglm-dev libtinygltf-dev
-    libwebp-dev  # textures of glTF files (EXT_texture_webp)
+    libwebp-dev libmeshoptimizer-dev libdraco-dev  # textures and geometry of glTF files that are compressed by them
     liblcms2-dev  # colour profiles of PNG files
     libboost-dev  # Sobol's sequence, for designs of studies; distribution functions
     libre2-dev  # regular expressions of scene files, in linear time

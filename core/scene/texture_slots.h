@@ -1,12 +1,18 @@
 #pragma once
 #include "core/scene/scene.h"
 
+#include <array>
+
 /// The slots that decide what is seen, by pointers: those of a const Material point to const.
 template <class AnyMaterial>
 auto texture_slots(AnyMaterial& m) {
     return std::array{&m.base_color_texture, &m.metalness_roughness_texture, &m.normal_texture, &m.emission_texture,
                       &m.specular_texture,   &m.specular_color_texture};
 }
+
+/// What messages call them, in the same order.
+inline constexpr std::array texture_channels = {"base colour", "metallic-roughness", "normal",
+                                                "emissive",    "specular",           "specular colour"};
 
 /// Whether the reflectance of the dielectric at normal incidence is other than 0.04 for all colours, somewhere on the
 /// material.

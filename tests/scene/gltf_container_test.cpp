@@ -59,6 +59,7 @@ TEST_F(Container, ChunksOfOtherTypesArePassedByWhereverTheyStand) {
     EXPECT_EQ(hash_of(glb_of({json_chunk(), other, binary_chunk()})), hash);
     EXPECT_EQ(hash_of(glb_of({other, json_chunk(), binary_chunk(), other, other})), hash);
     EXPECT_EQ(hash_of(glb + "behind the length that the header says"), hash);
+    EXPECT_EQ(hash_of(glb_of({chunk("JSON", writer.json.dump() + std::string(3, '\0')), binary_chunk()})), hash);
     EXPECT_NE(said_of(glb_of({other})).find("no chunk 'JSON'"), std::string::npos);
     EXPECT_NE(said_of(glb_of({json_chunk(), binary_chunk(), binary_chunk()})).find("two chunks 'BIN'"),
               std::string::npos);

@@ -3,9 +3,9 @@
 #include "core/child_process.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/memory_file.h"
 #include "core/near_miss.h"
 
-#include <sys/mman.h>
 #include <unistd.h>
 #include <algorithm>
 #include <atomic>
@@ -37,22 +37,6 @@ const std::vector<std::string> candidates = {
 
 /// Without a new result. Passes take seconds at most, on a machine at rest.
 constexpr std::chrono::seconds patience_with_compiler(120);
-
-/// A file in memory, gone with this process however it ends.
-class MemoryFile {
-public:
-    MemoryFile() : file_(memfd_create("ssrlab", MFD_CLOEXEC)) {
-        if (file_ < 0) fail_machine("cannot make a file in memory: ", std::strerror(errno));
-    }
-    ~MemoryFile() { close(file_); }
-    MemoryFile(const MemoryFile&) = delete;
-    MemoryFile& operator=(const MemoryFile&) = delete;
-    /// By which other processes of the user open it, too.
-    std::string path() const { return "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(file_); }
-
-private:
-    int file_;
-};
 
 struct Answer {
     std::vector<json> lines;  ///< as far as the compiler got

@@ -45,6 +45,7 @@ GltfChunks split_glb(std::string_view bytes, const std::string& file) {
         at += size;
     }
     if (!chunks.json.data()) fail(file, ": the .glb has no chunk 'JSON'");
+    while (chunks.json.ends_with('\0')) chunks.json.remove_suffix(1);  // some exporters pad with zeros, not with blanks
     return chunks;
 }
 

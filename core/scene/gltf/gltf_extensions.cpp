@@ -9,33 +9,23 @@
 namespace {
 using nlohmann::json;
 
-const std::set<std::string> extensions_read = {"EXT_mesh_gpu_instancing",
-                                               "EXT_texture_webp",
-                                               "KHR_lights_punctual",
-                                               "KHR_materials_emissive_strength",
-                                               "KHR_materials_ior",
-                                               "KHR_materials_pbrSpecularGlossiness",
-                                               "KHR_materials_specular",
-                                               "KHR_materials_unlit",
-                                               "KHR_materials_variants",
-                                               "KHR_mesh_quantization",
-                                               "KHR_node_visibility",
+const std::set<std::string> extensions_read = {"EXT_mesh_gpu_instancing", "EXT_meshopt_compression",
+                                               "EXT_texture_webp",        "KHR_draco_mesh_compression",
+                                               "KHR_lights_punctual",     "KHR_materials_emissive_strength",
+                                               "KHR_materials_ior",       "KHR_materials_pbrSpecularGlossiness",
+                                               "KHR_materials_specular",  "KHR_materials_unlit",
+                                               "KHR_materials_variants",  "KHR_mesh_quantization",
+                                               "KHR_meshopt_compression", "KHR_node_visibility",
                                                "KHR_texture_transform"};
 
-/// Drawn as if the extension were absent; where that changes what is seen, the part that carries it says so in a warning
-/// of its own.
-const std::set<std::string> reported_by_their_part = {"EXT_lights_image_based",
-                                                      "EXT_texture_avif",
-                                                      "KHR_animation_pointer",
-                                                      "KHR_materials_anisotropy",
-                                                      "KHR_materials_clearcoat",
-                                                      "KHR_materials_diffuse_transmission",
-                                                      "KHR_materials_dispersion",
-                                                      "KHR_materials_iridescence",
-                                                      "KHR_materials_sheen",
-                                                      "KHR_materials_transmission",
-                                                      "KHR_materials_volume",
-                                                      "KHR_texture_basisu",
+/// Drawn as if the extension were absent; where that changes what is seen, the part that carries it says so in a
+/// warning of its own.
+const std::set<std::string> reported_by_their_part = {"EXT_lights_image_based",   "EXT_texture_avif",
+                                                      "KHR_animation_pointer",    "KHR_materials_anisotropy",
+                                                      "KHR_materials_clearcoat",  "KHR_materials_diffuse_transmission",
+                                                      "KHR_materials_dispersion", "KHR_materials_iridescence",
+                                                      "KHR_materials_sheen",      "KHR_materials_transmission",
+                                                      "KHR_materials_volume",     "KHR_texture_basisu",
                                                       "MSFT_texture_dds"};
 
 /// Where these stand, nothing that is drawn changes: descriptions, sounds, behaviour, and levels of detail beside the
@@ -70,9 +60,6 @@ const std::vector<std::string> harmless_vendors = {"OMI_", "VRM",     "VRMC_",  
 const std::map<std::string, std::string> converters = {
     {"KHR_texture_basisu", "gltf-transform ktxdecompress IN.glb OUT.glb"},
     {"EXT_texture_avif", "gltf-transform png IN.glb OUT.glb"},
-    {"EXT_meshopt_compression", "gltf-transform copy IN.glb OUT.glb"},
-    {"KHR_meshopt_compression", "gltfpack -i IN.glb -o OUT.glb -noq"},
-    {"KHR_draco_mesh_compression", "gltf-transform copy IN.glb OUT.glb"},
 };
 
 bool is_harmless(const std::string& extension) {

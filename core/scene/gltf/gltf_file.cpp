@@ -5,7 +5,9 @@
 #include "core/json.h"
 #include "core/scene/gltf/gltf_buffers.h"
 #include "core/scene/gltf/gltf_chunks.h"
+#include "core/scene/gltf/gltf_draco.h"
 #include "core/scene/gltf/gltf_extensions.h"
+#include "core/scene/gltf/gltf_meshopt.h"
 #include "core/scene/gltf/gltf_schema.h"
 #include "core/scene/gltf/gltf_uri.h"
 
@@ -144,7 +146,11 @@ GltfFile read_gltf(const std::filesystem::path& path) {
     constexpr double copies = 3;
     file.memory.add(copies * double(chunks.json.size()) + double(count_objects(root)) * sizeof(tinygltf::Material),
                     file.name() + ": what it describes");
-    BufferReader(root, chunks.binary, file).read_what_views_show();
+    const MeshoptViews compressed_views(root, file.name());
+    BufferReader buffers(root, chunks.binary, file);
+    buffers.read_what_views_show();
+    compressed_views.decode(root, buffers, file);
+    decode_draco(root, file);
     parse_model(root, file);
     return file;
 }

@@ -3,6 +3,7 @@
 #include "core/scene/scene.h"
 
 #include <tiny_gltf.h>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -22,6 +23,7 @@ struct GltfFile {
     tinygltf::Model model;  ///< whose buffers and images have no bytes: those are in `buffers` and read_image_file()
     std::vector<std::span<const uint8_t>> buffers;          ///< of model.bufferViews; empty where no view shows one
     std::vector<std::shared_ptr<const std::string>> bytes;  ///< what `buffers` point into
+    std::vector<std::array<unsigned, 2>> uv_sets;           ///< per material: n of the TEXCOORD_n that Vertex::uv are
     std::set<SceneWarning> warnings;
     std::vector<AnimatedProperty> animated_properties;
     MemoryShare memory = {};  ///< of the file and its buffers, until they are a Scene

@@ -2,8 +2,10 @@
 
 #include "core/error.h"
 #include "core/near_miss.h"
+#include "core/scene/gltf/gltf_drawn.h"
 #include "core/scene/gltf/gltf_parts.h"
 #include "core/scene/ranges.h"
+#include "core/scene/texture_slots.h"
 
 #include <algorithm>
 #include <cfloat>
@@ -65,6 +67,31 @@ Material read_material(GltfFile& file, size_t index, GltfTextures& textures) {
     return material;
 }
 
+/// Vertices have two sets of texture coordinates: those of the material's textures, which may have any numbers. Makes
+/// its slots name one of the two, and returns the numbers.
+std::array<unsigned, 2> choose_uv_sets(GltfFile& file, Material& material, size_t index) {
+    const auto slots = texture_slots(material);
+    std::vector<unsigned> used;
+    for (const TextureSlot* slot : slots)
+        if (slot->texture >= 0 && std::ranges::find(used, slot->texcoord) == used.end()) used.push_back(slot->texcoord);
+    if (std::ranges::all_of(used, [](unsigned set) { return set < 2; })) return {0, 1};
+    used.resize(std::max<size_t>(used.size(), 2), used[0]);
+    for (size_t i = 0; i < slots.size(); ++i) {
+        if (slots[i]->texture < 0) continue;
+        const unsigned set = slots[i]->texcoord;
+        slots[i]->texcoord = set == used[1] && set != used[0] ? 1 : 0;
+        if (set != used[0] && set != used[1])
+            file.warn("The " + std::string(texture_channels[i]) + " texture of " +
+                          label_of(file, index, material.name) + " uses TEXCOORD_" + std::to_string(set) +
+                          ", a third set of texture coordinates beside TEXCOORD_" + std::to_string(used[0]) +
+                          " and TEXCOORD_" + std::to_string(used[1]) + ": TEXCOORD_" + std::to_string(used[0]) +
+                          " is used in its place.",
+                      int(index));
+    }
+    material.occlusion_texture.texcoord = 0;
+    return {used[0], used[1]};
+}
+
 bool has_primitive_without_material(const GltfFile& file) {
     return std::ranges::any_of(file.model.meshes, [](const tinygltf::Mesh& mesh) {
         return std::ranges::any_of(mesh.primitives,
@@ -99,8 +126,12 @@ glm::vec2 vertex_alpha_of(const Scene& scene, size_t material) {
 
 void add_materials(GltfFile& file, Scene& scene) {
     GltfTextures textures(file, scene);
-    for (size_t i = 0; i < file.model.materials.size(); ++i)
+    const std::vector<bool> is_drawn = drawn_materials(file);
+    for (size_t i = 0; i < file.model.materials.size(); ++i) {
+        textures.set_drawing(is_drawn[i]);
         scene.materials.push_back(read_material(file, i, textures));
+        file.uv_sets.push_back(choose_uv_sets(file, scene.materials.back(), i));
+    }
     if (has_primitive_without_material(file)) scene.materials.push_back({.name = "default"});
     textures.decode();
     make_roughness_textures(file, scene);

@@ -3,7 +3,9 @@
 #include "core/scene/gltf/tangents.h"
 
 #include "core/error.h"
+#include "core/near_miss.h"
 #include "core/scene/ranges.h"
+#include "core/scene/texture_slots.h"
 
 #include <tbb/parallel_for.h>
 #include <algorithm>
@@ -85,6 +87,30 @@ void set_aside(const GltfFile& file, const tinygltf::Primitive& primitive, size_
                    std::to_string(index_count) + " indices");
 }
 
+std::string uv_name(unsigned set) { return "TEXCOORD_" + std::to_string(set); }
+
+/// The default material has no textures.
+std::array<unsigned, 2> uv_sets_of(const GltfFile& file, unsigned material) {
+    return material < file.uv_sets.size() ? file.uv_sets[material] : std::array<unsigned, 2>{0, 1};
+}
+
+/// glTF 2.0, section 3.9.2: a primitive must have the texture coordinates that its material's textures name.
+void warn_of_missing_uvs(GltfFile& file, const tinygltf::Primitive& primitive, size_t mesh_index,
+                         unsigned material_index, const Scene& scene) {
+    const Material& material = scene.materials[material_index];
+    const std::string& name = file.model.meshes[mesh_index].name;
+    const auto slots = texture_slots(material);
+    for (size_t i = 0; i < slots.size(); ++i) {
+        if (slots[i]->texture < 0) continue;
+        const std::string attribute = uv_name(uv_sets_of(file, material_index)[slots[i]->texcoord]);
+        if (!primitive.attributes.contains(attribute))
+            file.warn("Mesh " + (name.empty() ? std::to_string(mesh_index) : "'" + shortened(name) + "'") + " has no " +
+                          attribute + ", which the " + texture_channels[i] + " texture of material '" +
+                          shortened(material.name) + "' uses: one texel is seen everywhere.",
+                      int(material_index));
+    }
+}
+
 Mesh read_mesh(const GltfFile& file, Scene& scene, size_t mesh_index, size_t primitive_index, int variant,
                std::string& warning) {
     const tinygltf::Primitive& primitive = primitive_of(file, mesh_index, primitive_index);
@@ -114,8 +140,9 @@ Mesh read_mesh(const GltfFile& file, Scene& scene, size_t mesh_index, size_t pri
     const bool has_tangents = attribute("TANGENT", 4, [](Vertex& v, const float* x) {
         v.tangent = {x[0], x[1], x[2], x[3]};
     });
-    attribute("TEXCOORD_0", 2, [](Vertex& v, const float* x) { v.uv[0] = {x[0], x[1]}; });
-    attribute("TEXCOORD_1", 2, [](Vertex& v, const float* x) { v.uv[1] = {x[0], x[1]}; });
+    const auto sets = uv_sets_of(file, mesh.material);
+    for (size_t k = 0; k < 2; ++k)
+        attribute(uv_name(sets[k]).c_str(), 2, [&](Vertex& v, const float* x) { v.uv[k] = {x[0], x[1]}; });
     const unsigned components = color_components(file, primitive);
     attribute("COLOR_0", components, [&](Vertex& v, const float* x) {
         // glTF 2.0, section 3.7.2.1: within [0, 1].
@@ -139,9 +166,11 @@ bool is_drawn(GltfFile& file, size_t mesh_index, size_t primitive_index) {
     const tinygltf::Primitive& primitive = primitive_of(file, mesh_index, primitive_index);
     const std::string name = file.model.meshes[mesh_index].name;
     for (const auto& [attribute, accessor] : primitive.attributes) {
-        static const std::set<std::string> known = {"POSITION",   "NORMAL",     "TANGENT",
-                                                    "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"};
-        if (!known.contains(attribute) && !is_of_joints(primitive, attribute))
+        static const std::set<std::string> known = {"POSITION", "NORMAL", "TANGENT", "COLOR_0"};
+        // Further sets are read where a texture uses them; "_" begins what is of an application alone.
+        const bool is_of_no_effect =
+            attribute.starts_with("TEXCOORD_") || attribute.starts_with("COLOR_") || attribute.starts_with("_");
+        if (!known.contains(attribute) && !is_of_no_effect && !is_of_joints(primitive, attribute))
             file.warn("The vertex attribute " + attribute + " of mesh '" + name + "' is ignored.");
     }
     const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
@@ -178,6 +207,8 @@ std::vector<std::vector<unsigned>> add_meshes(GltfFile& file, Scene& scene, cons
     for (size_t i = 0; i < drawn.size(); ++i) {
         warn_of_targets(file, drawn[i].first, drawn[i].second);
         if (!warnings[i].empty()) file.warn(warnings[i], int(scene.meshes[first + i].material));
+        warn_of_missing_uvs(file, primitive_of(file, drawn[i].first, drawn[i].second), drawn[i].first,
+                            scene.meshes[first + i].material, scene);
     }
     return meshes_of;
 }

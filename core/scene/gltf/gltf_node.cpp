@@ -1,4 +1,5 @@
 #include "core/scene/gltf/gltf_deformers.h"
+#include "core/scene/gltf/gltf_drawn.h"
 #include "core/scene/gltf/gltf_parts.h"
 #include "core/scene/gltf/gltf_value.h"
 
@@ -7,6 +8,7 @@
 #include "core/scene/ranges.h"
 #include "core/scene/transform.h"
 
+#include <algorithm>
 #include <cfloat>
 #include <cmath>
 #include <numbers>
@@ -112,28 +114,13 @@ SceneCamera read_camera(const GltfFile& file, int index, int node) {
     return camera;
 }
 
-/// Of the scene that the file says to show, of the first if it says none, or of all nodes if it has no scenes.
-std::vector<int> roots(GltfFile& file) {
-    const auto& model = file.model;
-    if (!model.scenes.empty()) {
-        const size_t index =
-            checked_index(file, model.defaultScene < 0 ? 0 : model.defaultScene, model.scenes.size(), "scene");
-        const auto& shown = model.scenes[index];
-        if (model.scenes.size() > 1)
-            file.warn(
-                "Of the " + std::to_string(model.scenes.size()) + " scenes of the file, " +
-                (shown.name.empty() ? "scenes[" + std::to_string(index) + "]" : "'" + shortened(shown.name) + "'") +
-                " is shown.");
-        return shown.nodes;
-    }
-    std::vector<bool> is_child(model.nodes.size(), false);
-    for (const auto& node : model.nodes)
-        for (const int child : node.children)
-            is_child[checked_index(file, child, model.nodes.size(), "child node")] = true;
-    std::vector<int> found;
-    for (size_t i = 0; i < model.nodes.size(); ++i)
-        if (!is_child[i]) found.push_back(int(i));
-    return found;
+void warn_of_other_scenes(GltfFile& file) {
+    const auto& scenes = file.model.scenes;
+    if (scenes.size() < 2) return;
+    const auto shown = size_t(std::max(file.model.defaultScene, 0));
+    const std::string name = scenes[shown].name.empty() ? "scenes[" + std::to_string(shown) + "]"
+                                                        : "'" + shortened(scenes[shown].name) + "'";
+    file.warn("Of the " + std::to_string(scenes.size()) + " scenes of the file, " + name + " is shown.");
 }
 
 /// KHR_node_visibility of the node itself.
@@ -178,7 +165,8 @@ std::vector<int> add_nodes(GltfFile& file, const std::vector<std::vector<unsigne
                  "'): its transform times those of its parents has a number outside of [", -any_length, ", ",
                  any_length, "]");
     };
-    for (const int root : roots(file)) open.push_back({root, -1, true});
+    for (const int root : scene_roots(file)) open.push_back({root, -1, true});
+    warn_of_other_scenes(file);
     for (size_t next = 0; next < open.size(); ++next) {  // breadth first: parents come before their children
         const size_t index = checked_index(file, open[next].node, nodes.size(), "node");
         if (node_of[index] >= 0)

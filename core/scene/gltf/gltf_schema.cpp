@@ -113,6 +113,26 @@ json materials() {
                     {"extensions", material_extensions()}});
 }
 
+json buffer_views() {
+    const json meshopt = object({{"buffer", index},
+                                 {"byteOffset", size},
+                                 {"byteLength", size},
+                                 {"byteStride", size},
+                                 {"count", size},
+                                 {"mode", one_of({"ATTRIBUTES", "TRIANGLES", "INDICES"})},
+                                 {"filter", one_of({"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"})}},
+                                {"buffer", "byteLength", "byteStride", "count", "mode"});
+    return objects(
+        {{"name", text},
+         {"buffer", index},
+         {"byteOffset", size},
+         {"byteLength", size},
+         {"byteStride", size},
+         {"target", one_of({34962, 34963})},
+         {"extensions", extensions({{"EXT_meshopt_compression", meshopt}, {"KHR_meshopt_compression", meshopt}})}},
+        {"buffer", "byteLength"});
+}
+
 json accessors() {
     const json sparse =
         object({{"count", index},
@@ -139,13 +159,15 @@ json meshes() {
     const json variants =
         object({{"mappings", objects({{"material", index}, {"variants", list_of(index)}}, {"material", "variants"})}},
                {"mappings"});
-    const json primitives = objects({{"attributes", attributes},
-                                     {"indices", index},
-                                     {"material", index},
-                                     {"mode", one_of({0, 1, 2, 3, 4, 5, 6})},
-                                     {"targets", list_of(attributes)},
-                                     {"extensions", extensions({{"KHR_materials_variants", variants}})}},
-                                    {"attributes"});
+    const json draco = object({{"bufferView", index}, {"attributes", attributes}}, {"bufferView", "attributes"});
+    const json primitives = objects(
+        {{"attributes", attributes},
+         {"indices", index},
+         {"material", index},
+         {"mode", one_of({0, 1, 2, 3, 4, 5, 6})},
+         {"targets", list_of(attributes)},
+         {"extensions", extensions({{"KHR_materials_variants", variants}, {"KHR_draco_mesh_compression", draco}})}},
+        {"attributes"});
     return objects({{"name", text}, {"primitives", primitives}, {"weights", list_of(number)}}, {"primitives"});
 }
 
@@ -220,13 +242,7 @@ json gltf_schema() {
          {"nodes", nodes()},
          {"meshes", meshes()},
          {"accessors", accessors()},
-         {"bufferViews", objects({{"name", text},
-                                  {"buffer", index},
-                                  {"byteOffset", size},
-                                  {"byteLength", size},
-                                  {"byteStride", size},
-                                  {"target", one_of({34962, 34963})}},
-                                 {"buffer", "byteLength"})},
+         {"bufferViews", buffer_views()},
          {"buffers", objects({{"name", text}, {"uri", text}, {"byteLength", size}}, {"byteLength"})},
          {"images", objects({{"name", text}, {"uri", text}, {"mimeType", text}, {"bufferView", index}})},
          {"samplers", objects({{"name", text},
@@ -234,7 +250,10 @@ json gltf_schema() {
                                {"minFilter", one_of({9728, 9729, 9984, 9985, 9986, 9987})},
                                {"wrapS", wrap},
                                {"wrapT", wrap}})},
-         {"textures", objects({{"name", text}, {"sampler", index}, {"source", index}})},
+         {"textures", objects({{"name", text},
+                               {"sampler", index},
+                               {"source", index},
+                               {"extensions", extensions({{"EXT_texture_webp", object({{"source", index}})}})}})},
          {"materials", materials()},
          {"cameras", cameras()},
          {"animations", animations()},

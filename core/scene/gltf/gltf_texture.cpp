@@ -54,7 +54,7 @@ DecodedImage decode_image_of(const GltfFile& file, size_t index) {
 TextureSlot GltfTextures::slot(int texture, int texcoord, const tinygltf::ExtensionMap& extensions, bool is_srgb,
                                const std::string& what) {
     TextureSlot slot;
-    if (texture < 0) return slot;
+    if (texture < 0 || !is_drawing_) return slot;
     const auto& model = file_.model;
     const auto& source = model.textures[checked_index(file_, texture, model.textures.size(), what + ": texture")];
     const Candidates images = images_of(source, what);
@@ -65,11 +65,6 @@ TextureSlot GltfTextures::slot(int texture, int texcoord, const tinygltf::Extens
         slot.uv_transform = texture_transform(file_, found->second, what);
         const int replacement = index_member(file_, found->second, "texCoord", what);
         if (replacement >= 0) slot.texcoord = unsigned(replacement);
-    }
-    if (slot.texcoord > 1) {
-        file_.warn("The " + what + " uses the texture coordinates TEXCOORD_" + std::to_string(slot.texcoord) +
-                   ", which are replaced by TEXCOORD_0.");
-        slot.texcoord = 0;
     }
     const auto [found, is_new] = index_of_.try_emplace({texture, is_srgb}, int(scene_.textures.size()));
     slot.texture = found->second;
@@ -102,21 +97,22 @@ GltfTextures::Candidates GltfTextures::images_of(const tinygltf::Texture& textur
         if (const int source = index_member(file_, webp->second, "source", what); source >= 0)
             images.push_back(checked_index(file_, source, count, what + ": image"));
     if (texture.source >= 0) images.push_back(checked_index(file_, texture.source, count, what + ": image"));
-    if (!images.empty()) return images;
-    const std::pair<const char*, const char*> others[] = {
-        {"KHR_texture_basisu",
-         "KTX2 (KHR_texture_basisu), which ssrlab cannot decode; `gltf-transform ktxdecompress "
-         "IN.glb OUT.glb` makes PNG of it"},
-        {"MSFT_texture_dds",
-         "DDS (MSFT_texture_dds), which ssrlab cannot decode; `oiiotool IN.dds -o OUT.png` makes PNG "
-         "of it, which the texture's 'source' may name"},
-        {"EXT_texture_avif",
-         "AVIF (EXT_texture_avif), which ssrlab cannot decode; `gltf-transform png IN.glb OUT.glb` "
-         "makes PNG of it"}};
+    struct Other {
+        const char *extension, *kind, *converter;
+    };
+    const Other others[] = {{"KHR_texture_basisu", "KTX2", "gltf-transform ktxdecompress IN.glb OUT.glb"},
+                            {"MSFT_texture_dds", "DDS", "oiiotool IN.dds -o OUT.png"},
+                            {"EXT_texture_avif", "AVIF", "gltf-transform png IN.glb OUT.glb"}};
     std::string reason = "the texture names no image";
-    for (const auto& [extension, kind] : others)
-        if (texture.extensions.contains(extension)) reason = std::string("its only image is ") + kind;
-    file_.warn("The " + what + " is ignored, since " + reason + ".");
+    for (const auto& [extension, kind, converter] : others) {
+        if (!texture.extensions.contains(extension)) continue;
+        reason = std::string(kind) + " (" + extension + ") cannot be decoded";
+        if (images.empty())
+            reason += std::string("; `") + converter + "` makes PNG of it";
+        else
+            file_.warn("The " + what + " shows the PNG or JPEG that its file has as a fallback, since " + reason + ".");
+    }
+    if (images.empty()) file_.warn("The " + what + " is ignored, since " + reason + ".");
     return images;
 }
 

@@ -11,7 +11,11 @@ class GltfTextures {
 public:
     GltfTextures(GltfFile& file, Scene& scene) : file_(file), scene_(scene) {}
 
+    /// Whether something is drawn with what is asked for from now on: slots are empty else.
+    void set_drawing(bool is_drawing) { is_drawing_ = is_drawing; }
+
     /// `info`: the index, texture coordinate set and extensions of a glTF textureInfo. `is_srgb`: used as colour.
+    /// The slot's texcoord is the number of the TEXCOORD_n, which may be above 1.
     TextureSlot slot(int texture, int texcoord, const tinygltf::ExtensionMap& extensions, bool is_srgb,
                      const std::string& what);
 
@@ -29,6 +33,7 @@ private:
 
     GltfFile& file_;
     Scene& scene_;
+    bool is_drawing_ = true;
     std::map<std::tuple<int, bool>, int> index_of_;  // glTF texture and its use -> index into scene_.textures
     std::vector<Candidates> images_of_;              // per element of scene_.textures
 };

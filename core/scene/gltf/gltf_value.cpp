@@ -9,10 +9,11 @@
 #include <limits>
 
 float checked_number(const GltfFile& file, double value, double min, double max, const std::string& what) {
-    // Exporters compute in float32: what is one rounding of it beyond a limit is the limit.
+    // Exporters compute in float32 and write its digits: what is one rounding of it beyond a limit is the limit.
     const float infinity = std::numeric_limits<float>::infinity();
-    const bool is_in_reach =
-        value >= double(std::nextafter(float(min), -infinity)) && value <= double(std::nextafter(float(max), infinity));
+    const bool is_in_reach = std::abs(value) <= double(FLT_MAX) &&
+                             float(value) >= std::nextafter(float(min), -infinity) &&
+                             float(value) <= std::nextafter(float(max), infinity);
     if (!is_in_reach) fail(file.name(), ": ", what, " = ", value, " is outside [", min, ", ", max, "]");
     return float(std::clamp(value, min, max));
 }
