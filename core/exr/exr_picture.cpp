@@ -39,7 +39,6 @@ public:
 
     ExrLayer named(const std::string& name) const {
         if (const ExrLayer* layer = find_layer(header_, layers_, name)) return *layer;
-        if (layers_.size() == 1 && layers_.front().in_part.empty()) return layers_.front();
         for (const ExrLayer& layer : layers_)  // "Z", "normal.X", or with the part's name: a channel of its own
             for (const ExrComponent& component : layer.components) {
                 const ExrPart& part = header_.parts[layer.part];
@@ -47,6 +46,7 @@ public:
                 if (channel == name || part.name + "." + channel == name)
                     return {.name = name, .in_part = name, .part = layer.part, .components = {component}};
             }
+        if (layers_.size() == 1 && layers_.front().in_part.empty()) return layers_.front();
         std::vector<std::string> names;
         for (const ExrLayer& layer : layers_) names.push_back(layer.name);
         fail(file_, " has no layer '", name, "'", suggestion(name, names));
@@ -70,10 +70,9 @@ public:
         if (colours == 0)
             for (const ExrLayer& layer : layers_)
                 if (is_unnamed(layer) && vector_or_grey(layer)) return layer;
-        fail(file_,
-             " does not say which of its layers is the picture: ", colours == 0 ? "none" : std::to_string(colours),
-             " of them ", colours == 1 ? "has" : "have", " R, G and B, and none is without a name; it has ",
-             shown(layers_),
+        fail(file_, " does not say which of its layers is the picture: ",
+             colours == 0 ? "none has" : std::to_string(colours) + " have",
+             " R, G and B, and none of these is without a name; it has ", shown(layers_),
              "; name one with --layer where a command has it, or write R, G and B without a layer's name");
     }
 

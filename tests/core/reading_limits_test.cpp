@@ -54,7 +54,7 @@ TEST_F(Reading, TakesNoMemoryThatAnExrOnlyAnnounces) {
     EXPECT_EQ(
         error_message([&] { read_exr(file); }),
         file.string() +
-            ": its image of 10000000 x 100000 pixels with 3 channels needs 12.1 TB of memory, but files may take 1 "
+            ": its image of 10000000 x 100000 pixels with 3 channels needs 12 TB of memory, but files may take 1 "
             "GB; if it is what you expect, allow more with --max-memory");
 }
 

@@ -34,7 +34,7 @@ TEST_F(LatlongImages, PanoramasAreTwiceAsWideAsHigh) {
         return error_message([&] { EXPECT_EQ(read_latlong(file, 2, notes).rgb(0), glm::vec3(1)); });
     };
     for (const glm::uvec2 size :
-         {glm::uvec2(64, 32), {1001, 500}, {1001, 501}, {1000, 499}, {63, 32}, {1, 1}, {8, 4}, {3, 1}})
+         {glm::uvec2(64, 32), {1001, 500}, {101, 51}, {100, 49}, {63, 32}, {1, 1}, {8, 4}, {3, 1}})
         EXPECT_EQ(read(size.x, size.y), "no error") << size.x;
     for (const auto& [size, said] : {std::pair(glm::uvec2(64, 64), "has 64 x 64 pixels; it may be an angular map"),
                                      {glm::uvec2(16, 96), "`exrenvmap -l -ci -w 64 cube.exr latlong.exr`"},
