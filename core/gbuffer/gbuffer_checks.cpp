@@ -196,12 +196,16 @@ void check_normals(const HostGBuffer& g, std::vector<std::string>& notes) {
         return;
     }
     if (as_is >= may_fit) return;
+    const NormalReading* best = nullptr;  // a wall before the camera fits several of them, all that is seen fits one
     for (size_t r = 2; r < readings.size(); ++r)
-        if (median(readings[r].cosines) > fits) {
-            notes.push_back(text + "; they would, taken " + readings[r].name +
-                            ". They must be in world space, +Y up, and point away from the surface.");
-            return;
-        }
+        if (median(readings[r].cosines) > fits &&
+            (!best || fitting_share(readings[r].cosines) > fitting_share(best->cosines)))
+            best = &readings[r];
+    if (best) {
+        notes.push_back(text + "; they would, taken " + best->name +
+                        ". They must be in world space, +Y up, and point away from the surface.");
+        return;
+    }
     if (as_is < never_fits) notes.push_back(text + ": check their space, the camera's matrices and 'near' and 'far'.");
 }
 
