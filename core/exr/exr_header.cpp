@@ -122,7 +122,7 @@ private:
     }
 
     void read_part(ExrPart& part, std::string attribute) {
-        std::string type_of_part;
+        std::string type_of_part, first_view;
         double chunks = 0;
         bool has_display = false, has_data = false, has_tiles = false;
         for (; in_ && !attribute.empty(); attribute = text()) {
@@ -152,6 +152,8 @@ private:
                 part.chromaticities = {place(0), place(1), place(2), place(3)};
             } else if (type == "int" && attribute == "chunkCount") {
                 chunks = value_at<uint32_t>(value, 0);
+            } else if (type == "stringvector" && attribute == "multiView" && value.size() >= 4) {
+                first_view = value.substr(4, value_at<uint32_t>(value, 0));
             } else if (type == "string") {
                 part.texts[attribute] = value;
             }
@@ -161,6 +163,7 @@ private:
             return found == part.texts.end() ? "" : found->second;
         };
         part.name = text_of("name"), part.view = text_of("view"), type_of_part = text_of("type");
+        if (part.view.empty()) part.view = first_view;
         part.is_deep |= type_of_part == "deepscanline" || type_of_part == "deeptile";
         const bool is_known = type_of_part.empty() || type_of_part == "scanlineimage" || type_of_part == "tiledimage";
         if (!is_known && !part.is_deep) part.unknown_blocks = chunks;

@@ -30,8 +30,9 @@ std::string shown(const ExrWindow& window);
 
 /// One image of a file. Several parts share the display window and the chromaticities.
 struct ExrPart {
-    std::string name, view;  ///< "" where the file does not say
-    bool is_deep = false;    ///< pixels hold lists of samples
+    std::string name;  ///< "" where the file does not say
+    std::string view;  ///< of the channels without a layer's name: the attribute `view`, or the first of `multiView`
+    bool is_deep = false;  ///< pixels hold lists of samples
     std::vector<ExrChannel> channels;
     ExrWindow data, display;    ///< which pixels are stored; which are the picture
     glm::dvec2 tile{0, 0};      ///< pixels; 0: scan lines

@@ -48,7 +48,9 @@ public:
             }
         if (layers_.size() == 1 && layers_.front().in_part.empty()) return layers_.front();
         std::vector<std::string> names;
-        for (const ExrLayer& layer : layers_) names.push_back(layer.name);
+        for (const ExrLayer& layer : layers_)
+            if (!layer.name.empty()) names.push_back(layer.name);
+        if (nearest_name(name, names).empty()) fail(file_, " has no layer '", name, "'; it has ", shown(layers_));
         fail(file_, " has no layer '", name, "'", suggestion(name, names));
     }
 

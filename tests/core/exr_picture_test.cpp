@@ -275,6 +275,10 @@ TEST_F(ExrPictures, PartsAreFoundByNameOrByTheirColours) {
     stereo.write(file);
     EXPECT_EQ(color(), amber);
     EXPECT_EQ(color("right"), glm::vec3(5));
+    EXPECT_EQ(color("left"), amber);
+    EXPECT_NE(refused("top").find("has no layer 'top'; it has R G B without a layer's name, 'right' (R G B)"),
+              std::string::npos)
+        << refused("top");
 
     Imf::Header deep(4, 2);
     deep.channels().insert("R", Imf::Channel(Imf::HALF)), deep.channels().insert("G", Imf::Channel(Imf::HALF));
