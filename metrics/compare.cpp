@@ -24,19 +24,15 @@ struct Source {
     bool is_radiance = true;  ///< else display codes
 };
 
-/// Of radiance, or of codes, whichever the file's bytes say.
+/// Of radiance, whose codes are not made yet, or of codes, whichever the file's bytes say.
 Source read_source(const std::filesystem::path& file, const CompareOptions& options,
                    std::vector<std::string>& warnings) {
-    const MetricSettings& settings = options.settings;
     check_regular_file(file);
     const std::string start = first_bytes(file.string());
     const std::span bytes(reinterpret_cast<const uint8_t*>(start.data()), start.size());
     if (const std::string why = why_unreadable(bytes, file.string(), ImageUse::comparison); !why.empty())
         fail("cannot read ", file.string(), ": it ", why);
-    if (image_format(bytes) != ImageFormat::png) {
-        const HostImage linear = read_radiance(file, options.layer, warnings);
-        return {linear, display_codes(linear, settings.exposure_ev, settings.tone_map)};
-    }
+    if (image_format(bytes) != ImageFormat::png) return {.linear = read_radiance(file, options.layer, warnings)};
     Source source{.is_radiance = false};
     source.codes = source.linear = read_png_codes(file, warnings);
     for (float& v : source.linear.values) v = linear_from_srgb(v);
@@ -126,17 +122,20 @@ void check(const CompareOptions& options) {
 Comparison compare(const CompareOptions& options) {
     check(options);
     Comparison comparison{.options = options};
-    const Source reference = read_source(options.reference, options, comparison.warnings);
+    Source reference = read_source(options.reference, options, comparison.warnings);
     constexpr double bytes_per_pixel = 300;  // of both images and all maps, as measured with the default metrics
     MemoryShare memory;
     memory.add(double(reference.linear.pixel_count()) * bytes_per_pixel,
                options.reference.string() + ": the comparison of its " +
                    std::to_string(reference.linear.pixel_count()) + " pixels");
-    const Source test = read_source(options.test, options, comparison.warnings);
+    Source test = read_source(options.test, options, comparison.warnings);
     if (reference.linear.extent != test.linear.extent)
         fail(options.reference.string(), " has ", reference.linear.extent.x, "x", reference.linear.extent.y,
              " pixels, but ", options.test.string(), " has ", test.linear.extent.x, "x", test.linear.extent.y,
              ": both must be of one size");
+    for (Source* source : {&reference, &test})  // of which the memory is set aside
+        if (source->is_radiance)
+            source->codes = display_codes(source->linear, options.settings.exposure_ev, options.settings.tone_map);
     comparison.extent = reference.linear.extent;
     comparison.reference_counts = count_bad_pixels(reference.linear);
     comparison.test_counts = count_bad_pixels(test.linear);
