@@ -181,10 +181,10 @@ std::string why_unreadable(std::span<const uint8_t> bytes, const std::string& fi
     return with_names(why, file);
 }
 
-std::string first_bytes(const std::string& file) {
+std::vector<uint8_t> first_bytes(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
-    std::string bytes(looked_at, '\0');
-    in.read(bytes.data(), std::streamsize(bytes.size()));
+    std::vector<uint8_t> bytes(looked_at);
+    in.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(bytes.size()));
     bytes.resize(size_t(std::max<std::streamsize>(in.gcount(), 0)));
     return bytes;
 }

@@ -1,7 +1,9 @@
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 /// The formats of images that ssrlab reads.
 enum class ImageFormat { none, exr, png, jpeg, webp, radiance };
@@ -18,7 +20,7 @@ enum class ImageUse { codes, radiance, comparison };
 std::string why_unreadable(std::span<const uint8_t> bytes, const std::string& file, ImageUse use);
 
 /// The first bytes of a file, at most 512; empty if it cannot be read.
-std::string first_bytes(const std::string& file);
+std::vector<uint8_t> first_bytes(const std::filesystem::path& file);
 
 /// A name as a command of a shell has it: in quotes where it is no plain one.
 std::string quoted_for_shell(const std::string& name);

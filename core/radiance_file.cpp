@@ -11,8 +11,7 @@
 
 HostImage read_radiance(const std::filesystem::path& file, const std::string& layer, std::vector<std::string>& notes) {
     check_regular_file(file);
-    const std::string start = first_bytes(file.string());
-    const std::span bytes(reinterpret_cast<const uint8_t*>(start.data()), start.size());
+    const std::vector<uint8_t> bytes = first_bytes(file);
     if (const std::string why = why_unreadable(bytes, file.string(), ImageUse::radiance); !why.empty())
         fail("cannot read ", file.string(), ": it ", why);
     if (image_format(bytes) == ImageFormat::radiance) return read_radiance_hdr(file, notes);

@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <cmath>
 #include <ostream>
-#include <span>
 
 namespace {
 
@@ -28,8 +27,7 @@ struct Source {
 Source read_source(const std::filesystem::path& file, const CompareOptions& options,
                    std::vector<std::string>& warnings) {
     check_regular_file(file);
-    const std::string start = first_bytes(file.string());
-    const std::span bytes(reinterpret_cast<const uint8_t*>(start.data()), start.size());
+    const std::vector<uint8_t> bytes = first_bytes(file);
     if (const std::string why = why_unreadable(bytes, file.string(), ImageUse::comparison); !why.empty())
         fail("cannot read ", file.string(), ": it ", why);
     if (image_format(bytes) != ImageFormat::png) return {.linear = read_radiance(file, options.layer, warnings)};

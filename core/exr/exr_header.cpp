@@ -1,6 +1,7 @@
 #include "core/exr/exr_header.h"
 
 #include "core/error.h"
+#include "core/image_format.h"
 #include "core/reading_limits.h"
 
 #include <algorithm>
@@ -82,7 +83,7 @@ public:
     ExrHeader read() {
         constexpr int32_t magic = 20000630, version = 2, version_bits = 0xff;
         constexpr int32_t tiled = 0x200, long_names = 0x400, deep = 0x800, several_parts = 0x1000;
-        if (integer() != magic) malformed();
+        if (integer() != magic) refuse_other_format();
         const int32_t kind = integer();
         if ((kind & version_bits) != version && in_)
             fail("cannot read ", name_, ": it is of version ", kind & version_bits, " of OpenEXR's file layout; only ",
@@ -106,6 +107,16 @@ private:
 
     [[noreturn]] void malformed() const {
         fail("cannot read ", name_, " as OpenEXR: its header is truncated or malformed");
+    }
+
+    /// The file does not begin as OpenEXR's do.
+    [[noreturn]] void refuse_other_format() const {
+        const std::vector<uint8_t> bytes = first_bytes(name_);
+        std::string why = why_unreadable(bytes, name_, ImageUse::radiance);
+        if (image_format(bytes) == ImageFormat::radiance)
+            why = "is a Radiance picture; convert it: oiiotool " + quoted_for_shell(name_) + " -d float -o OUT.exr";
+        if (why.empty()) malformed();
+        fail("cannot read ", name_, " as OpenEXR: it ", why);
     }
 
     int32_t integer() {

@@ -1,9 +1,10 @@
 #include "core/error.h"
 #include "core/exr.h"
+#include "tests/error_message.h"
 
+#include <gtest/gtest.h>
 #include <filesystem>
 #include <fstream>
-#include <gtest/gtest.h>
 #include <random>
 
 namespace {
@@ -60,6 +61,11 @@ TEST(Exr, RefusesTruncatedMissingAndEmptyFiles) {
     EXPECT_THROW(read_exr(file), Error);
     std::ofstream(file, std::ios::trunc) << "no EXR";
     EXPECT_THROW(read_exr(file), Error);
+    std::ofstream(file, std::ios::trunc) << "<html><title>404 Not Found</title>";
+    EXPECT_NE(error_message([&] { read_exr(file); }).find("cut.exr as OpenEXR: it is an HTML page"), std::string::npos);
+    std::ofstream(file, std::ios::trunc) << "#?RADIANCE";
+    EXPECT_NE(error_message([&] { read_exr(file); }).find("it is a Radiance picture; convert it: oiiotool "),
+              std::string::npos);
     std::filesystem::remove(file);
     EXPECT_THROW(read_exr(file), Error);
     EXPECT_THROW(write_exr(file, HostImage({0, 0}, 3)), Error);
