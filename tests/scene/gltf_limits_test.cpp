@@ -3,6 +3,7 @@
 #include "core/png.h"
 #include "core/scene/material_override.h"
 #include "core/scene/ranges.h"
+#include "tests/png_writer.h"
 #include "tests/reading_limits.h"
 #include "tests/scene/gltf_fixture.h"
 
@@ -119,17 +120,24 @@ TEST_F(GltfLimits, OverridesShareWhatTheyChange) {
 
 TEST_F(GltfLimits, ImagesAreJudgedByTheirHeaders) {
     add_textures(1, {8, 8});
-    std::string png = read_text(folder / "t.png");
-    png[16 + 2] = 0x4E, png[16 + 3] = 0x20;  // a width of 20000
-    write_text(folder / "t.png", png);
+    const std::string png = read_text(folder / "t.png");
+    const auto write_with_extent = [&](uint32_t width, uint32_t height) {
+        constexpr size_t begin = 8, size = 4 + 4 + 13 + 4;  // of the first chunk, which begins with the extent
+        const std::string rest = png.substr(begin + 8 + 8, 13 - 8);
+        write_text(
+            folder / "t.png",
+            std::string(png).replace(
+                begin, size, PngWriter::chunk("IHDR", PngWriter::integer(width) + PngWriter::integer(height) + rest)));
+    };
+    write_with_extent(20000, 8);
     EXPECT_NE(error_message([&] { load(); }).find("image 0 ('t.png') has 20000 x 8 pixels; allowed are sides of 16384"),
               std::string::npos);
-    png[16 + 2] = 0x3E, png[20 + 2] = 0x3E;  // 16000 x 16000, nearly
-    write_text(folder / "t.png", png);
+    write_with_extent(16000, 16000);
     EXPECT_NE(refused(LimitsOf({.memory = 1'000'000'000})).find("pixels needs"), std::string::npos);
     // stb_image knows this one, too, and would read it.
     write_text(folder / "t.png", "P6\n2 2\n255\n" + std::string(12, '\x7F'));
-    EXPECT_NE(error_message([&] { load(); }).find("it is a PPM; convert it: oiiotool t.png -o t.png"), std::string::npos);
+    EXPECT_NE(error_message([&] { load(); }).find("it is a PPM; convert it: oiiotool t.png -o t.png"),
+              std::string::npos);
 }
 
 TEST_F(GltfLimits, UrisStayBelowItsFolder) {
