@@ -98,15 +98,13 @@ inline glm::vec4 filtered(const auto& texture, glm::vec2 uv, const auto& codes) 
 
 constexpr size_t huge_page = size_t(1) << 21;  // of x86-64 and of most ARM
 
-}  // namespace
-
-namespace {
 template <class C>
 C codes_at(const Texture& texture, int x, int y) {
     C codes;
     std::memcpy(&codes, &(*texture.rgba)[(size_t(y) * texture.extent.x + size_t(x)) * sizeof codes], sizeof codes);
     return codes;
 }
+
 }  // namespace
 
 glm::vec4 sample_texture(const Texture& texture, glm::vec2 uv) {
@@ -152,12 +150,24 @@ TiledTextures::TiledTextures(const Scene& scene) : textures_(scene.textures.size
         tiled.texels = texels;
         if (!std::exchange(block->second.is_to_copy, false)) continue;
         const uint8_t* const rows = block->first->data();
-        const size_t texel = tiled.words * sizeof(uint32_t);
-        tbb::parallel_for(0, tiled.extent.y, [&](int y) {
-            for (int x = 0; x < tiled.extent.x; ++x)
-                std::memcpy(texels + tiled.index(x, y) * tiled.words,
-                            rows + texel * (size_t(y) * size_t(tiled.extent.x) + size_t(x)), texel);
-        });
+        const auto copy =
+            [&](auto codes) {  // of one texel; a row of a tile at a time, of a size that the compiler knows
+                constexpr size_t texel = sizeof codes;
+                constexpr int row_of_tile = int(tile_side);
+                tbb::parallel_for(0, tiled.extent.y, [&](int y) {
+                    const uint8_t* const row = rows + texel * size_t(y) * size_t(tiled.extent.x);
+                    auto* const to = reinterpret_cast<uint8_t*>(texels);
+                    int x = 0;
+                    for (; x + row_of_tile <= tiled.extent.x; x += row_of_tile)
+                        std::memcpy(to + texel * tiled.index(x, y), row + texel * size_t(x), texel * row_of_tile);
+                    for (; x < tiled.extent.x; ++x)
+                        std::memcpy(to + texel * tiled.index(x, y), row + texel * size_t(x), texel);
+                });
+            };
+        if (tiled.words == 2)
+            copy(WideCodes());
+        else
+            copy(Codes());
     }
 }
 
