@@ -83,16 +83,18 @@ bool read_rows(PngDecoder& d, uint8_t* codes, size_t row) {
     return true;
 }
 
-/// Three codes of each texel, and whether an alpha is not the greatest.
+/// Three codes of each texel, and whether each alpha is the greatest.
 template <class Code>
 bool take_rgb(const DecodedImage& from, HostImage& rgb) {
-    constexpr float most = std::numeric_limits<Code>::max();
+    constexpr Code most = std::numeric_limits<Code>::max();
+    std::vector<float> value_of(size_t(most) + 1);
+    for (size_t code = 0; code < value_of.size(); ++code) value_of[code] = float(code) / float(most);
     bool is_opaque = true;
     for (size_t i = 0; i < rgb.pixel_count(); ++i) {
         Code code[4];
         std::memcpy(code, &from.rgba[i * sizeof code], sizeof code);
-        for (unsigned c = 0; c < 3; ++c) rgb.values[i * 3 + c] = float(code[c]) / most;
-        is_opaque = is_opaque && code[3] == std::numeric_limits<Code>::max();
+        for (unsigned c = 0; c < 3; ++c) rgb.values[i * 3 + c] = value_of[code[c]];
+        is_opaque &= code[3] == most;
     }
     return is_opaque;
 }
