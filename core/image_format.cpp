@@ -117,7 +117,9 @@ std::string with_names(std::string_view text, const std::string& file) {
 std::string command_of(const KnownFormat& format, ImageUse use) {
     if (!format.command) return "";
     const std::string command = format.command;
-    if (format.holds_radiance) return use == ImageUse::codes ? command : "oiiotool {in} -o {exr}";
+    if (format.holds_radiance && use != ImageUse::codes)
+        return std::string("oiiotool {in} -o {exr}") +
+               (use == ImageUse::comparison ? " (if it holds display codes: -o {png})" : "");
     if (use != ImageUse::radiance || !command.ends_with("{png}")) return command;
     if (command == by_oiiotool) return "oiiotool {in} -d float --colorconvert sRGB linear -o {exr}";
     return command + " && oiiotool {png} -d float --colorconvert sRGB linear -o {exr}";

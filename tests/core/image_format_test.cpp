@@ -83,7 +83,8 @@ TEST(ImageFormat, BecomesRadianceByItsCommand) {
 
 /// What is compared may be either, so that each format becomes what keeps it.
 TEST(ImageFormat, BecomesWhatCanBeCompared) {
-    EXPECT_EQ(why("II*\0\x08\0\0\0"s, ImageUse::comparison), "is a TIFF; convert it: oiiotool a.img -o a.exr");
+    EXPECT_EQ(why("II*\0\x08\0\0\0"s, ImageUse::comparison),
+              "is a TIFF; convert it: oiiotool a.img -o a.exr (if it holds display codes: -o a.png)");
     EXPECT_EQ(why("BM\x36\0\0\0"s, ImageUse::comparison), "is a BMP; convert it: oiiotool a.img -o a.png");
     EXPECT_EQ(why("\xFF\xD8\xFF\xE0"s, ImageUse::comparison, "a.jpg"),
               "is a JPEG, whose losses would count as errors; if they are to count, convert it: oiiotool a.jpg -o a.png");
