@@ -19,6 +19,7 @@ struct EncodedImage {
 struct DecodedImage {
     glm::uvec2 extent{0, 0};
     unsigned channel_bytes = 1;  ///< of a channel: 1, or 2 in the machine's byte order
+    std::string stored = {};     ///< how the file holds colours: "16 bits, grey with alpha, interlaced"
     std::vector<uint8_t> rgba;
     std::vector<std::string>
         warnings;        ///< one sentence each, without `what`: what the file has amiss, and was read all the same
@@ -27,8 +28,8 @@ struct DecodedImage {
     size_t texel_bytes() const { return 4 * size_t(channel_bytes); }
 };
 
-/// Decodes a PNG, JPEG or WebP, whichever the bytes are. Memory is set aside before it is spent. Fails with Error, which
-/// begins with `what`: if the bytes are of another format, with the command that converts it; if they are cut or
+/// Decodes a PNG, JPEG or WebP, whichever the bytes are. Memory is set aside before it is spent. Fails with Error,
+/// which begins with `what`: if the bytes are of another format, with the command that converts it; if they are cut or
 /// broken; if a side is longer than `longest_side` pixels; if the image takes more than may be read (reading_limits.h).
 DecodedImage decode_image(const EncodedImage& image, unsigned longest_side);
 

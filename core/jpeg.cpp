@@ -136,6 +136,11 @@ DecodedImage decode_jpeg(const EncodedImage& image, unsigned longest_side) {
              quoted_for_shell(std::filesystem::path(image.file).replace_extension(".png").string()));
     DecodedImage decoded;
     decoded.extent = {d.jpeg.image_width, d.jpeg.image_height};
+    decoded.stored = std::string("8 bits, ") +
+                     (space == JCS_GRAYSCALE ? "grey"
+                      : space == JCS_RGB     ? "RGB"
+                                             : "YCbCr") +
+                     (d.jpeg.progressive_mode ? ", progressive" : "");
     constexpr double of_decoder = 10;  // planes, coefficients, and rows as they are upsampled
     const MemoryShare more = reserve_memory(image, decoded, longest_side, of_decoder);
     decoded.rgba.resize(size_t(decoded.extent.x) * decoded.extent.y * 4);

@@ -83,6 +83,26 @@ bool read_rows(PngDecoder& d, uint8_t* codes, size_t row) {
     return true;
 }
 
+std::string stored_as(const PngDecoder& d) {
+    const auto colors = [&] {
+        switch (png_get_color_type(d.png, d.info)) {
+            case PNG_COLOR_TYPE_GRAY:
+                return "grey";
+            case PNG_COLOR_TYPE_GRAY_ALPHA:
+                return "grey with alpha";
+            case PNG_COLOR_TYPE_PALETTE:
+                return "a palette";
+            case PNG_COLOR_TYPE_RGB_ALPHA:
+                return "RGB with alpha";
+            default:
+                return "RGB";
+        }
+    };
+    return std::to_string(png_get_bit_depth(d.png, d.info)) + " bits, " + colors() +
+           (png_get_valid(d.png, d.info, PNG_INFO_tRNS) ? " with transparent colours" : "") +
+           (png_get_interlace_type(d.png, d.info) == PNG_INTERLACE_NONE ? "" : ", interlaced");
+}
+
 /// Three codes of each texel, and whether each alpha is the greatest.
 template <class Code>
 bool take_rgb(const DecodedImage& from, HostImage& rgb) {
@@ -121,6 +141,7 @@ DecodedImage decode_png(const EncodedImage& image, unsigned longest_side) {
     DecodedImage decoded;
     decoded.extent = {png_get_image_width(decoder.png, decoder.info), png_get_image_height(decoder.png, decoder.info)};
     decoded.channel_bytes = png_get_bit_depth(decoder.png, decoder.info) == 16 ? 2 : 1;
+    decoded.stored = stored_as(decoder);     // before libpng is asked to expand it
     constexpr double bytes_of_rows = 2 * 8;  // one is expanded in place, beside the one before it
     const MemoryShare of_decoder =
         reserve_memory(image, decoded, longest_side, bytes_of_rows / std::max(decoded.extent.y, 1u));

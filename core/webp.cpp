@@ -15,6 +15,8 @@ DecodedImage decode_webp(const EncodedImage& image, unsigned longest_side) {
              " cannot be decoded: it is a WebP with an animation, which is no texture; save a still picture");
     DecodedImage decoded;
     decoded.extent = {features.width, features.height};
+    decoded.stored = std::string("8 bits, ") + (features.has_alpha ? "RGB with alpha" : "RGB") +
+                     (features.format == 2 ? ", lossless" : ", lossy");
     constexpr double of_decoder = 12;  // pixels as they are coded, and caches
     const MemoryShare more = reserve_memory(image, decoded, longest_side, of_decoder);
     decoded.rgba.resize(size_t(decoded.extent.x) * decoded.extent.y * 4);

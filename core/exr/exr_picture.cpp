@@ -91,34 +91,42 @@ void convert(const fs::path& file, const ExrPart& part, ExrPicture& picture) {
 
 }  // namespace
 
+ExrPictureSource exr_picture_source(const fs::path& file, const ExrHeader& header, const std::string& name,
+                                    std::vector<std::string>& notes) {
+    using Kind = ExrPictureSource::Kind;
+    const Chooser chooser(file, header);
+    const ExrLayer layer = name.empty() ? chooser.picture(notes) : chooser.named(name);
+    if (const auto rgb = components_named(layer, "RGB")) return {layer, *rgb, Kind::rgb};
+    if (has_chroma(layer))
+        return {layer, {*layer.find("Y"), *layer.find("RY"), *layer.find("BY")}, Kind::luminance_chroma};
+    const auto others = vector_or_grey(layer);
+    if (!others)
+        fail(file.string(), ": layer ", shown(layer), " is no colour: it has ", layer.components.size(),
+             " channels, and neither R, G and B nor X, Y and Z; name one of them with --layer, as '",
+             header.parts[layer.part].channels[layer.components.front().channel].name, "'");
+    return {layer, *others, others->size() == 3 ? Kind::vector : Kind::grey};
+}
+
 ExrPicture read_exr_picture(const fs::path& file, const std::string& name) {
+    using Kind = ExrPictureSource::Kind;
     const ExrHeader header = read_exr_header(file);
     ExrPicture picture;
-    const Chooser chooser(file, header);
-    const ExrLayer layer = name.empty() ? chooser.picture(picture.notes) : chooser.named(name);
-    const ExrPart& part = header.parts[layer.part];
-
-    auto components = components_named(layer, "RGB");
-    const bool is_rgb = components.has_value();
-    if (!is_rgb && has_chroma(layer)) {
-        picture.rgb = read_luminance_chroma(
-            file, header, layer.part, {layer.find("Y")->channel, layer.find("RY")->channel, layer.find("BY")->channel},
-            picture.memory);
+    const ExrPictureSource source = exr_picture_source(file, header, name, picture.notes);
+    const ExrPart& part = header.parts[source.layer.part];
+    const auto channel = [&](size_t i) { return source.components[i].channel; };
+    if (source.kind == Kind::luminance_chroma) {
+        picture.rgb = read_luminance_chroma(file, header, source.layer.part, {channel(0), channel(1), channel(2)},
+                                            picture.memory);
         convert(file, part, picture);
         return picture;
     }
-    if (!is_rgb) components = vector_or_grey(layer);
-    if (!components)
-        fail(file.string(), ": layer ", shown(layer), " is no colour: it has ", layer.components.size(),
-             " channels, and neither R, G and B nor X, Y and Z; name one of them with --layer, as '",
-             part.channels[layer.components.front().channel].name, "'");
-    ExrPlanes planes{.part = layer.part, .channels = {}};
-    for (const ExrComponent& component : *components) planes.channels.push_back(component.channel);
+    ExrPlanes planes{.part = source.layer.part, .channels = {}};
+    for (size_t i = 0; i < source.components.size(); ++i) planes.channels.push_back(channel(i));
     picture.memory = read_planes(file, header, {&planes, 1});
     refuse_rounding(file, header, planes);
-    if (planes.channels.size() == 3) {
+    if (source.kind != Kind::grey) {
         picture.rgb = std::move(planes.image);
-        if (is_rgb) convert(file, part, picture);
+        if (source.kind == Kind::rgb) convert(file, part, picture);
         return picture;
     }
     picture.memory.add(double(planes.image.pixel_count()) * sizeof(glm::vec3), file.string() + ": its colours");

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/exr/exr_layers.h"
 #include "core/host_image.h"
 #include "core/reading_limits.h"
 
@@ -12,6 +13,19 @@ struct ExrPicture {
     std::vector<std::string> notes;  ///< one sentence each, which begins with the file: what was chosen and converted
     MemoryShare memory;
 };
+
+/// What the colours of a file are made of.
+struct ExrPictureSource {
+    enum class Kind { rgb, luminance_chroma, vector, grey };  ///< vector: X Y Z, as they are
+    ExrLayer layer;
+    std::vector<ExrComponent> components;  ///< of the layer, in the order of R G B, Y RY BY or X Y Z; one of grey
+    Kind kind = Kind::rgb;
+};
+
+/// What read_exr_picture() makes its colours of, by the header alone. `notes` gets a sentence where a choice was made.
+/// Fails with Error as it does where there is no such layer, or none of these channels.
+ExrPictureSource exr_picture_source(const std::filesystem::path& file, const ExrHeader& header,
+                                    const std::string& layer, std::vector<std::string>& notes);
 
 /// Reads the colours of `layer`: a layer, a part, a view or a channel. Where that is "": R, G and B without a layer's
 /// name, or Y, RY and BY; else the layer "image", as references call what the camera sees; else the only layer with
