@@ -5,6 +5,7 @@
 #include "core/shown_text.h"
 #include "experiments/commands/commands.h"
 #include "experiments/config/points/all_points.h"
+#include "experiments/config/shots/scene_warnings.h"
 #include "experiments/run/needs.h"
 #include "experiments/run/progress.h"
 #include "experiments/tables/csv.h"
@@ -85,7 +86,8 @@ int needs_command(const NeedsOptions& options, const CommonOptions& common) {
         std::printf("  %-22s %-10s %s\n", fact.name.c_str(), fact.value.c_str(), fact.why.c_str());
     std::printf("\nSkipped, as it cannot change a pixel here:\n");
     print_left_out(left_out_of(shot, points));
-    for (const SceneWarning& warning : shot.scene.warnings) std::printf("warning: %s\n", shown_text(warning.text).c_str());
+    for (const std::string& warning : warning_sentences(shot.scene))
+        std::printf("warning: %s\n", shown_text(warning).c_str());
     if (!options.is_measured) return 0;
 
     Device device(common.device);

@@ -7,6 +7,7 @@
 #include "core/scene/load_scene.h"
 #include "core/shown_text.h"
 #include "experiments/commands/commands.h"
+#include "experiments/config/shots/scene_warnings.h"
 #include "experiments/config/shots/shot.h"
 #include "experiments/evaluation/columns/table_columns.h"
 #include "experiments/measuring/frames/capture.h"
@@ -76,8 +77,8 @@ void gbuffer_command(const GBufferCommandOptions& options, const CommonOptions& 
         .depth_format = format,
         .depth_direction = options.is_reversed ? DepthDirection::reversed : DepthDirection::standard};
     const Shot shot = load_shot(config, scene_search_path(common.scene_path));
-    for (const SceneWarning& warning : shot.scene.warnings)
-        std::fprintf(stderr, "warning: %s\n", shown_text(warning.text).c_str());
+    for (const std::string& warning : warning_sentences(shot.scene))
+        std::fprintf(stderr, "warning: %s\n", shown_text(warning).c_str());
     const std::filesystem::path out =
         options.out.empty() ? std::filesystem::path(shot.scene.name + "_gbuffer") : options.out;
 

@@ -5,6 +5,7 @@
 #include "core/scene/load_scene.h"
 #include "core/shown_text.h"
 #include "experiments/commands/commands.h"
+#include "experiments/config/shots/scene_warnings.h"
 #include "experiments/config/shots/shot.h"
 #include "experiments/run/progress.h"
 #include "groundtruth/paths/path_tracer.h"
@@ -77,8 +78,8 @@ void print_ladder(const LadderSummary& ladder) {
 
 void reference_command(const ReferenceCommandOptions& options, const CommonOptions& common) {
     const Shot shot = load_single_shot(options.shot, common);
-    for (const SceneWarning& warning : shot.scene.warnings)
-        std::fprintf(stderr, "warning: %s\n", shown_text(warning.text).c_str());
+    for (const std::string& warning : warning_sentences(shot.scene))
+        std::fprintf(stderr, "warning: %s\n", shown_text(warning).c_str());
     const ShotFrame frame = shot_frame(shot, options.shot.frame);
 
     Progress progress(1.0);

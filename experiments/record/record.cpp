@@ -4,6 +4,7 @@
 #include "core/files.h"
 #include "core/gbuffer/gbuffer_transfer.h"
 #include "core/gpu/device.h"
+#include "experiments/config/shots/scene_warnings.h"
 #include "experiments/measuring/frames/frame_source.h"
 #include "experiments/measuring/measure.h"
 #include "experiments/measuring/render_variant.h"
@@ -184,7 +185,7 @@ RecordedPage record_page(Device& device, const RecordSettings& settings) {
              "; it holds ", most_pixels / 1'000'000, " million pixels: record fewer or smaller frames");
     require_replayable(device, settings.point);
     const Shot shot = load_shot(asked, settings.search_path);
-    for (const SceneWarning& warning : shot.scene.warnings) settings.say("warning: " + warning.text);
+    for (const std::string& warning : warning_sentences(shot.scene)) settings.say("warning: " + warning);
 
     Recording made(device, shot, settings);
     for (const FrameStep& step : shot.steps) made.add(step);

@@ -7,6 +7,7 @@
 #include "core/path_inside.h"
 #include "core/shared/environment.h"
 #include "experiments/config/points/external_images.h"
+#include "experiments/config/shots/scene_warnings.h"
 #include "experiments/config/shots/shot.h"
 #include "experiments/measuring/measure.h"
 #include "experiments/measuring/reflection_probe.h"
@@ -42,7 +43,7 @@ public:
             fail(settings_.scene, ": a probe is one camera's, and ", shots.size(),
                  " were named: write a folder for each");
         check_shapes(scene);
-        done_.warnings = texts_of(scene.warnings);
+        done_.warnings = warning_sentences(scene);
         if (scene.hides_backs())
             done_.warnings.push_back(
                 "This scene hides the backs of single-sided materials: scene.glb says so of each ('doubleSided'). An "

@@ -175,7 +175,8 @@ void complete_shot_entry(nlohmann::json& entry, const nlohmann::json& rendered) 
             entry[key] = value;
 }
 
-nlohmann::json shot_entry(const Shot& shot, const Config& config, bool keep_all) {
+nlohmann::json shot_entry(const Shot& shot, const Config& config, const std::vector<std::string>& scene_warnings,
+                          bool keep_all) {
     const nlohmann::json needs =
         shot.config.gbuffer.empty() ? fact_entries(list_facts(shot.scene, shot.facts)) : nlohmann::json::array();
     nlohmann::json entry = {{"shot", shot.name()},
@@ -191,7 +192,7 @@ nlohmann::json shot_entry(const Shot& shot, const Config& config, bool keep_all)
                             {"measure", shot.config.measures_last_only ? "last" : "all"},
                             {"measure_from", std::max(shot.config.measure_from, shot.config.frames.front())},
                             {"exposure_ev", shot.camera.exposure_ev},
-                            {"warnings", texts_of(shot.scene.warnings)},
+                            {"warnings", scene_warnings},
                             {"needs", needs},
                             {"left_out", keep_all ? nlohmann::json::array() : left_out_entries(shot, config)}};
     if (shot.config.change) entry["change"] = *shot.config.change;

@@ -20,8 +20,10 @@ std::optional<double> aa_floor(const nlohmann::json& manifest, const std::string
 /// How many pairs of copies were timed in a shot.
 size_t aa_pair_count(const nlohmann::json& manifest, const std::string& shot);
 
-/// All that can be said of a shot before anything of it is rendered.
-nlohmann::json shot_entry(const Shot& shot, const Config& config, bool keep_all);
+/// All that can be said of a shot before anything of it is rendered. `scene_warnings`: warning_sentences() of its
+/// scene.
+nlohmann::json shot_entry(const Shot& shot, const Config& config, const std::vector<std::string>& scene_warnings,
+                          bool keep_all);
 /// Adds to a shot_entry() what is known once its references are there: members replace those of the same name, but
 /// `needs` and `warnings` are joined.
 void complete_shot_entry(nlohmann::json& entry, const nlohmann::json& rendered);

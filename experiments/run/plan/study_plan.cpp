@@ -5,6 +5,7 @@
 #include "experiments/config/points/conditions.h"
 #include "experiments/config/points/external_images.h"
 #include "experiments/config/points/variant_of.h"
+#include "experiments/config/shots/scene_warnings.h"
 #include "experiments/config/shots/shot.h"
 #include "experiments/measuring/frames/capture.h"
 #include "experiments/measuring/shot_truth.h"
@@ -215,7 +216,7 @@ StudyPlan plan_study(const Config& config, const DeviceInfo& device,
     CellNames names(config, device, keep_all, std::move(sources));
     StudyPlan plan;
     plan.compilers = names.compilers();
-    std::set<std::string> known;
+    std::set<std::string> known, warned;
     for (const ShotConfig& of_shot : config.shots) {
         const Shot shot = load(of_shot, search_path);
         if (!known.insert(shot.name()).second)
@@ -225,7 +226,11 @@ StudyPlan plan_study(const Config& config, const DeviceInfo& device,
         const std::string request = request_of(shot, config, keep_all);
         PlannedShot& planned = plan.shots.emplace_back();
         planned.config = shot.config, planned.name = shot.name();
-        planned.entry = shot_entry(shot, config, keep_all);
+        const std::vector<std::string> warnings = warning_sentences(shot.scene);
+        for (const std::string& text : warnings)
+            if (warned.insert(shot.scene.name + ": " + text).second)
+                planned.scene_warnings.push_back(shot.scene.name + ": " + text);
+        planned.entry = shot_entry(shot, config, warnings, keep_all);
         const auto add = [&](CellKind kind, std::string name, const std::string& what, double units) -> PlannedCell& {
             return planned.cells.emplace_back(
                 PlannedCell{.kind = kind,

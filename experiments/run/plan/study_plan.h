@@ -31,6 +31,7 @@ struct PlannedShot {
     std::string name;
     nlohmann::json entry;            ///< of the manifest, as far as it is known before anything is rendered
     std::vector<PlannedCell> cells;  ///< the references first, the times last
+    std::vector<std::string> scene_warnings;  ///< with its name, but those of shots before
 };
 
 /// All cells of a study, in the order in which they are done.

@@ -294,6 +294,12 @@ std::unique_ptr<OpenShot> opened(StudySession& study, const PlannedShot& shot) {
     return open;
 }
 
+/// A scene's warnings are told once: by who makes the references of its first shot.
+void say_scene_warnings(StudySession& study, const PlannedShot& shot, const PlannedCell& first) {
+    if (first.kind != CellKind::references || std::filesystem::exists(study.cells.file(first.name))) return;
+    for (const std::string& warning : shot.scene_warnings) study.progress.say("warning: " + warning);
+}
+
 /// The points of which some cell is not there.
 std::vector<VariantConfig> points_to_do(const StudySession& study) {
     std::set<const VariantConfig*> missing;
@@ -329,6 +335,7 @@ void do_cells(StudySession& study, const PlannedShot& shot, const CellSelection&
         std::ranges::move(*all, std::back_inserter(study.finished));
         return;
     }
+    say_scene_warnings(study, shot, *planned.front());
     rehearse_once(study);
     const std::unique_ptr<OpenShot> open = opened(study, shot);
     const std::string truth = open->truth.content_hash();
