@@ -7,6 +7,7 @@
 #include "core/scene/scene_family.h"
 #include "core/shown_text.h"
 #include "experiments/commands/commands.h"
+#include "experiments/inspect/inspect_hint.h"
 #include "experiments/store/host_info.h"
 #include "metrics/tone_map.h"
 
@@ -15,6 +16,7 @@
 #include <cstdlib>
 #include <limits>
 #include <new>
+#include <string_view>
 
 namespace {
 
@@ -519,6 +521,26 @@ int parse_and_run(int argc, char** argv) {
     add_reading(capture_command_);
     capture_command_.callback([&] { capture_command(capture); });
 
+    InspectOptions inspect;
+    CLI::App& inspect_command_ = *app.add_subcommand(
+        "inspect", "Show what ssrlab understands of a file: a scene, an image, a capture or an engine's frames");
+    inspect_command_
+        .add_option("file", inspect.file,
+                    "A .gltf, .glb or scene.json, a folder with one, a scene's name, an image, the folder of a capture "
+                    "or of an engine's frames")
+        ->required()
+        ->type_name("FILE");
+    inspect_command_.add_flag("--all", inspect.has_all, "Lists in full; default: the first eight entries of each");
+    inspect_command_.add_option("--json", inspect.json, "Also write all of it as JSON; -: print that alone")
+        ->type_name("FILE.json");
+    inspect_command_
+        .add_option("--picture", inspect.picture,
+                    "Also draw a scene's first view by both renderers, and where they differ")
+        ->type_name("FILE.png");
+    add_device(inspect_command_, common), add_scene_path(inspect_command_, common);
+    add_reading(inspect_command_);
+    inspect_command_.callback([&] { inspect_command(inspect, common); });
+
     NeedsOptions needs;
     CLI::App& needs_command_ = *app.add_subcommand(
         "needs",
@@ -764,6 +786,13 @@ int parse_and_run(int argc, char** argv) {
     return status;
 }
 
+/// A mistake in a file that is there is seen best by who looks at all that is understood of it.
+void say_how_to_inspect(int argc, char** argv, const Error& error) {
+    if (argc > 1 && std::string_view(argv[1]) == "inspect") return;
+    const std::string hint = inspect_hint(error.what());
+    if (!hint.empty()) std::fprintf(stderr, "note: %s\n", shown_text(hint).c_str());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -777,6 +806,7 @@ int main(int argc, char** argv) {
         return 2;
     } catch (const Error& e) {
         std::fprintf(stderr, "error: %s\n", shown_text(e.what()).c_str());
+        say_how_to_inspect(argc, argv, e);
         return 2;
     } catch (const std::bad_alloc&) {
         std::fprintf(stderr, "error: not enough memory\n");

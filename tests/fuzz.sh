@@ -17,11 +17,11 @@ install_packages "${build_packages[@]}" clang-19 libclang-rt-19-dev  # Debian's 
 build fuzz fuzz_core fuzz_experiments
 cd build/fuzz
 mkdir -p findings
-[ $# -gt 0 ] || set -- scene gltf glb texture exr png radiance camera environment config technique cases cell manifest results
+[ $# -gt 0 ] || set -- scene gltf glb texture exr png radiance camera environment config technique cases cell manifest inspect results
 status=0
 for target in "$@"; do
     program=fuzz_core
-    case $target in config | technique | cases | cell | manifest | results) program=fuzz_experiments ;; esac
+    case $target in config | technique | cases | cell | manifest | inspect | results) program=fuzz_experiments ;; esac
     say "$target for $seconds s"
     mkdir -p "corpus/$target"
     # A reader may take half a second; what takes longer than ten, or 1.5 GB in place of the 256 MB it is allowed, is a finding.

@@ -143,6 +143,15 @@ struct CaptureCommandOptions {
 };
 void capture_command(const CaptureCommandOptions& options);
 
+struct InspectOptions {
+    std::string file;               ///< or a folder, or a scene's name
+    bool has_all = false;           ///< lists are not cut
+    std::filesystem::path json;     ///< "-": in place of the page; "": none
+    std::filesystem::path picture;  ///< a PNG of the first view; "": none
+};
+/// Prints what is understood of a file or folder of anybody's (experiments/inspect/describe.h).
+void inspect_command(const InspectOptions& options, const CommonOptions& common);
+
 struct ShadersOptions {
     std::string variant, preset;
     nlohmann::json parameters = nlohmann::json::object();

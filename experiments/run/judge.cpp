@@ -7,7 +7,6 @@
 #include "experiments/config/points/external_images.h"
 #include "experiments/config/shots/capture_folder.h"
 #include "experiments/evaluation/summary.h"
-#include "experiments/run/view_name.h"
 #include "experiments/store/result_images.h"
 
 #include <re2/re2.h>
@@ -21,13 +20,6 @@ namespace {
 
 using nlohmann::json;
 
-/// A folder of a view's images, by what its name says.
-struct View {
-    ViewName name;
-    int width = 0, height = 0;
-    std::set<unsigned> frames;
-};
-
 std::set<unsigned> frames_in(const fs::path& folder) {
     static const RE2 pattern(R"(f(\d{1,6})\.s0\.exr)");
     std::set<unsigned> frames;
@@ -38,12 +30,14 @@ std::set<unsigned> frames_in(const fs::path& folder) {
     return frames;
 }
 
-/// `scene`: the name of the one that was asked for; "": those of the search path.
-std::vector<View> views_in(const fs::path& folder, const std::string& scene, const std::vector<fs::path>& search_path) {
+}  // namespace
+
+std::vector<FramesOfView> views_of_frames(const fs::path& folder, const std::string& scene,
+                                          const std::vector<fs::path>& search_path) {
     static const RE2 size(R"((.+)\.([1-9]\d{0,4})x([1-9]\d{0,4}))");
-    std::vector<View> views;
+    std::vector<FramesOfView> views;
     for (const auto& entry : fs::directory_iterator(folder)) {
-        View view;
+        FramesOfView view{.folder = entry.path()};
         std::string names;
         if (!entry.is_directory() ||
             !RE2::FullMatch(entry.path().filename().string(), size, &names, &view.width, &view.height))
@@ -56,9 +50,11 @@ std::vector<View> views_in(const fs::path& folder, const std::string& scene, con
         views.push_back(std::move(view));
     }
     std::ranges::sort(views, {},
-                      [](const View& v) { return std::tuple(v.name.scene, v.name.camera, v.width, v.height); });
+                      [](const FramesOfView& v) { return std::tuple(v.name.scene, v.name.camera, v.width, v.height); });
     return views;
 }
+
+namespace {
 
 json shots_of(const JudgeSettings& settings) {
     if (!settings.capture.empty()) {
@@ -69,7 +65,7 @@ json shots_of(const JudgeSettings& settings) {
     }
     const std::string name = settings.scene.empty() ? "" : load_scene(settings.scene, settings.run.search_path).name;
     json shots = json::array();
-    for (const View& view : views_in(settings.frames, name, settings.run.search_path))
+    for (const FramesOfView& view : views_of_frames(settings.frames, name, settings.run.search_path))
         shots.push_back({{"scene", name.empty() ? view.name.scene : settings.scene},
                          {"camera", view.name.camera},
                          {"resolution", {view.width, view.height}},

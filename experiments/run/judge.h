@@ -1,10 +1,13 @@
 #pragma once
 #include "experiments/evaluation/judgement.h"
 #include "experiments/run/run.h"
+#include "experiments/run/view_name.h"
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
+#include <vector>
 
 struct JudgeSettings {
     std::filesystem::path frames;              ///< a folder of another program's images (ExternalImages)
@@ -14,6 +17,19 @@ struct JudgeSettings {
     unsigned samples = 256;                    ///< of the references, per pixel
     RunSettings run;                           ///< its folder gets the study and the page
 };
+
+/// A view's images in a folder of an engine's frames, by what the names say: SCENE.CAMERA.WIDTHxHEIGHT/fFRAME.s0.exr.
+struct FramesOfView {
+    std::filesystem::path folder = {};
+    ViewName name = {};
+    int width = 0, height = 0;
+    std::set<unsigned> frames = {};  ///< not empty
+};
+
+/// Sorted by name and size. `scene`: the name of the one that was asked for; "": those of the search path. Fails with
+/// Error as view_name().
+std::vector<FramesOfView> views_of_frames(const std::filesystem::path& folder, const std::string& scene,
+                                          const std::vector<std::filesystem::path>& search_path);
 
 /// What is said of a view without another to compare it with.
 struct ViewError {

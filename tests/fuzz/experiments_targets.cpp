@@ -3,6 +3,7 @@
 #include "core/json.h"
 #include "experiments/config/config.h"
 #include "experiments/evaluation/study_tables.h"
+#include "experiments/inspect/page.h"
 #include "experiments/measuring/cell.h"
 #include "experiments/stability/stability_case.h"
 #include "experiments/tables/columns.h"
@@ -31,6 +32,8 @@ const FuzzTarget targets[] = {
     {"cases", "cases.json", [](const fs::path& file) { read_stability_cases(file); }},
     {"cell", "cell.json", [](const fs::path& file) { read_cell(read_json(file), file.string()); }},
     {"manifest", "manifest.json", [](const fs::path& file) { read_study_tables(file.parent_path()); }, copy_tables},
+    {"inspect", "input.glb",  // its bytes say what it is
+     [](const fs::path& file) { page_of(inspect(file.string(), {}).description, true); }},
     {"results", "results.csv", [](const fs::path& file) { read_rows<ResultRow>(file); }},
 };
 

@@ -285,9 +285,63 @@ TEST_F(CommandLine, WritesScenesForEngines) {
     EXPECT_EQ(ssrlab("scene-for any mirror_pillars").code, 2) << "without --out";
 }
 
+/// A glTF as another program writes one: a blended triangle of 2 m.
+constexpr const char* blended_triangle = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+    "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+    "materials": [{"name": "glass", "alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.6]}}], "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3, "min": [-1, -1, 0], "max": [1, 1, 0]}],
+    "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAA"}]})";
+
+TEST_F(CommandLine, InspectsFilesOfAnybody) {
+    write_text(folder / "glass.gltf", blended_triangle);
+    const Outcome page = ssrlab("inspect glass.gltf");
+    EXPECT_EQ(page.code, 0) << page.text;
+    EXPECT_NE(page.text.find("2 x 2 x 0 m"), std::string::npos) << page.text;
+    EXPECT_NE(page.text.find("'glass' is blended (alphaMode BLEND)"), std::string::npos) << page.text;
+    EXPECT_LE(std::ranges::count(page.text, '\n'), 60);
+    const Outcome as_json = ssrlab("inspect glass.gltf --json - --picture view.png");
+    const nlohmann::json json = nlohmann::json::parse(as_json.text, nullptr, false);
+    ASSERT_TRUE(json.is_object()) << as_json.text;
+    EXPECT_EQ(json["triangles"], 1);
+    EXPECT_GT(json["warnings"][0]["share_of_first_view"], 0.05);
+    EXPECT_EQ(json["first_view"]["differ"], 0);
+    EXPECT_TRUE(fs::exists(folder / "view.png"));
+
+    write_exr(folder / "a.exr", HostImage({16, 16}, 3, 0.5f));
+    EXPECT_EQ(ssrlab("inspect a.exr").code, 0);
+    expect_mistake("inspect a.exr --picture b.png", "a.exr is no scene");
+    expect_mistake("inspect no_such", "unknown scene 'no_such'");
+    expect_mistake("inspect .", "holds none of scene.json");
+    fs::resize_file(folder / "a.exr", 100);
+    const Outcome broken = ssrlab("inspect a.exr"), compared = ssrlab("compare a.exr a.exr");
+    EXPECT_EQ(broken.code, 2);
+    EXPECT_EQ(broken.text.find("`ssrlab inspect"), std::string::npos) << broken.text;
+    EXPECT_EQ(compared.code, 2);
+    EXPECT_NE(compared.text.find("\nnote: `ssrlab inspect a.exr` shows"), std::string::npos) << compared.text;
+    EXPECT_FALSE(fs::exists(folder / "b.png"));
+}
+
+TEST_F(CommandLine, TellsWarningsOfASceneOnce) {
+    write_text(folder / "glass.gltf", blended_triangle);
+    config(R"({"shots": [{"scene": "glass.gltf", "resolution": [[16, 16], [24, 24]]}], "reference": {"samples": 16},
+               "variants": [{"variant": "none"}], "timing": {"frames": 0}, "seeds": 1})");
+    const auto warnings = [](const std::string& text) {
+        size_t count = 0;
+        for (size_t at = 0; (at = text.find("is blended (alphaMode BLEND)", at)) != std::string::npos; ++at) ++count;
+        return count;
+    };
+    const Outcome references = ssrlab("run study.json --out o --cells references"),
+                  rest = ssrlab("run study.json --out o");
+    EXPECT_EQ(warnings(references.text), 1u) << references.text;
+    EXPECT_NE(references.text.find("of the first view's pixels"), std::string::npos) << references.text;
+    EXPECT_EQ(rest.code, 0) << rest.text;
+    EXPECT_EQ(warnings(rest.text), 0u) << rest.text;
+    EXPECT_EQ(warnings(read_text(folder / "o/manifest.json")), 2u) << "that of each shot";
+}
+
 TEST_F(CommandLine, EveryCommandExplainsItself) {
-    for (const char* command :
-         {"", "run", "figures", "compare", "judge", "scene-for", "reference", "gbuffer", "needs", "describe", "list"}) {
+    for (const char* command : {"", "run", "figures", "compare", "judge", "scene-for", "reference", "gbuffer",
+                                "inspect", "needs", "describe", "list"}) {
         const Outcome o = ssrlab(std::string(command) + " --help");
         EXPECT_EQ(o.code, 0);
         EXPECT_GT(o.text.size(), 100u) << command;

@@ -1,0 +1,45 @@
+// ssrlab inspect: what is understood of a file.
+#include "core/error.h"
+#include "core/files.h"
+#include "core/gpu/device.h"
+#include "core/png.h"
+#include "core/scene/load_scene.h"
+#include "experiments/commands/commands.h"
+#include "experiments/inspect/first_view_images.h"
+#include "experiments/inspect/page.h"
+
+#include <cstdio>
+
+namespace {
+
+/// Draws the first view by both renderers.
+Description draw_first_view(const Scene& scene, const std::filesystem::path& file, const std::string& device_name) {
+    Device device(device_name);
+    const FirstView view = first_view(scene);
+    const FirstViewImages rasterised = rasterised_first_view(device, scene, view),
+                          traced = traced_first_view(scene, view);
+    const FirstViewDifference difference = difference_of(rasterised, traced);
+    write_png(file, picture_of(rasterised, traced, difference, scene.camera("").exposure_ev));
+    Description entry = to_json(difference);
+    entry["width"] = view.extent.x, entry["height"] = view.extent.y, entry["picture"] = file.string();
+    return entry;
+}
+
+}  // namespace
+
+void inspect_command(const InspectOptions& options, const CommonOptions& common) {
+    const Inspected inspected = inspect(options.file, scene_search_path(common.scene_path));
+    Description description = inspected.description;
+    const bool prints_json = options.json == "-", writes_json = !options.json.empty() && !prints_json;
+    if (!options.picture.empty() && inspected.refusal.empty() && !inspected.scene)
+        fail("--picture draws a scene's first view, and ", options.file, " is no scene");
+    if (!options.picture.empty() && inspected.scene)
+        description["first_view"] = draw_first_view(*inspected.scene, options.picture, common.device);
+    const auto json = [&] {
+        return description.dump(2, ' ', /*ensure_ascii=*/true, Description::error_handler_t::replace) + "\n";
+    };
+    std::printf("%s", (prints_json ? json() : page_of(description, options.has_all)).c_str());
+    std::fflush(stdout);  // before what is wrong
+    if (!inspected.refusal.empty()) fail(inspected.refusal);
+    if (writes_json) write_text(options.json, json());
+}
