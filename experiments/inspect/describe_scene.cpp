@@ -138,7 +138,8 @@ Description animation_entry(const Scene& scene) {
             {"nodes", nodes.size()},
             {"translations", channels[AnimationChannel::Property::translation]},
             {"rotations", channels[AnimationChannel::Property::rotation]},
-            {"scales", channels[AnimationChannel::Property::scale]}};
+            {"scales", channels[AnimationChannel::Property::scale]},
+            {"weights", channels[AnimationChannel::Property::weight]}};
 }
 
 Description warning_entries(const Scene& scene, const std::vector<WarningShare>& warnings) {
@@ -174,7 +175,13 @@ Description describe_scene(const Scene& scene) {
                          {"backs_of_single_sided_surfaces", scene.draws_backs ? "drawn" : "not drawn"},
                          {"animation", animation_entry(scene)},
                          {"environment", environment_entry(scene.environment)}};
-    for (const char* list : {"cameras", "lights", "materials", "textures"}) entry[list] = Description::array();
+    for (const char* list : {"clips", "skins", "cameras", "lights", "materials", "textures"})
+        entry[list] = Description::array();
+    for (const AnimationClip& clip : scene.clips)
+        entry["clips"].push_back({{"name", clip.name}, {"is_played", clip.is_played}});
+    for (const Skin& skin : scene.skins) entry["skins"].push_back({{"joints", skin.joints.size()}});
+    entry["meshes_with_morph_targets"] =
+        std::ranges::count_if(scene.meshes, [](const Mesh& mesh) { return !mesh.targets.empty(); });
     for (const SceneCamera& camera : scene.cameras) entry["cameras"].push_back(camera_entry(scene, camera));
     for (const PunctualLight& light : scene.lights) entry["lights"].push_back(light_entry(scene, light));
     for (size_t i = 0; i < scene.materials.size(); ++i)

@@ -282,6 +282,20 @@ void add_refused_scene(Page& page, const Description& d) {
     page.fact("holds", counts.empty() ? "nothing" : counts);
 }
 
+/// What moves and deforms, of a scene in which something does.
+void add_motion(Page& page, const Description& d) {
+    if (!d["clips"].empty())
+        page.list("clips", d["clips"], [&](const Description& clip) {
+            return std::vector<std::string>{page.name(clip["name"]), clip["is_played"] ? "played" : "not played"};
+        });
+    if (!d["skins"].empty())
+        page.list("skins", d["skins"], [](const Description& skin) {
+            return std::vector<std::string>{counted(skin["joints"].get<size_t>(), "joint")};
+        });
+    if (d["meshes_with_morph_targets"] > 0)
+        page.fact("morphs", counted(d["meshes_with_morph_targets"].get<size_t>(), "mesh part") + " with morph targets");
+}
+
 void add_scene(Page& page, const Description& d) {
     const std::string name = text_of(d["name"]), asset = text_of(d["asset"]);
     page.line("scene " + name + (asset.empty() || asset == name ? "" : ", which shows " + asset));
@@ -297,7 +311,9 @@ void add_scene(Page& page, const Description& d) {
         page.fact("animation", text_of(a["seconds"]) + " s of " + counted(a["nodes"].get<size_t>(), "node") + ": " +
                                    counted(a["translations"].get<size_t>(), "translation") + ", " +
                                    counted(a["rotations"].get<size_t>(), "rotation") + ", " +
-                                   counted(a["scales"].get<size_t>(), "scale"));
+                                   counted(a["scales"].get<size_t>(), "scale") + ", " +
+                                   counted(a["weights"].get<size_t>(), "morph weight"));
+    add_motion(page, d);
     page.fact("time", counted(d["frames"].get<size_t>(), "frame") + ", " + text_of(d["frame_rate"]) + " a second");
     page.list("cameras", d["cameras"], [&](const Description& c) { return camera_row(page, c); });
     page.list("lights", d["lights"], [&](const Description& l) { return light_row(page, l); });

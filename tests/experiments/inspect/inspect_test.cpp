@@ -129,7 +129,15 @@ TEST(Inspect, DescribesAScene) {
                             .outer_cone_cos = std::cos(glm::radians(30.0f))});
     scene.environment = {.type = Environment::Type::image, .latlong = HostImage({4, 2}, 3, 0.5f)};
     scene.environment.latlong.set_rgb(3, glm::vec3(4.5f));
+    scene.clips = {{.name = "walk", .is_played = true}, {.name = "run"}};
+    scene.animation = {{.property = AnimationChannel::Property::weight, .times = {0, 1.5f}, .values = {{}, {}}}};
+    scene.skins = {{.joints = {0, 0, 0}}};
+    scene.meshes[0].targets.resize(1);
+    scene.nodes[0].weights = {0};
     const Description d = describe_scene(scene);
+    EXPECT_EQ(d["animation"]["weights"], 1);
+    EXPECT_EQ(d["animation"]["seconds"], 1.5);
+    EXPECT_EQ(d["skins"][0]["joints"], 3);
     EXPECT_EQ(d["bounds"]["low"], (Description{-2.0, -1.0, 0.5}));
     EXPECT_EQ(d["bounds"]["high"], (Description{2.0, 2.0, 0.5}));
     EXPECT_EQ(d["triangles"], 2);
@@ -148,9 +156,11 @@ TEST(Inspect, DescribesAScene) {
     EXPECT_EQ(d["textures"][0]["wrap_u"], "clamp_to_edge");
 
     const std::string page = page_of(d, false);
-    for (const char* part : {"4 x 3 x 0 m, from (-2, -1, 0.5) to (2, 2, 0.5)", "perspective, 60 degrees high",
-                             "planes 0.1 to 50 m", "683 W m^-2", "(1, 2, 3) W sr^-1", "cone 0 to 30 degrees",
-                             "8 x 4, 16 bits, linear, clamp_to_edge and repeat, bilinear", "normal:0", "range 5 m"})
+    for (const char* part :
+         {"4 x 3 x 0 m, from (-2, -1, 0.5) to (2, 2, 0.5)", "perspective, 60 degrees high", "planes 0.1 to 50 m",
+          "683 W m^-2", "(1, 2, 3) W sr^-1", "cone 0 to 30 degrees",
+          "8 x 4, 16 bits, linear, clamp_to_edge and repeat, bilinear", "normal:0", "range 5 m", "walk  played",
+          "run   not played", "1 morph weight", "3 joints", "1 mesh part with morph targets"})
         EXPECT_NE(page.find(part), std::string::npos) << part << "\n" << page;
 }
 
