@@ -107,8 +107,9 @@ private:
 };
 
 /// The least distance from the eye in the frames in which the camera alone moves, from `first` on: `enough` where none
-/// is below it, else a distance below it of which no frame has less than half. Frames are told apart by how far the
-/// camera gets within them, so that a path takes about as many steps as its length over that distance.
+/// is below it, else a distance below it of which no frame has less than half. One frame stands for all those that the
+/// camera reaches from it without coming so near, so that a path takes about as many steps as its length over that
+/// distance.
 double least_on_path(const Distances& distances, const SceneCamera& camera, const ScenePose& pose, unsigned first,
                      double enough, double floor) {
     std::vector<unsigned> ends = {first};  // between two of them the camera goes straight on
@@ -128,7 +129,7 @@ double least_on_path(const Distances& distances, const SceneCamera& camera, cons
         const auto eye = [&](unsigned frame) { return distances.eye(pose, float(frame)); };
         const double reach =
             std::max(glm::distance(eye(span.first), eye(middle)), glm::distance(eye(span.last), eye(middle)));
-        const double known = least < enough ? 0.5 * least : enough;  // no frame need be told from others above it
+        const double known = least < enough ? 0.5 * least : enough;  // what is above it is all the same
         const double nearest = distances.nearest(pose, eye(middle), known + reach);
         if (nearest >= known + reach) continue;
         if (nearest < enough) least = std::min(least, nearest);
