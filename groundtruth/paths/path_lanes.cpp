@@ -238,12 +238,13 @@ void PathLanes::scatter() {
         if constexpr (goal == PathGoal::lit_color)
             to_viewer = choose(is_lit_color, to_camera(camera, position_.get(lane), geometric_normal), to_viewer);
         const vec3 o = to_viewer * world_from_local;
-        FresnelTerms fresnel;
-        if constexpr (has_dielectric_f0)
-            fresnel = fresnel_terms(base_color_.get(lane), metalness_[lane], specular_[lane], dielectric_f0_.get(lane));
-        else
-            fresnel = fresnel_terms(base_color_.get(lane), metalness_[lane], specular_[lane]);
-        const Lobes lobes = make_lobes(base_color_.get(lane), metalness_[lane], roughness_[lane], fresnel, o, model);
+        const Lobes lobes = [&] {
+            if constexpr (has_dielectric_f0)
+                return make_lobes(base_color_.get(lane), metalness_[lane], roughness_[lane], specular_[lane],
+                                  dielectric_f0_.get(lane), o, model);
+            else
+                return make_lobes(base_color_.get(lane), metalness_[lane], roughness_[lane], specular_[lane], o, model);
+        }();
         const float q = is_lit_color ? 0.0f : lobes.specular_probability;
         const float specular_share = is_lit_color ? 0.0f : 1.0f;       // the lit colour is without reflections
         const bool reflects = (continues_[lane] != 0) & (o.z > 0.0f);  // the viewer may be below the shading horizon

@@ -26,11 +26,9 @@ struct FirstVertex {
     float per_estimate[2] = {0.0f, 0.0f};  ///< see PathStart; diffuse, specular
 };
 
-// Of scenes whose dielectrics reflect other than 0.04. Apart from what all others take: what the compiler shares
-// between both it rounds in another way.
+// Of scenes whose dielectrics reflect other than 0.04. Not inlined, so that the code of all others keeps its rounding.
 [[gnu::noinline]] Lobes lobes_of_own_f0(const FirstHit& hit, vec3 o, ReflectionModel model) {
-    return make_lobes(hit.base_color, hit.metalness, hit.roughness,
-                      fresnel_terms(hit.base_color, hit.metalness, hit.specular, hit.dielectric_f0), o, model);
+    return make_lobes(hit.base_color, hit.metalness, hit.roughness, hit.specular, hit.dielectric_f0, o, model);
 }
 [[gnu::noinline]] glm::vec3 reflectance_of_own_f0(const FirstHit& hit, glm::vec2 ab) {
     return specular_f0(hit.base_color, hit.metalness, hit.specular, hit.dielectric_f0) * ab.x +
@@ -45,11 +43,8 @@ bool prepare(const TracedScene& scene, FirstVertex& vertex) {
     vertex.world_from_local = basis_from_normal(hit.normal);
     const vec3 o = hit.view * vertex.world_from_local;
     if (o.z <= 0) return false;
-    if (scene.materials.any_dielectric_f0())
-        vertex.lobes = lobes_of_own_f0(hit, o, scene.settings.model);
-    else
-        vertex.lobes = make_lobes(hit.base_color, hit.metalness, hit.roughness,
-                                  fresnel_terms(hit.base_color, hit.metalness, hit.specular), o, scene.settings.model);
+    vertex.lobes = make_lobes(hit.base_color, hit.metalness, hit.roughness, hit.specular, o, scene.settings.model);
+    if (scene.materials.any_dielectric_f0()) vertex.lobes = lobes_of_own_f0(hit, o, scene.settings.model);
     vertex.light_cell = scene.lights.cell(hit.ray_origin, hit.geometric_normal);
     vertex.wants_diffuse = scene.settings.diffuse && vertex.lobes.has_diffuse;
     vertex.wants_specular = scene.settings.specular && vertex.lobes.has_specular;
@@ -240,11 +235,9 @@ void PathTracer::State::add_composite_terms(FirstHit& hit) const {
     const float mu_o = dot(hit.normal, hit.view);
     if (mu_o <= 0 || hit.is_unlit) return;
     const glm::vec2 ab = read_split_sum(*split_sum, mu_o, hit.roughness);
-    if (scene.materials.any_dielectric_f0())
-        hit.reflectance = reflectance_of_own_f0(hit, ab);
-    else
-        hit.reflectance = specular_f0(hit.base_color, hit.metalness, hit.specular) * ab.x +
-                          specular_f90(hit.metalness, hit.specular) * ab.y;
+    hit.reflectance = specular_f0(hit.base_color, hit.metalness, hit.specular) * ab.x +
+                      specular_f90(hit.metalness, hit.specular) * ab.y;
+    if (scene.materials.any_dielectric_f0()) hit.reflectance = reflectance_of_own_f0(hit, ab);
 }
 
 /// What paths from pixels all over the image take down, in an order that no number of threads changes. Each pixel

@@ -14,8 +14,7 @@ enum class ReflectionModel { gltf, lambert, constant_fresnel };
 struct Lobes {
     vec3 diffuse_over_pi;
     vec3 f0, fresnel_rise;                 ///< F = f0 + fresnel_rise w, w = (1 - o.m)^5
-    float dielectric_f0,
-        dielectric_rise;  ///< the same of Fd, which the diffuse lobe loses: of the colour that it reflects most
+    float dielectric_f0, dielectric_rise;  ///< the same of Fd, which the diffuse lobe loses
     float alpha;
     vec3 o;                      ///< towards the viewer, local frame
     float root_o, pdf_scale;     ///< smith_root(o.z); pdf = D pdf_scale
@@ -33,36 +32,17 @@ const float inverse_pi = 1.0f / pi;
 
 inline float luminance(vec3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 
-/// What of a surface's Fresnel terms does not depend on direction: see Lobes.
-struct FresnelTerms {
-    vec3 f0;
-    float f90, dielectric_f0, dielectric_rise;
-};
-
-/// Of a dielectric whose index of refraction is 1.5, mixed with metal.
-inline FresnelTerms fresnel_terms(vec3 base_color, float metalness, float specular) {
-    return {specular_f0(base_color, metalness, specular), specular_f90(metalness, specular), 0.04f * specular,
-            0.96f * specular};
-}
-
-/// Of any dielectric, whose reflectances at normal incidence are at most 1.
-inline FresnelTerms fresnel_terms(vec3 base_color, float metalness, float specular, vec3 dielectric_f0) {
-    const float largest = max(dielectric_f0.x, max(dielectric_f0.y, dielectric_f0.z));
-    return {specular_f0(base_color, metalness, specular, dielectric_f0), specular_f90(metalness, specular),
-            largest * specular, (1.0f - largest) * specular};
-}
-
 /// o.z must be > 0. Both lobes vanish for an unlit surface (base colour 0 and specular 0 are its equivalent).
-inline Lobes make_lobes(vec3 base_color, float metalness, float roughness, const FresnelTerms& fresnel, vec3 o,
+inline Lobes make_lobes(vec3 base_color, float metalness, float roughness, float specular, vec3 o,
                         ReflectionModel model) {
     Lobes lobes;
     lobes.o = vec3(o.x, o.y, o.z);
     const bool is_lambert = model == ReflectionModel::lambert, has_rise = model == ReflectionModel::gltf;
     lobes.diffuse_over_pi = base_color * ((is_lambert ? 1.0f : 1.0f - metalness) * inverse_pi);
-    lobes.f0 = is_lambert ? vec3(0.0f) : fresnel.f0;
-    lobes.fresnel_rise = has_rise ? vec3(fresnel.f90) - lobes.f0 : vec3(0.0f);
-    lobes.dielectric_f0 = is_lambert ? 0.0f : fresnel.dielectric_f0;
-    lobes.dielectric_rise = has_rise ? fresnel.dielectric_rise : 0.0f;
+    lobes.f0 = is_lambert ? vec3(0.0f) : specular_f0(base_color, metalness, specular);
+    lobes.fresnel_rise = has_rise ? vec3(specular_f90(metalness, specular)) - lobes.f0 : vec3(0.0f);
+    lobes.dielectric_f0 = is_lambert ? 0.0f : 0.04f * specular;
+    lobes.dielectric_rise = has_rise ? 0.96f * specular : 0.0f;
     lobes.alpha = ggx_alpha(roughness);
     lobes.root_o = smith_root(o.z, lobes.alpha);
     lobes.pdf_scale = 0.5f / (ggx_cap_bound(o.z, lobes.alpha) * o.z + lobes.root_o);
@@ -76,6 +56,27 @@ inline Lobes make_lobes(vec3 base_color, float metalness, float roughness, const
     lobes.has_specular = grazing.x + grazing.y + grazing.z > 0.0f;
     lobes.has_diffuse = lobes.diffuse_over_pi.x + lobes.diffuse_over_pi.y + lobes.diffuse_over_pi.z > 0.0f;
     const float share = clamp(specular_albedo / (specular_albedo + diffuse_albedo), 0.1f, 0.9f);
+    lobes.specular_probability = !lobes.has_specular ? 0.0f : !lobes.has_diffuse ? 1.0f : share;
+    return lobes;
+}
+
+/// The same of a dielectric with any reflectances at normal incidence, at most 1, which `specular` scales. The code
+/// above stands apart, since what compilers share with other code they round in another way: images of scenes that need
+/// no more keep their bits.
+inline Lobes make_lobes(vec3 base_color, float metalness, float roughness, float specular, vec3 dielectric_f0, vec3 o,
+                        ReflectionModel model) {
+    Lobes lobes = make_lobes(base_color, metalness, roughness, specular, o, model);
+    const bool is_lambert = model == ReflectionModel::lambert, has_rise = model == ReflectionModel::gltf;
+    const float largest = max(dielectric_f0.x, max(dielectric_f0.y, dielectric_f0.z));
+    lobes.f0 = is_lambert ? vec3(0.0f) : specular_f0(base_color, metalness, specular, dielectric_f0);
+    lobes.fresnel_rise = has_rise ? vec3(specular_f90(metalness, specular)) - lobes.f0 : vec3(0.0f);
+    lobes.dielectric_f0 = is_lambert ? 0.0f : largest * specular;  // diffuse light lacks the most of all colours
+    lobes.dielectric_rise = has_rise ? (1.0f - largest) * specular : 0.0f;
+    const float w = schlick_weight(o.z), diffuse = luminance(lobes.diffuse_over_pi) * pi;
+    const float specular_albedo = luminance(lobes.f0 + lobes.fresnel_rise * w);
+    const float diffuse_albedo = diffuse * (1.0f - lobes.dielectric_f0 - lobes.dielectric_rise * w);
+    // A white base below a reflectance of 1 has no albedo left of its own.
+    const float share = clamp(specular_albedo / max(specular_albedo + diffuse_albedo, 1e-6f), 0.1f, 0.9f);
     lobes.specular_probability = !lobes.has_specular ? 0.0f : !lobes.has_diffuse ? 1.0f : share;
     return lobes;
 }

@@ -149,12 +149,12 @@ TEST(brdf, lobe_evaluation_agrees_with_the_shared_formulas) {
             for (const float roughness : {0.1f, 0.5f, 1.0f}) {
                 const vec3 o = direction(0.6, 0), i = direction(0.4, 2.6), m = normalize(o + i);
                 const float specular = 0.8f, alpha = ggx_alpha(roughness), w = schlick_weight(dot(o, m));
-                const FresnelTerms fresnel = f0 == vec3(0.04f) ? fresnel_terms(color, metalness, specular)
-                                                               : fresnel_terms(color, metalness, specular, f0);
-                const Lobes lobes = make_lobes(color, metalness, roughness, fresnel, o, ReflectionModel::gltf);
-                const LobeValues found = evaluate(lobes, i),
-                                 swapped = evaluate(
-                                     make_lobes(color, metalness, roughness, fresnel, i, ReflectionModel::gltf), o);
+                const auto lobes_from = [&](vec3 viewer) {
+                    constexpr ReflectionModel gltf = ReflectionModel::gltf;
+                    return f0 == vec3(0.04f) ? make_lobes(color, metalness, roughness, specular, viewer, gltf)
+                                             : make_lobes(color, metalness, roughness, specular, f0, viewer, gltf);
+                };
+                const LobeValues found = evaluate(lobes_from(o), i), swapped = evaluate(lobes_from(i), o);
                 // glTF 2.0, Appendix B, written out; KHR_materials_specular scales the dielectric Fresnel term, and
                 // diffuse light lacks the largest of its colours.
                 const auto dielectric_of = [&](float reflectance) {
