@@ -76,8 +76,8 @@ TEST_F(Reading, RefusesCutHeadersOfExrs) {
         bytes[5] = flags;
         for (const size_t size : {0u, 3u, 8u, 20u, 100u}) {
             write_text(file, bytes.substr(0, size));
-            EXPECT_NE(error_message([&] { read_exr(file); }).find("its header is truncated"), std::string::npos)
-                << size;
+            const std::string said = error_message([&] { read_exr(file); });
+            EXPECT_NE(said.find(size == 0 ? "it is empty" : "its header is truncated"), std::string::npos) << said;
         }
     }
     bytes[5] = 0, bytes[4] = 3;
