@@ -66,7 +66,10 @@ void TestScene::room(glm::vec3 a, glm::vec3 b, unsigned material) {
 }
 
 ScenePose TestScene::pose() const {
-    return {transforms_, std::vector<glm::mat4>(scene.nodes.size(), glm::mat4(1.0f)), scene.lights};
+    return {.world_from_instance = transforms_,
+            .deformations = {},
+            .world_from_node = std::vector<glm::mat4>(scene.nodes.size(), glm::mat4(1.0f)),
+            .lights = scene.lights};
 }
 
 Material lambert_material(float albedo, float emission) {
