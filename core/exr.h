@@ -30,7 +30,7 @@ void write_exr(const std::filesystem::path& file, const LayeredImage& image);
 
 /// Reads all layers of all parts (core/exr/exr_layers.h), each one's channels in the order RGBA, XYZ, else
 /// alphabetical: the display window, 0 where the data window does not reach. Fails with Error if the file is missing,
-/// truncated, no OpenEXR file, has deep or subsampled channels or larger integers than float32 tells apart, or if its
+/// truncated, no OpenEXR file, has deep or subsampled channels or larger integers than float32 holds, or if its
 /// header announces more than may be read (reading_limits.h).
 LayeredImage read_exr(const std::filesystem::path& file);
 

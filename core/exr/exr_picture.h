@@ -39,5 +39,5 @@ ExrPictureSource exr_picture_source(const std::filesystem::path& file, const Exr
 /// Primaries with another white than D65 are adapted to it: see core/chromaticities.h.
 ///
 /// Fails with Error, with the layers that there are, if there is no such layer or none of these channels; if integers
-/// are above what float32 tells apart (2^24); and as read_planes() of exr_pixels.h.
+/// are above what float32 holds (2^24); and as read_planes() of exr_pixels.h.
 ExrPicture read_exr_picture(const std::filesystem::path& file, const std::string& layer = "");
