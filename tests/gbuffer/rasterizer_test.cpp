@@ -86,7 +86,8 @@ TEST(motion, is_what_two_projections_in_double_precision_give) {
 
 /// Every vertex follows the joints alike, and the morph target moves all alike, which makes an affine map of both.
 TEST(motion, of_joints_and_morph_targets_is_theirs) {
-    const Scene scene = deforming_scene();
+    Scene scene = deforming_scene();
+    scene.instances.erase(scene.instances.begin() + 3);  // what bends
     const Mesh& mesh = scene.meshes[scene.instances[1].mesh];
     expect_motion_of(scene, [&](const ScenePose& pose) {
         const Deformation& deformation = pose.deformations[1];

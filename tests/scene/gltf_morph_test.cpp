@@ -110,6 +110,11 @@ TEST_F(Morphs, TangentsFollowWhetherTheFileHasThemOrNot) {
             }
         }
     }
+    // A normal that leans along x leaves of the tangent what is perpendicular to it.
+    square["targets"] = {{{"NORMAL", writer.floats({1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0}, "VEC3")}}};
+    writer.json["meshes"][0] = {{"primitives", {square}}, {"weights", {1}}};
+    for (const Vertex& vertex : posed(load()))
+        expect_near(glm::vec3(vertex.tangent), glm::normalize(glm::vec3(1, 0, -1)), 1e-6f);
 }
 
 TEST_F(Morphs, DeltasAreSparseAndOfIntegers) {
