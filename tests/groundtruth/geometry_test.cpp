@@ -323,7 +323,7 @@ TEST(geometry, light_passes_the_hidden_backs_of_single_sided_surfaces) {
                         }
                         const PathTracer tracer(scene.scene, pose, looking_along({0, .5f, 0}, {0, -1, 0}), {1, 1},
                                                 {.model = ReflectionModel::lambert});
-                        const PixelMoments pixel = render_pixel(tracer, 0, 0, 256);
+                        const PixelMoments pixel = render_pixel(tracer, 0, 0, 64);
                         const double exact =
                             5 * polygon_form_factor(glm::dvec3(0), up,
                                                     {{-.5, 2, -.5}, {.5, 2, -.5}, {.5, 2, .5}, {-.5, 2, .5}});
