@@ -159,6 +159,7 @@ struct Draco : Compressed {
         const std::unique_ptr<draco::Mesh> mesh = builder.Finalize();
         draco::Encoder encoder;
         encoder.SetEncodingMethod(method);
+        encoder.SetTrackEncodedProperties(true);
         encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, 14);
         encoder.SetAttributeQuantization(draco::GeometryAttribute::NORMAL, 10);
         encoder.SetAttributeQuantization(draco::GeometryAttribute::TEX_COORD, 12);
@@ -283,7 +284,7 @@ TEST_F(Draco, DecodesBothMethods) {
     for (const int method : {draco::MESH_EDGEBREAKER_ENCODING, draco::MESH_SEQUENTIAL_ENCODING})
         for (const int seams : {0, 5}) {
             writer = {};
-            add_height_field(method, seams);
+            ASSERT_NO_FATAL_FAILURE(add_height_field(method, seams));
             const Scene scene = load();
             expect_same_triangles(*this, scene.meshes.at(0), 8.0f / 16384, 4.0f / 1024, 5.0f / 4096);
             EXPECT_EQ(scene.meshes[0].vertices.size() > positions.size(), seams > 0);
@@ -298,7 +299,7 @@ TEST_F(Draco, DecodesBothMethods) {
 TEST_F(Draco, RefusesWhatDoesNotFitAndTakesTheFallback) {
     for (const int method : {draco::MESH_EDGEBREAKER_ENCODING, draco::MESH_SEQUENTIAL_ENCODING}) {
         writer = {};
-        add_height_field(method);
+        ASSERT_NO_FATAL_FAILURE(add_height_field(method));
         EXPECT_GT(refused_mutations(40), 5u);
     }
     const auto said = [&] { return error_message([&] { load(); }); };

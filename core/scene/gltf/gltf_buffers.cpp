@@ -33,6 +33,10 @@ void BufferReader::check_view(const json& view, const std::string& where) const 
         fail(where, ": ", size, " bytes from byte ", begin, " on pass the end of its buffer of ", length, " bytes");
 }
 
+bool BufferReader::has_data(size_t index) const {
+    return index < buffers_.size() && (is_read_[index] || buffers_[index].contains("uri") || (index == 0 && binary_));
+}
+
 void BufferReader::read(size_t index) {
     if (is_read_[index]) return;
     const std::string what = file_.name() + ": buffers[" + std::to_string(index) + "]";

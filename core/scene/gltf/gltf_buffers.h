@@ -14,6 +14,9 @@ public:
     /// byteLength, or if a view passes the end of its buffer.
     void read_what_views_show();
 
+    /// Whether there is such a buffer, and bytes of it in the file or beside it.
+    bool has_data(size_t index) const;
+
     /// One buffer, if it was not read yet.
     void read(size_t index);
 

@@ -4,6 +4,7 @@
 
 #include <meshoptimizer.h>
 #include <tbb/parallel_for.h>
+#include <algorithm>
 
 namespace {
 using nlohmann::json;
@@ -58,11 +59,10 @@ bool decode_into(std::string& bytes, const Layout& layout, std::span<const uint8
 
 /// Whether the file says that the buffer has no data for those who read the extension.
 bool is_placeholder(const json& buffer) {
-    for (const char* extension : meshopt_extensions)
-        if (const json::json_pointer place(std::string("/extensions/") + extension + "/fallback");
-            buffer.contains(place))
-            return buffer[place] == json(true);
-    return !buffer.contains("uri");
+    return std::ranges::any_of(meshopt_extensions, [&](const char* extension) {
+        const json::json_pointer place(std::string("/extensions/") + extension + "/fallback");
+        return buffer.contains(place) && buffer[place] == json(true);
+    });
 }
 }  // namespace
 
@@ -110,7 +110,7 @@ void MeshoptViews::decode(json& root, BufferReader& buffers, GltfFile& file) con
             continue;
         }
         const auto buffer = uncompressed["buffer"].get<size_t>();
-        if (buffer >= root["buffers"].size() || is_placeholder(root["buffers"][buffer]))
+        if (!buffers.has_data(buffer) || is_placeholder(root["buffers"][buffer]))
             fail(what,
                  " cannot be decoded: it is damaged, or of a version that ssrlab does not read; `gltfpack -i IN.glb -o "
                  "OUT.glb -noq` writes a file that does without it");
