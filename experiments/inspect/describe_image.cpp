@@ -134,6 +134,8 @@ Description describe_codes(const fs::path& file, ImageFormat format) {
             notes.push_back(e.what());
             entry["colors"] = "of no use: see the notes";
         }
+    if (entry["channels"][3]["least"] < 1.0)
+        notes.push_back("its alpha is not opaque: comparisons take the colours as they are stored");
     entry["notes"] = notes;
     return entry;
 }

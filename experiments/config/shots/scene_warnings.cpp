@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 #include "core/near_miss.h"
-#include "groundtruth/paths/view_shares.h"
+#include "core/scene/view_shares.h"
 
 #include <algorithm>
 #include <cmath>
