@@ -39,8 +39,8 @@ Material read_material(GltfFile& file, size_t index, GltfTextures& textures) {
     const MaterialSource source{file, gltf, int(index), label_of(file, index, material.name), textures};
     const std::string& what = source.what;
     const auto& pbr = gltf.pbrMetallicRoughness;
-    const glm::vec4 color = fixed_vector<4>(file, pbr.baseColorFactor, glm::vec4(1.0f), what + ": baseColorFactor");
-    for (int i = 0; i < 4; ++i) checked_number(file, color[i], 0.0, 1.0, what + ": baseColorFactor");
+    glm::vec4 color = fixed_vector<4>(file, pbr.baseColorFactor, glm::vec4(1.0f), what + ": baseColorFactor");
+    for (int i = 0; i < 4; ++i) color[i] = checked_number(file, color[i], 0.0, 1.0, what + ": baseColorFactor");
     material.base_color = color;
     material.alpha = color.a;
     material.metalness = checked_number(file, pbr.metallicFactor, 0.0, 1.0, what + ": metallicFactor");

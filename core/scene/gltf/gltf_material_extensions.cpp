@@ -14,8 +14,8 @@ using tinygltf::Value;
 const char* const specular_glossiness = "KHR_materials_pbrSpecularGlossiness";
 
 glm::vec3 checked_color(const MaterialSource& source, const Value& extension, const char* key, double max) {
-    const glm::vec3 color = vector_member<3>(source.file, extension, key, glm::vec3(1.0f), source.what);
-    for (int i = 0; i < 3; ++i) checked_number(source.file, color[i], 0.0, max, source.what + ": " + key);
+    glm::vec3 color = vector_member<3>(source.file, extension, key, glm::vec3(1.0f), source.what);
+    for (int i = 0; i < 3; ++i) color[i] = checked_number(source.file, color[i], 0.0, max, source.what + ": " + key);
     return color;
 }
 
@@ -52,8 +52,9 @@ void read_ior(const MaterialSource& source, const Value& extension, Material& ma
 /// reflectance at normal incidence is the specular colour. Roughness is made of glossiness by
 /// make_roughness_textures().
 void read_specular_glossiness(const MaterialSource& source, const Value& extension, Material& material) {
-    const glm::vec4 diffuse = vector_member<4>(source.file, extension, "diffuseFactor", glm::vec4(1.0f), source.what);
-    for (int i = 0; i < 4; ++i) checked_number(source.file, diffuse[i], 0.0, 1.0, source.what + ": diffuseFactor");
+    glm::vec4 diffuse = vector_member<4>(source.file, extension, "diffuseFactor", glm::vec4(1.0f), source.what);
+    for (int i = 0; i < 4; ++i)
+        diffuse[i] = checked_number(source.file, diffuse[i], 0.0, 1.0, source.what + ": diffuseFactor");
     material.base_color = diffuse;
     material.alpha = diffuse.a;
     material.base_color_texture = source.slot(extension, "diffuseTexture", true, "diffuse");
