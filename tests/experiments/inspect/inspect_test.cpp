@@ -62,29 +62,57 @@ std::string blended(const std::string& name) {
 
 /// 4 m x 3 m are 80 x 60 pixels, of which a nearer rectangle hides 20 x 20.
 TEST(SceneWarnings, HaveTheShareOfTheFirstViewThatShowsWhatTheyConcern) {
-    Scene scene = empty_scene({"glass", "wood", "behind"});
+    Scene scene = empty_scene({"glass", "wood", "below", "unseen"});
     add_rectangle(scene, {-2, -1}, {4, 3}, 0, 0);
     add_rectangle(scene, {-2, -1}, {1, 1}, 1, 1);
-    add_rectangle(scene, {-2, -1}, {1, 1}, 0.5f, 2, 1);  // below node 1
+    add_rectangle(scene, {-5, -1}, {1, 1}, 0.5f, 2, 1);  // below node 1
+    add_rectangle(scene, {-2, -1}, {1, 1}, -1, 3);       // behind the others
     scene.nodes.push_back({.name = "lamp"});
-    scene.warnings = {{blended("glass"), 0},
-                      {"The node 'node_1' is odd.", -1, 1},
-                      {blended("behind"), 2},
-                      {"The extension X is ignored."},
-                      {"The node 'lamp' is dark.", -1, 3}};
+    scene.warnings = {
+        {blended("glass"), 0},           {"The node 'node_1' is odd.", -1, 1}, {blended("below"), 2},
+        {"The extension X is ignored."}, {"The node 'lamp' is dark.", -1, 4},  {"The material 'unseen' is odd.", 3}};
     const ShownWarnings shown = shown_warnings(scene, 9);
-    ASSERT_EQ(shown.all.size(), 5u);
+    ASSERT_EQ(shown.all.size(), 6u);
     EXPECT_NEAR(shown.all[0].share.value(), (80 * 60 - 400) / pixels_of_view, 1e-9);
-    EXPECT_NEAR(shown.all[1].share.value(), 400 / pixels_of_view, 1e-9);
-    EXPECT_EQ(shown.all[2].share.value(), 0);
+    EXPECT_NEAR(shown.all[1].share.value(), 800 / pixels_of_view, 1e-9);
+    EXPECT_NEAR(shown.all[2].share.value(), 400 / pixels_of_view, 1e-9);
     EXPECT_FALSE(shown.all[3].share) << "it concerns nothing in particular";
     EXPECT_FALSE(shown.all[4].share) << "it draws nothing";
+    EXPECT_EQ(shown.all[5].share.value(), 0);
     EXPECT_EQ(shown.sentences,
               (std::vector<std::string>{
                   "The material 'glass' is blended (alphaMode BLEND) and drawn opaque; the same holds for the material "
-                  "'behind' (together 7.64 % of the first view's pixels).",
-                  "The node 'node_1' is odd (0.694 % of the first view's pixels).", "The extension X is ignored.",
-                  "The node 'lamp' is dark."}));
+                  "'below' (together 8.33 % of the first view's pixels).",
+                  "The node 'node_1' is odd (1.39 % of the first view's pixels).", "The extension X is ignored.",
+                  "The node 'lamp' is dark.", "The material 'unseen' is odd (not in the first view)."}));
+}
+
+/// A perspective camera within what it sees: a floor from behind it to far off, walls that are cut by both planes, one
+/// of them mirrored, and one that is seen from behind.
+TEST(SceneWarnings, HaveTheSharesThatRaysFind) {
+    Scene scene = empty_scene({"floor", "wall", "mirrored", "from behind"});
+    scene.draws_backs = false;
+    scene.cameras = {{.name = "eye",
+                      .vertical_fov = 1.2f,
+                      .near = 0.5f,
+                      .far = 12,
+                      .keys = {{.position = {0.3f, 1, 2}, .target = {0, 0.6f, -3}}}}};
+    add_rectangle(scene, {-20, -20}, {40, 40}, 0, 0);
+    add_rectangle(scene, {0.5f, 0}, {3, 3}, -4, 1);
+    add_rectangle(scene, {0.5f, 0}, {3, 3}, -7, 2);
+    add_rectangle(scene, {-4, 0}, {3, 3}, 2, 3);
+    scene.nodes[0].parent_from_node = glm::mat4({1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1});  // lies down
+    scene.nodes[2].parent_from_node = glm::mat4({-1, 0, 0, 0}, {0, 1, 0, 0}, {0.8f, 0, 1, 0}, {0, 0, 0, 1});
+    scene.nodes[3].parent_from_node = glm::mat4({1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, -1, 0}, {0, 0, 0, 1});
+    for (int i = 0; i < 4; ++i) scene.warnings.push_back({"warning", i});
+    const FirstView view = first_view(scene);
+    const HostImage rays = traced_first_view(scene, view).material;
+    const ShownWarnings shown = shown_warnings(scene, 9);
+    for (size_t material = 0; material < 4; ++material) {
+        const double share = double(std::ranges::count(rays.values, float(material + 1))) / pixels_of_view;
+        EXPECT_NEAR(shown.all[material].share.value(), share, 4 / pixels_of_view) << material;  // pixels of edges
+        EXPECT_EQ(share > 0.01, material < 3) << material;
+    }
 }
 
 TEST(SceneWarnings, OfOneKindAreOneSentenceThatNamesWhatIsSeenMostFirst) {
