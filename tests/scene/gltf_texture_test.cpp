@@ -114,10 +114,15 @@ TEST_F(Textures, WebpIsReadAndItsFallbackTaken) {
     nlohmann::json& texture = writer.json["textures"][0];
     texture["extensions"]["EXT_texture_webp"]["source"] = 1;
     writer.json["extensionsUsed"] = {"EXT_texture_webp"};
-    EXPECT_TRUE(shows_webp());
+    EXPECT_TRUE(shows_png());
     EXPECT_TRUE(load().warnings.empty());
-    texture.erase("source");
+    writer.json["images"][0]["uri"] = "missing.png";
+    EXPECT_TRUE(shows_webp());
+    EXPECT_TRUE(mentions(load().warnings, "image 1 ('t.webp') is shown in place of another: "));
+    writer.json["images"][0]["uri"] = "t.png";
     writer.json["extensionsRequired"] = {"EXT_texture_webp"};
+    EXPECT_TRUE(shows_webp());
+    texture.erase("source");
     EXPECT_TRUE(shows_webp());
     writer.json["images"][1] = data_uri("image/webp", webp);
     EXPECT_TRUE(shows_webp());

@@ -97,6 +97,11 @@ GltfTextures::Candidates GltfTextures::images_of(const tinygltf::Texture& textur
         if (const int source = index_member(file_, webp->second, "source", what); source >= 0)
             images.push_back(checked_index(file_, source, count, what + ": image"));
     if (texture.source >= 0) images.push_back(checked_index(file_, texture.source, count, what + ": image"));
+    // Both are the same picture; the plain one is what readers of all kinds show, unless the file requires the
+    // extension.
+    const auto& required = file_.model.extensionsRequired;
+    if (images.size() == 2 && std::ranges::find(required, "EXT_texture_webp") == required.end())
+        std::swap(images[0], images[1]);
     struct Other {
         const char *extension, *kind, *converter;
     };
