@@ -41,7 +41,7 @@ inline nlohmann::json read_json_value(std::istream& in) {
 /// (glTF's), and `what`. The data of all jobs follow, one after the other.
 inline nlohmann::json read_draco_jobs(std::istream& in) { return read_json_value(in); }
 
-/// By which a decoder that runs is told from none.
+/// The sign that the decoder runs.
 inline void write_draco_start(std::ostream& out) { out.put('D').flush(); }
 
 inline void write_draco_result(std::ostream& out, const DracoResult& result) {
