@@ -2,6 +2,7 @@
 
 #include "core/scene/deform.h"
 #include "core/scene/gltf/tangents.h"
+#include "core/scene/texture_slots.h"
 #include "experiments/scene_for/glb_file.h"
 #include "experiments/scene_for/scene_numbers.h"
 #include "experiments/scene_for/texture_png.h"
@@ -149,11 +150,18 @@ private:
                                             mesh, 3, [](const Vertex& v) { return v.position; }, true)},
                            {"NORMAL", attribute(mesh, 3, [](const Vertex& v) { return v.normal; })}};
         // A glTF's tangents are those of its coordinates; where the texture is turned, who reads it derives them.
-        const TextureSlot& normals = scene_.materials[mesh.material].normal_texture;
+        const Material& material = scene_.materials[mesh.material];
+        const TextureSlot& normals = material.normal_texture;
         if (normals.texture >= 0 && !turns_tangents(normals.uv_transform))
             attributes["TANGENT"] = attribute(mesh, 4, [](const Vertex& v) { return v.tangent; });
-        for (int set = 0; set < 2; ++set)
-            if (std::ranges::any_of(mesh.vertices, [&](const Vertex& v) { return v.uv[set] != glm::vec2(0.0f); }))
+        const auto is_read = [&](unsigned set) {  // glTF 2.0, section 3.9.2: what a texture names has to be there
+            return std::ranges::any_of(texture_slots(material), [&](const TextureSlot* slot) {
+                return slot->texture >= 0 && slot->texcoord == set;
+            });
+        };
+        for (unsigned set = 0; set < 2; ++set)
+            if (is_read(set) ||
+                std::ranges::any_of(mesh.vertices, [&](const Vertex& v) { return v.uv[set] != glm::vec2(0.0f); }))
                 attributes["TEXCOORD_" + std::to_string(set)] =
                     attribute(mesh, 2, [&](const Vertex& v) { return v.uv[set]; });
         if (std::ranges::any_of(mesh.vertices, [](const Vertex& v) { return v.color != glm::vec4(1.0f); }))

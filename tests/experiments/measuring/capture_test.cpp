@@ -293,7 +293,7 @@ TEST_F(CaptureTest, NumberSignsOfFoldersAreNoPattern) {
     EXPECT_EQ(file_of("of_#/truth.exr"), take / "of_7/truth.exr");
     EXPECT_EQ(file_of((take / "truth.exr").string()), take / "truth.exr");
     const fs::path other = folder / "take#3/truth.exr";  // outside of the study's folder
-    EXPECT_EQ(file_of(other.string()), folder / "take7/truth.exr");
+    EXPECT_EQ(file_of(other.string()), folder / "take73/truth.exr");
     write_text(other, "a file of that name");
     EXPECT_EQ(file_of(other.string()), other);
 }

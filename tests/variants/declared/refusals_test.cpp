@@ -87,7 +87,7 @@ TEST_F(DeclaredRefusals, Parameters) {
     expect_part(error_of({{"range", {0}}}), "'range' must be [least, most], not [0]");
     expect_part(error_of({{"range", nullptr}}), "lacks the key 'range'");
     expect_part(error_of({{"type", "uint"}, {"default", 1}, {"range", {-1, 2}}}), "-1 is no uint");
-    expect_part(error_of({{"type", "uint"}, {"default", 1}, {"range", {0, 1e10}}}), "is no uint");
+    expect_part(error_of({{"type", "uint"}, {"default", 1}, {"range", {0, 1e10}}}), "is too large for a uint of 32 bits");
     expect_part(error_of({{"type", "choice"}, {"range", nullptr}, {"default", "b"}, {"choices", {"a"}}}),
                 "'x' = \"b\" is outside of its range: a");
     expect_part(error_of({{"type", "choice"}, {"range", nullptr}, {"default", "a"}, {"choices", {"a", "a"}}}), "twice");
