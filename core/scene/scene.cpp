@@ -20,12 +20,6 @@ const SceneCamera& Scene::camera(const std::string& wanted) const {
     fail("scene '", name, "' has no camera '", wanted, "'", suggestion(wanted, names));
 }
 
-std::vector<std::string> texts_of(const std::vector<SceneWarning>& warnings) {
-    std::vector<std::string> texts;
-    for (const SceneWarning& warning : warnings) texts.push_back(warning.text);
-    return texts;
-}
-
 bool Scene::hides_backs() const {
     return std::ranges::any_of(
         instances, [&](const Instance& instance) { return hides_backs_of(materials[meshes[instance.mesh].material]); });

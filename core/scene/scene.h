@@ -227,9 +227,6 @@ struct Scene {
     bool hides_backs() const;  ///< of anything that is drawn
 };
 
-/// The sentences alone.
-std::vector<std::string> texts_of(const std::vector<SceneWarning>& warnings);
-
 /// What moves the vertices of an instance at one instant; both are empty where its mesh keeps its shape.
 struct Deformation {
     std::vector<glm::mat4> instance_from_mesh;  ///< per joint of its skin
