@@ -1,5 +1,6 @@
 #include "core/scene/view_depths.h"
 
+#include "core/scene/deform.h"
 #include "core/scene/instance_bounds.h"
 
 #include <tbb/blocked_range.h>
@@ -8,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include "core/scene/deform.h"
 
 namespace {
 
