@@ -4,8 +4,10 @@
 #include "experiments/commands/commands.h"
 #include "experiments/evaluation/effects/over_scenes.h"
 #include "metrics/median_interval.h"
+#include "metrics/quantiles.h"
 #include "metrics/statistics.h"
 
+#include <cmath>
 #include <iostream>
 
 namespace {
@@ -19,6 +21,15 @@ json answer_to(const json& question) {
         for (const json& v : question.at("values")) values.push_back({v.at(0), v.at(1)});
         const MeanOverScenes mean = mean_over_scenes(values);
         return {mean.value, column_json(mean.low), column_json(mean.high), mean.scenes};
+    }
+    if (asked == "p_holm") {
+        const double degrees = question.at("degrees"), quantile = student_t_quantile(0.975, degrees);
+        std::vector<double> p_values;
+        for (const json& effect : question.at("values")) {
+            const double mean = effect.at(0), half_width = effect.at(1);
+            p_values.push_back(2 * student_t_cdf(-std::abs(mean) * quantile / half_width, degrees));
+        }
+        return holm_adjusted(p_values);
     }
     const std::vector<double> values = question.at("values");
     if (asked == "bootstrap_over_scenes") {

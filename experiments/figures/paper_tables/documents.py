@@ -3,7 +3,7 @@ summary of the study. `<!-- table STUDY NAME {"rows": [...], "columns": [...], "
 named rows and columns in that order (all, where a key is left out).
 
 Numbers and names in prose are made in the same way: `<!--= EXPRESSION -->0.18<!--/-->`, with cell(), cells(), shown(), most(), first(), shots(),
-rank_correlation(), halving(), halving_share(), share_of_variance() and over_scenes() of kept tables (Numbers), ratios() and number(value) of three digits, fixed(value, places), span(values, places), min, max, sum, len, zip and abs."""
+rank_correlation(), halving(), halving_share(), share_of_variance(), over_scenes() and p_holm() of kept tables (Numbers), ratios() and number(value) of three digits, fixed(value, places), span(values, places), min, max, sum, len, zip and abs."""
 
 import functools
 import math
@@ -95,13 +95,16 @@ class Numbers:
     def shots(self, study, table):
         return self._table(study, table)[0]["shots"]
 
-    def ratio_over_scenes(self, study, table, column, base, as_in=None):
+    def ratio_over_scenes(self, study, table, column, base, as_in=None, without=()):
         """(mean, low, high) of one column over another, of a table whose rows are shots, over scenes like these (geometric; scenes of one
-        asset averaged first). `as_in`: of the shots of this table of the study alone."""
+        asset averaged first). `as_in`: of the shots of this table of the study alone; `without`: assets that are left out."""
         about, cells = self._table(study, table)
         values = {(c.row, c.column): c.value for c in cells if c.value}
         rows = self.shots(study, as_in) if as_in else dict.fromkeys(c.row for c in cells)  # shots, by their display names
-        shots = [s for s in rows if (s, column) in values and (s, base) in values]
+        unknown = sorted(set(without) - set(about["assets"].values()))
+        if unknown:
+            raise ResultsError(f"{self.file}: no shot of {study} {table} is of '{unknown[0]}'")
+        shots = [s for s in rows if (s, column) in values and (s, base) in values and about["assets"][s] not in without]
         if not shots:
             raise ResultsError(f"{self.file}: no shot of {study} {table} has both '{column}' and '{base}'")
         return statistics.geometric_mean_over_scenes([(about["assets"][s], math.log(values[s, column] / values[s, base])) for s in shots])[:3]
@@ -110,6 +113,17 @@ class Numbers:
         """The same as text: "mean [low, high]"."""
         mean, low, high = (v and f"{v:#.3g}".rstrip(".") for v in self.ratio_over_scenes(*chosen, **options))
         return mean if low is None else f"{mean} [{low}, {high}]"
+
+    def p_holm(self, study, table, row, column):
+        """The p of "no effect" of a row, adjusted (Holm) for all rows that have an interval: of a table whose rows are effects, whose columns
+        hold Student's intervals of ratios over the table's shots, each of a scene of its own (n - 2 degrees of freedom)."""
+        about, cells = self._table(study, table)
+        family = [c for c in cells if c.column == column and c.low]
+        rows = [c.row for c in family]
+        if rows.count(row) != 1:
+            raise ResultsError(f"{self.file}: {study} {table} has no interval of '{row}' and '{column}'")
+        effects = [(math.log(c.value), (math.log(c.high) - math.log(c.low)) / 2) for c in family]
+        return statistics.p_holm(effects, len(about["shots"]) - 2)[rows.index(row)]
 
     def halving_share(self, study, table, march, exact, answered):
         """(share, low, high) in percent of exact rays that goes half of the way to the error of exact rays alone. Of a table of errors
@@ -140,7 +154,7 @@ class Numbers:
         return share if None in ends else f"{share} [{', '.join(ends)}]"
 
     def text(self, expression):
-        names = {"cell": self.cell, "cells": self.cells, "shown": self.shown, "most": self.most, "first": self.first, "shots": self.shots, "rank_correlation": self.rank_correlation, "halving": self.halving, "halving_share": self.halving_share, "over_scenes": self.over_scenes, "share_of_variance": self.share_of_variance}
+        names = {"cell": self.cell, "cells": self.cells, "shown": self.shown, "most": self.most, "first": self.first, "shots": self.shots, "rank_correlation": self.rank_correlation, "halving": self.halving, "halving_share": self.halving_share, "over_scenes": self.over_scenes, "p_holm": self.p_holm, "share_of_variance": self.share_of_variance}
         names |= {"ratios": self.ratios, "number": number, "fixed": lambda value, places: f"{value:.{places}f}"}
         names["span"] = lambda values, places=2: f"{min(values):.{places}f} to {max(values):.{places}f}"
         names |= {"min": min, "max": max, "sum": sum, "len": len, "zip": zip, "abs": abs}

@@ -60,6 +60,12 @@ def mean(values):
     return tuple(_ask("mean", [float(v) for v in values]))
 
 
+def p_holm(effects, degrees):
+    """p-values of "the mean is 0" of (mean, half width of its 95 % interval by Student's t of so many degrees of freedom) pairs, adjusted
+    together (Holm)."""
+    return _ask("p_holm", [[float(mean), float(half)] for mean, half in effects], degrees=degrees)
+
+
 def median(values):
     """(median, low, high) of values in order of time."""
     return tuple(_ask("median", [float(v) for v in values]))

@@ -27,7 +27,7 @@ from paper_tables.documents import Numbers  # noqa: E402
 from paper_tables.halving import halving_share  # noqa: E402
 from paper_tables.markdown import markdown  # noqa: E402
 from paper_tables.variance_shares import KINDS, share_of_total, variance_parts  # noqa: E402
-from ssrlab.mistakes import exit_code  # noqa: E402
+from ssrlab.mistakes import ResultsError, exit_code  # noqa: E402
 from tables_study import ONE_SEED, RATIOS, SHOTS, TABLES, footer, manifest, read, write, write_results, write_rows  # noqa: E402
 
 
@@ -134,6 +134,38 @@ def test_names_in_prose(temporary):
         check(f"<!--= {asked} -->{answer}<!--/-->" in read(document), f"{asked}: {read(document)}")
     write(document, read(document).replace('column="floor")', 'column="ceiling")', 1))
     check("is not one line of made_up levels" in tables("--fill", "--root", root).stderr, "a column that is not there")
+
+
+def test_effects_in_prose(temporary):
+    """Holm's p from kept intervals: Student's t of 2 degrees of freedom has the two-sided p 1 - t / sqrt(2 + t^2). Ratios over scenes
+    without some assets, whose rows are shots."""
+    file = os.path.join(temporary, "effects.csv")
+    about = {"caption": "", "resolutions": [], "over": None, "over_count": None, "clocks": [], "shots": ["a", "b", "c", "d"]}
+    effects = about | {"name": "changes"}
+    errors = about | {"name": "errors", "assets": {s: s.upper() for s in about["shots"]}}
+    halves = {"sure": 0.5, "doubtful": 1.0, "no": 2.0}  # of ln 1 to e: t of 4.30265 times 2, 1 and 1/2
+    cells = [Cell("changes", name, "error", math.e, math.exp(1 - half), math.exp(1 + half)) for name, half in halves.items()]
+    cells += [Cell("errors", s, name, value) for s, values in zip("abcd", ((1, 2), (1, 2), (1, 8), (1, 2))) for name, value in zip("xy", values)]
+    cells.append(Cell("changes", "alone", "error", math.e))
+    summary_file.write(file, {"estimators": 1}, [effects, errors], cells)
+    made = Numbers(temporary, "a document")
+    t = {name: 4.302652729911275 / half for name, half in halves.items()}
+    p = {name: 1 - v / math.sqrt(2 + v * v) for name, v in t.items()}
+    adjusted = {"sure": 3 * p["sure"], "doubtful": 2 * p["doubtful"], "no": p["no"]}
+    for name, right in adjusted.items():
+        found = made.p_holm("effects", "changes", name, "error")
+        check(abs(found / right - 1) < 1e-4, f"{name}: {found}, not {right}")  # six digits are kept
+    for row, column in (("alone", "error"), ("sure", "ms")):
+        try:
+            check(False, made.p_holm("effects", "changes", row, column))
+        except ResultsError as e:
+            check("has no interval of" in str(e), e)
+    check(abs(made.ratio_over_scenes("effects", "errors", "y", "x")[0] - 2 * math.sqrt(2)) < 1e-6, "of all four scenes")
+    check(abs(made.ratio_over_scenes("effects", "errors", "y", "x", without=["C"])[0] - 2) < 1e-6, "without the third")
+    try:
+        check(False, made.ratio_over_scenes("effects", "errors", "y", "x", without=["c"]))
+    except ResultsError as e:
+        check("no shot of effects errors is of 'c'" in str(e), e)
 
 
 def test_halving():
@@ -653,6 +685,7 @@ def main():
         test_the_script_itself(folder)
         test_reading()
         test_names_in_prose(temporary)
+        test_effects_in_prose(temporary)
         test_halving()
         test_halving_covers()
         test_variance_shares()
