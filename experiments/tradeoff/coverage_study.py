@@ -1,6 +1,6 @@
 """How often the intervals of `ssrlab tradeoff` hold the truth, on real noise.
 
-usage: coverage_study.py SEEDS_AND_ROUNDS... --scenes SCENES [--leave-out SCENE ...] [--trials N]
+usage: coverage_study.py SEEDS_AND_ROUNDS... [--scenes SCENES] [--leave-out SCENE ...] [--trials N]
 
 SEEDS_AND_ROUNDS: results of configs/tradeoff_coverage.json, or of other seeds without times, which take those of the first shot that
 has some. All seeds and rounds are the truth; a trial draws 4 or 8 seeds with replacement and 15 successive rounds. SCENES: results of a study of many scenes (configs/comparison.json), which are the truth of
@@ -30,6 +30,7 @@ class Tally:
         self.held, self.judged, self.all = {}, {}, {}
 
     def add(self, name, low, high, truth):
+        """`low`, `high`: None where the number has no interval; infinite where it is a bound on one side."""
         self.all[name] = self.all.get(name, 0) + 1
         if low is not None and high is not None:
             self.judged[name] = self.judged.get(name, 0) + 1
@@ -98,7 +99,7 @@ class Resampled:
 
 
 def curve_truths(true_points):
-    """(variant, rows, costs to ask, errors to ask, the curve)"""
+    """(variant, rows, costs to ask with the errors there, errors to ask with their costs, rows of the true front by rising cost)"""
     for variant in dict.fromkeys(p.variant for p in true_points):
         rows = [i for i, p in enumerate(true_points) if p.variant == variant]
         own = [true_points[i] for i in rows]
@@ -111,7 +112,28 @@ def curve_truths(true_points):
         wanted = [on_front[1][0] ** (1 - s) * on_front[1][-1] ** s for s in PLACES]
         at = [float(curves.error_at(costs, errors, c)[0]) for c in asked]
         to = [float(curves.cost_to(costs, errors, e)[0]) for e in wanted]
-        yield variant, rows, list(zip(asked, at)), list(zip(wanted, to))
+        order = np.lexsort((errors[:, 0], costs[:, 0]))
+        points_on_front = [rows[i] for i in order[front[2][:, 0]]]
+        yield variant, rows, list(zip(asked, at)), list(zip(wanted, to)), points_on_front
+
+
+def study_bounds(drawn, draws, truths, count, tally):
+    """What is said beyond a front's ends, where the truth is known: a curve without its true front's cheapest or dearest point is asked
+    for an error or at a cost that the whole front has beyond its own ends."""
+    for _, rows, asked, wanted, front in truths:
+        if len(front) < 3:
+            continue
+        for name, gone, questions, reads in (
+            ("cost to an error that the cheapest point beats", front[0], wanted, lambda c, error: c.cost_to(error) if error >= c.start_error else None),
+            ("error past the end of a shortened front", front[-1], asked[:-1], lambda c, cost: c.error_at(cost) if cost > c.end else None),
+        ):
+            own = [i for i in rows if i != gone]
+            curve = curves.Curve([drawn[i] for i in own], draws, own)
+            for question, truth in questions:
+                found = reads(curve, question)
+                if found is not None:
+                    _, low, high, _ = found
+                    tally.add((name, count), -math.inf if low is None else low, high, truth)
 
 
 def study_curves(worlds, trials, tally):
@@ -129,18 +151,24 @@ def study_curves(worlds, trials, tally):
                     ("", uncertainty.ShotDraws(drawn, 400, trial)),
                     ("resampled: ", Resampled(drawn, generator)),
                 ):
-                    for _, rows, asked, wanted in truths:
+                    if not kind:
+                        study_bounds(drawn, draws, truths, count, tally)
+                    for _, rows, asked, wanted, _ in truths:
                         curve = curves.Curve([drawn[i] for i in rows], draws, rows)
                         if kind:
                             curve.front, curve.upper = np.arange(len(rows)), 0.975
                         for cost, error in asked:
                             _, low, high, _ = curve.error_at(cost)
-                            name = "error past the front's end" if cost > curve.end else "error at a cost"
+                            name, low = ("error past the front's end", -math.inf) if cost > curve.end else ("error at a cost", low)
                             tally.add((kind + name, count), low, high, error)
                         for error, cost in wanted:
-                            _, low, high, _ = curve.cost_to(error)
-                            high = math.inf if low is not None and high is None else high
-                            tally.add((kind + "cost to an error", count), low, high, cost)
+                            _, low, high, share = curve.cost_to(error)
+                            if error >= curve.start_error:
+                                name, low = "cost to an error, before start", -math.inf
+                            else:
+                                name, low = "cost to an error", -math.inf if low is None and share else low
+                            high = math.inf if low is not None and low > -math.inf and high is None else high
+                            tally.add((kind + name, count), low, high, cost)
 
 
 def study_fits(worlds, trials, tally):
@@ -204,7 +232,7 @@ def print_table(tally, names, counts, of):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("seeds_and_rounds", nargs="+")
-    parser.add_argument("--scenes", required=True)
+    parser.add_argument("--scenes")
     parser.add_argument("--leave-out", nargs="+", default=[], help="scenes")
     parser.add_argument("--trials", type=int, default=300)
     arguments = parser.parse_args()
@@ -213,11 +241,13 @@ def main():
     worlds, tally = [w for w in (World(s, rounds_of) for s in shots) if w.points], Tally()
     print(f"{sum(len(w.points) for w in worlds)} points of {len(worlds)} shots\n")
     study_curves(worlds, arguments.trials, tally)
-    names = ["error", "median cost", "error at a cost", "error past the front's end", "cost to an error"]
-    names += ["resampled: " + n for n in names[2:]]
+    names = ["error", "median cost", "error at a cost", "error past the front's end", "cost to an error", "cost to an error, before start"]
+    names += ["resampled: " + n for n in names[2:]] + ["cost to an error that the cheapest point beats", "error past the end of a shortened front"]
     print_table(tally, names, (4, 8), "seeds")
     study_fits(worlds, arguments.trials, tally)
     print_table(tally, ["floor of a fit", "exponent of a fit"], (4, 5, 6, 8), "points")
+    if not arguments.scenes:
+        return
     counts = (4, 5, 6, 8, 12, 20)
     most, samples = study_scenes(decided(arguments.scenes, arguments.leave_out), arguments.trials, tally, counts)
     print(f"{most} scenes, {samples} points and pairs of them\n")

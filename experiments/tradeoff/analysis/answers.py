@@ -24,6 +24,11 @@ def measured(value, low, high):
     return number(value) + ends
 
 
+def bound(value, high):
+    """Of what is known from above alone: by its interval's upper end, where there is one."""
+    return f"at most {number(high)}" if high is not None else f"about {number(value)}"
+
+
 def listed(names):
     names = list(names)
     shown = names[:MOST_LISTED] + ([f"{len(names) - MOST_LISTED} more"] if len(names) > MOST_LISTED else [])
@@ -259,8 +264,11 @@ class Answers:
     def _error_text(self, row):
         if row.get("error") is None:
             return f"below {number(row['start'])} no point was measured" + (" (may fit)" if row["fits"] == "maybe" else "")
-        text = measured(row["error"], row["low"], row["high"])
-        return text + {"past end": f", reached at {number(row['end'])}"}.get(row["status"], "") + ("" if row["fits"] == "surely" else " (may not fit)")
+        if row["status"] == "past end":
+            text = f"{bound(row['error'], row['high'])}, reached at {number(row['end'])}"
+        else:
+            text = measured(row["error"], row["low"], row["high"])
+        return text + ("" if row["fits"] == "surely" else " (may not fit)")
 
     def _errors_table(self, shot):
         rows = [r for r in self.analysis.cost_to_error if r["shot"] == shot.name]
@@ -276,9 +284,10 @@ class Answers:
 
     def _cost_text(self, row):
         if row["status"] == "not reached":
-            return f"not reached by {number(row['end'])}"
-        text = measured(row["cost"], row["low"], row["high"])
-        return f"at most {text}, its cheapest" if row["status"] == "before start" else text
+            return f"{'not' if row['share_that_reach'] < 0.025 else 'perhaps not'} reached by {number(row['end'])}"
+        if row["status"] == "before start":
+            return f"{bound(row['cost'], row['high'])}, its cheapest"
+        return measured(row["cost"], row["low"], row["high"]) if row["low"] is not None else bound(row["cost"], row["high"])
 
     def _floors(self):
         if not self.analysis.fits and not self.analysis.limits:

@@ -1,5 +1,5 @@
 """A technique's own front in one shot: the error that a cost buys, and the cost that an error asks for. Between measured points
-both are interpolated, logarithmic on both axes; beyond the first and the last nothing is said of what was not measured."""
+both are interpolated, logarithmic on both axes. Beyond the first and the last nothing was measured: what is said there is an upper bound."""
 
 import math
 
@@ -61,6 +61,11 @@ def cost_to(costs, errors, error, keeps_all=False):
     return np.where(both, between, found)
 
 
+def is_less_from_the_start(costs, errors, error):
+    """Of each draw: whether the cheapest point errs at most `error`. What less cost would do was not measured."""
+    return sorted_front(costs, errors)[1][0] <= error
+
+
 def column_of(values):
     return np.array(values, float)[:, None]
 
@@ -79,6 +84,7 @@ class Curve:
         order = np.lexsort((self.errors[:, 0], self.costs[:, 0]))
         self.front = order[front_mask(self.costs[order], self.errors[order])[:, 0]]
         self.start, self.end = float(self.costs[self.front[0], 0]), float(self.costs[self.front[-1], 0])
+        self.start_error = float(self.errors[self.front[0], 0])
         self.upper = 1 - 0.025 / (self._in_doubt() + 1)
 
     def _in_doubt(self):
@@ -99,11 +105,16 @@ class Curve:
         return value, float(low), float(high), float(np.mean(~np.isnan(anew)))
 
     def error_at(self, cost):
-        return self._read(error_at, cost)
+        """(error, low, high, share of the draws that have one). Past the end no low end: a dearer point would perhaps err less."""
+        value, low, high, share = self._read(error_at, cost)
+        return value, low if cost <= self.end else None, high, share
 
     def cost_to(self, error):
+        """(cost, low, high, share of the draws that reach the error). No low end where 2.5 % of the draws err less from the start on: a
+        cheaper point would perhaps do. No high end where more than 2.5 % do not reach the error."""
         value, low, high, share = self._read(cost_to, error)
-        return value, low, high if share >= 0.975 else None, share
+        is_bound = error >= self.start_error or np.mean(is_less_from_the_start(self.cost_draws, self.error_draws, error)) >= 0.025
+        return value, None if is_bound else low, high if share >= 0.975 else None, share
 
 
 def curves_of(shot, draws_of):

@@ -69,7 +69,7 @@ class Analysis:
                 if cost != cost:
                     row["status"] = "not reached"
                 else:
-                    row["status"] = "before start" if cost <= curve.start else "at" if cost == curve.end else "between"
+                    row["status"] = "before start" if error >= curve.start_error else "at" if cost == curve.end else "between"
                     row |= {"cost": cost, "low": low, "high": high}
                 yield row
 

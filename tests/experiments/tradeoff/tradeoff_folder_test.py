@@ -152,6 +152,7 @@ class Folder(unittest.TestCase):
         to = {(r["shot"], r["variant"]): r for r in read(self.out, "cost_to_error.csv")}
         self.assertAlmostEqual(float(to["roof", "v"]["cost"]), 16.16, places=3)
         self.assertEqual((to["roof", "w"]["status"], to["roof", "w"]["cost"]), ("not reached", ""))
+        self.assertEqual((at["floor", "v", 10]["status"], at["floor", "v", 4.1]["status"]), ("between", "between"))
         (fit, *_) = read(self.out, "fits.csv")
         self.assertEqual((fit["parameter"], fit["points"], fit["floor_low"], fit["rung"]), ("rays", "4", "0", "on_screen"))
         self.assertEqual(fit["point_names"], "rays=1; rays=2; rays=4; rays=8")

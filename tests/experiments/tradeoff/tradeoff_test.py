@@ -13,6 +13,7 @@ sys.path.insert(0, sys.argv.pop(1))
 
 import numpy as np  # noqa: E402
 from analysis import curves, fits, points, uncertainty  # noqa: E402
+from analysis.answers import Answers  # noqa: E402
 
 FRAMES = 15
 
@@ -75,7 +76,8 @@ class Curves(unittest.TestCase):
         error, low, high, share = curve.error_at(20)
         self.assertEqual((error, share, curve.upper), (1, 1, 1 - 0.025 / 4))  # any of the four may be the least
         alone = uncertainty.ShotDraws(near, 20000).errors
-        self.assertLess(low, np.quantile(alone[0], 0.025))  # as the least of four falls
+        self.assertIsNone(low)  # 20 is past the end
+        self.assertLess(curve.error_at(10)[1], np.quantile(alone[0], 0.025))  # as the least of four falls
         self.assertAlmostEqual(high, np.quantile(alone[0], 1 - 0.025 / 4), places=2)  # not as low as that
 
     def test_where_the_measured_front_may_not_fit_another_point_counts(self):
@@ -91,6 +93,40 @@ class Curves(unittest.TestCase):
         cost, low, high, share = curve.cost_to(1.05)
         self.assertTrue(low < cost < 20 and 0.5 < share < 0.9)
         self.assertIsNone(high)
+
+
+    def test_beyond_the_ends_only_an_upper_bound_is_known(self):
+        """error = 10 / cost at costs 4, 8 and 16, within 2 % of 4 seeds: what 2 or 20 would do was not measured."""
+        seeds = lambda e: {str(s): e * (1 + 0.01 * v) for s, v in enumerate((-1, 1, -1, 1))}  # noqa: E731
+        made = [point(f"v:{c}", 10 / c, 0.02 * 10 / c, c, 0.05, seeds(10 / c)) for c in (4, 8, 16)]
+        curve = curves.Curve(made, uncertainty.ShotDraws(made), [0, 1, 2])
+        cost, low, high, share = curve.cost_to(5)  # of 2, by the law
+        self.assertEqual((cost, low, share), (4, None, 1))
+        self.assertTrue(4 < high < 4.3)
+        self.assertIsNone(curve.cost_to(2.5)[1])  # half of the draws err less from the start on
+        self.assertIsNone(curve.cost_to(2.48)[1])  # and so may this one, by chance
+        cost, low, high, _ = curve.cost_to(2)
+        self.assertTrue(4 < low < 5 < high, (low, high))
+        error, low, high, _ = curve.error_at(20)
+        self.assertEqual((error, low), (0.625, None))
+        self.assertTrue(0.625 < high < 0.65)
+        self.assertTrue(curve.error_at(16)[1] < 0.625)  # of a point that ran
+
+
+class Texts(unittest.TestCase):
+    def test_what_stands_beyond_the_ends(self):
+        shown = Answers.__new__(Answers)
+        ends = {"start": 4.0, "end": 16.0, "fits": "surely", "share_that_reach": 1.0}
+        of_cost = lambda **row: shown._cost_text(ends | row)  # noqa: E731
+        self.assertEqual(of_cost(status="before start", cost=4.0, low=None, high=4.2), "at most 4.2, its cheapest")
+        self.assertEqual(of_cost(status="before start", cost=4.0, low=None, high=None), "about 4, its cheapest")
+        self.assertEqual(of_cost(status="between", cost=4.1, low=None, high=4.3), "at most 4.3")
+        self.assertEqual(of_cost(status="between", cost=5.0, low=4.5, high=5.5), "5 [4.5, 5.5]")
+        self.assertEqual(of_cost(status="between", cost=5.0, low=4.5, high=None), "5 [4.5, ...]")
+        self.assertEqual(of_cost(status="not reached", share_that_reach=0.0), "not reached by 16")
+        self.assertEqual(of_cost(status="not reached", share_that_reach=0.3), "perhaps not reached by 16")
+        self.assertEqual(shown._error_text(ends | {"status": "past end", "error": 0.62, "low": None, "high": 0.65}), "at most 0.65, reached at 16")
+        self.assertEqual(shown._error_text(ends | {"status": "at", "error": 0.62, "low": 0.6, "high": 0.65}), "0.62 [0.6, 0.65]")
 
 
 class Fits(unittest.TestCase):
