@@ -3,12 +3,14 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/gpu/chips/chip_compiler.h"
+#include "core/gpu/chips/model_range.h"
 #include "core/path_inside.h"
 #include "experiments/commands/commands.h"
 #include "experiments/config/config.h"
 #include "experiments/config/config_parts.h"
 #include "experiments/config/config_schema.h"
 #include "experiments/evaluation/tradeoff/tradeoff.h"
+#include "experiments/measuring/costs/counts_spread.h"
 #include "experiments/store/host_info.h"
 #include "metrics/estimators.h"
 #include "variants/registry.h"
@@ -79,6 +81,9 @@ int tradeoff_command(const TradeoffOptions& options) {
                                       : found.kind == CostKind::counted ? "counted"
                                                                         : "estimated"},
                             {"unit", found.unit},
+                            {"model_range", model_range_text()},
+                            {"model_decides_from", model_decides_from},
+                            {"counts_spread", counts_spread},
                             {"refused", nlohmann::json::array()},
                             {"divisors", nlohmann::json::object()},
                             {"chosen", nlohmann::json::array()}};

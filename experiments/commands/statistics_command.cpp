@@ -1,8 +1,10 @@
 // Statistics for the Python scripts, which choose what they are of: a process that answers questions costs less than a
 // copy of the rules, and less than a library, which would need the same sources once more and a place to be found in.
 #include "core/error.h"
+#include "core/gpu/chips/model_range.h"
 #include "experiments/commands/commands.h"
 #include "experiments/evaluation/effects/over_scenes.h"
+#include "experiments/measuring/costs/counts_spread.h"
 #include "metrics/median_interval.h"
 #include "metrics/quantiles.h"
 #include "metrics/statistics.h"
@@ -16,6 +18,8 @@ using nlohmann::json;
 
 json answer_to(const json& question) {
     const std::string asked = question.at("ask");
+    if (asked == "model_range") return {model_range.low, model_range.high, model_range_text()};
+    if (asked == "counts_spread") return json::array({counts_spread});
     if (asked == "mean_over_scenes") {
         std::vector<ShotValue> values;
         for (const json& v : question.at("values")) values.push_back({v.at(0), v.at(1)});

@@ -292,7 +292,7 @@ def gpu_times():
         for title, cells, line in ((f"{shot}: microseconds", times, None), (f"{shot}: error over none's", errors, 1.0)):
             rows = [(p, [technique_mark(p, cells[p, shot], is_hollow=p.endswith(PUBLISHED_PRESETS))]) for p in points]
             panels.append(Panel(title, rows, line))
-    return Picture(panels, "Radeon RX 6800 XT (navi21) at 1920x1080, estimated, 95 % intervals", columns=2, note="hollow: as published")
+    return Picture(panels, "Radeon RX 6800 XT (navi21) at 1920x1080, estimated, 95 % intervals of sampling", columns=2, note="hollow: as published")
 
 
 def exact_rays():

@@ -1,8 +1,10 @@
 #include "experiments/report/report_data.h"
 
+#include "core/gpu/chips/model_range.h"
 #include "core/gpu/pass_cost.h"
 #include "core/path_inside.h"
 #include "experiments/evaluation/evaluation.h"
+#include "experiments/measuring/costs/counts_spread.h"
 #include "experiments/store/manifest.h"
 
 #include <algorithm>
@@ -147,8 +149,10 @@ json report_data(const ReportTables& tables, const PointSet& single_changes) {
                  {"splits", table<SplitRow>(tables.splits, code)},
                  {"hits", table<HitRow>(tables.hits, code)},
                  {"costs", cost_table(tables.costs, code)},
+                 {"count_spread", 100 * counts_spread},
                  {"compiled", table<CompiledRow>(tables.compiled, code)},
                  {"estimates", table<EstimateRow>(tables.estimates, code)},
+                 {"model_range", {{"low", model_range.low}, {"high", model_range.high}, {"text", model_range_text()}}},
                  {"effects", table<EffectRow>(tables.effects, code)},
                  {"time_effects", table<TimeEffectRow>(tables.time_effects, code)},
                  {"times", table<TimeSummary>(tables.times, code)},

@@ -1,6 +1,7 @@
 #include "experiments/store/study_rows.h"
 
 #include "core/path_inside.h"
+#include "experiments/measuring/estimate_table.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -54,5 +55,5 @@ void write_tables(const std::filesystem::path& folder, const StudyRows& rows) {
             write_rows(path_inside(folder, file), some);
     };
     write_if_any("hits.csv", rows.hits), write_if_any("costs.csv", rows.costs);
-    write_if_any("compiled.csv", rows.compiled), write_if_any("estimates.csv", rows.estimates);
+    write_if_any("compiled.csv", rows.compiled), write_if_any("estimates.csv", estimate_table(rows.estimates));
 }

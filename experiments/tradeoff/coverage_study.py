@@ -99,7 +99,8 @@ class Resampled:
 
 
 def curve_truths(true_points):
-    """(variant, rows, costs to ask with the errors there, errors to ask with their costs, rows of the true front by rising cost)"""
+    """(variant, rows, costs to ask with the errors there, errors to ask with their costs, rows of the true front by rising cost,
+    the middle (cost, error) of its first and of its last two points)"""
     for variant in dict.fromkeys(p.variant for p in true_points):
         rows = [i for i, p in enumerate(true_points) if p.variant == variant]
         own = [true_points[i] for i in rows]
@@ -114,26 +115,32 @@ def curve_truths(true_points):
         to = [float(curves.cost_to(costs, errors, e)[0]) for e in wanted]
         order = np.lexsort((errors[:, 0], costs[:, 0]))
         points_on_front = [rows[i] for i in order[front[2][:, 0]]]
-        yield variant, rows, list(zip(asked, at)), list(zip(wanted, to)), points_on_front
+        ends = {
+            "first": tuple(float(np.sqrt(v[0] * v[1])) for v in on_front),
+            "last": tuple(float(np.sqrt(v[-2] * v[-1])) for v in on_front),
+        }
+        yield variant, rows, list(zip(asked, at)), list(zip(wanted, to)), points_on_front, ends
 
 
 def study_bounds(drawn, draws, truths, count, tally):
     """What is said beyond a front's ends, where the truth is known: a curve without its true front's cheapest or dearest point is asked
     for an error or at a cost that the whole front has beyond its own ends."""
-    for _, rows, asked, wanted, front in truths:
+    for _, rows, _, _, front, ends in truths:
         if len(front) < 3:
             continue
-        for name, gone, questions, reads in (
-            ("cost to an error that the cheapest point beats", front[0], wanted, lambda c, error: c.cost_to(error) if error >= c.start_error else None),
-            ("error past the end of a shortened front", front[-1], asked[:-1], lambda c, cost: c.error_at(cost) if cost > c.end else None),
-        ):
+
+        def without(gone):
             own = [i for i in rows if i != gone]
-            curve = curves.Curve([drawn[i] for i in own], draws, own)
-            for question, truth in questions:
-                found = reads(curve, question)
-                if found is not None:
-                    _, low, high, _ = found
-                    tally.add((name, count), -math.inf if low is None else low, high, truth)
+            return curves.Curve([drawn[i] for i in own], draws, own)
+
+        (cost, error), curve = ends["first"], without(front[0])
+        if error >= curve.start_error:
+            _, low, high, _ = curve.cost_to(error)
+            tally.add(("cost to an error that the cheapest point beats", count), -math.inf if low is None else low, high, cost)
+        (cost, error), curve = ends["last"], without(front[-1])
+        if cost > curve.end:
+            _, low, high, _ = curve.error_at(cost)
+            tally.add(("error past the end of a shortened front", count), -math.inf if low is None else low, high, error)
 
 
 def study_curves(worlds, trials, tally):
@@ -153,7 +160,7 @@ def study_curves(worlds, trials, tally):
                 ):
                     if not kind:
                         study_bounds(drawn, draws, truths, count, tally)
-                    for _, rows, asked, wanted, _ in truths:
+                    for _, rows, asked, wanted, _, _ in truths:
                         curve = curves.Curve([drawn[i] for i in rows], draws, rows)
                         if kind:
                             curve.front, curve.upper = np.arange(len(rows)), 0.975

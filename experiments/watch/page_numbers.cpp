@@ -1,6 +1,7 @@
 #include "experiments/watch/page_numbers.h"
 
 #include "core/error.h"
+#include "core/gpu/chips/model_range.h"
 #include "core/json.h"
 #include "experiments/evaluation/judgement.h"
 #include "experiments/evaluation/study_tables.h"
@@ -122,7 +123,10 @@ json page_why(const fs::path& results, const WatchedPoint& point, PageImages& im
 json page_times(const fs::path& results, const WatchedPoint& point, const std::vector<WatchedPoint>& against) {
     const StudyTables tables = read_study_tables(results);
     const PointName name = point.name();
-    json times = {{"stages", json::array()}, {"effects", json::array()}, {"estimates", json::array()}};
+    json times = {{"stages", json::array()},
+                  {"effects", json::array()},
+                  {"estimates", json::array()},
+                  {"model_range", model_range_text()}};
     for (const TimeSummary& t : tables.times)
         if (name_of(t) == name)
             times["stages"].push_back({{"stage", t.stage}, {"median", t.median}, {"low", t.low}, {"high", t.high}});

@@ -6,7 +6,7 @@
 #include "experiments/evaluation/effects/over_scenes.h"
 #include "experiments/evaluation/effects/time_effects.h"
 #include "experiments/evaluation/summary.h"
-#include "experiments/measuring/cell.h"
+#include "experiments/measuring/estimate_table.h"
 
 #include <map>
 
@@ -138,6 +138,8 @@ const std::map<std::string, Meaning>& meanings() {
           "of the 95 % interval of that, without blocks of which it is only known that they ran "
           "so often at most"}},
         {"estimates.high", {"us", "of the 95 % interval of that"}},
+        {"model_low", {"us", "`low` by the least that a measured time was of such estimates"}},
+        {"model_high", {"us", "`high` by the most, likewise"}},
         {"bound", {"", "the part of the chip that takes longest"}},
         {"vector", {"us", "arithmetic of vectors, if nothing else held it up"}},
         {"scalar", {"us", "scalar instructions, likewise"}},
@@ -243,7 +245,7 @@ nlohmann::json results_schema(const std::vector<VariantConfig>& variants) {
              {table<ResultRow>("results"), table<SplitRow>("splits"), table<EffectRow>("effects"),
               table<TimeEffectRow>("time_effects"), table<TimeRow>("times"), table<MetricSummary>("summary"),
               table<OverScenesRow>("over_scenes"), table<TimeSummary>("time_summary"), table<HitRow>("hits"),
-              table<CostRow>("costs"), table<CompiledRow>("compiled"), table<EstimateRow>("estimates"),
+              table<CostRow>("costs"), table<CompiledRow>("compiled"), table<EstimateTableRow>("estimates"),
               parameters_table(variants)}}};
 }
 

@@ -1,7 +1,9 @@
 #include "experiments/evaluation/tradeoff/other_costs.h"
 
 #include "core/error.h"
+#include "core/gpu/chips/model_range.h"
 #include "core/near_miss.h"
+#include "experiments/evaluation/study_points.h"
 
 #include <algorithm>
 
@@ -33,10 +35,16 @@ std::map<PointName, OtherCost> other_costs(const StudyTables& tables, const std:
                                            const std::string& cost) {
     std::map<PointName, OtherCost> found;
     if (cost_kind(tables, cost) == CostKind::estimated) {
-        for (const EstimateRow& e : tables.estimates)
-            if (e.shot == shot && e.chip == cost && e.stage == total && e.microseconds)
-                found[{e.variant, e.point}] = {*e.microseconds, e.low.value_or(*e.microseconds),
-                                               e.high.value_or(*e.microseconds)};
+        for (const EstimateRow& e : tables.estimates) {
+            if (e.shot != shot || e.chip != cost || e.stage != total || !e.microseconds) continue;
+            const double low = e.low.value_or(*e.microseconds), high = e.high.value_or(*e.microseconds);
+            found[{e.variant, e.point}] = {.value = *e.microseconds,
+                                           .low = low,
+                                           .high = high,
+                                           .fits_from = high * model_range.high,
+                                           .may_fit_from = low * model_range.low,
+                                           .decides_from = model_decides_from};
+        }
         return found;
     }
     std::map<PointName, double> sums, totals;  // a stage of that name has the sum of all
@@ -44,8 +52,20 @@ std::map<PointName, OtherCost> other_costs(const StudyTables& tables, const std:
         if (c.shot == shot && c.quantity == cost)
             (c.stage == total ? totals : sums)[{c.variant, c.point}] += double(c.value);
     for (const auto& [point, sum] : totals) sums[point] = sum;
-    for (const auto& [point, sum] : sums) found[point] = {sum, sum, sum};
+    const PointSet without_seeds = points_without_seeds(tables.manifest);
+    for (const auto& [point, sum] : sums) {
+        const double decides_from = without_seeds.contains(point) ? 1 : counts_decide_from(cost);
+        found[point] = {sum, sum, sum, sum * decides_from, sum / decides_from, decides_from};
+    }
     return found;
+}
+
+std::string cost_verdict(const OtherCost& a, const OtherCost& b) {
+    if (a == b) return verdict::equal;
+    const double decides_from = std::max(a.decides_from, b.decides_from);
+    if (a.high < b.low && a.value * decides_from <= b.value) return verdict::less;
+    if (b.high < a.low && b.value * decides_from <= a.value) return verdict::more;
+    return verdict::not_distinguishable;
 }
 
 std::vector<RefusedEstimate> refused_estimates(const StudyTables& tables, const std::set<std::string>& shots,

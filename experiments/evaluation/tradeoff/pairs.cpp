@@ -104,12 +104,6 @@ void compare_errors(OpenPair& pair, const Decided<EffectRow>& effects, const Dec
     row.decided_by = "pairs", pair.p = p_by_intervals(a, b);
 }
 
-/// With an interval that holds every pair of values in both; what is alike in all numbers is equal.
-MedianInterval ratio_of(const OtherCost& a, const OtherCost& b) {
-    if (a == b) return {1, 1, 1};
-    return {a.value / b.value, a.low / b.high, a.high / b.low};
-}
-
 void compare_costs(OpenPair& pair, const Costs& costs, const Decided<TimeEffectRow>& effects) {
     const PointName a = name_of(*pair.a), b = name_of(*pair.b);
     const auto of_a = costs.values.find(a), of_b = costs.values.find(b);
@@ -119,11 +113,7 @@ void compare_costs(OpenPair& pair, const Costs& costs, const Decided<TimeEffectR
     PairRow& row = pair.row;
     if (!costs.is_timed) {
         pair.has_cost = true;
-        pair.cost = ratio_of(cost_a, cost_b);
-        row.cost_verdict = pair.cost.high < 1                          ? verdict::less
-                           : pair.cost.low > 1                         ? verdict::more
-                           : pair.cost.low == 1 && pair.cost.high == 1 ? verdict::equal
-                                                                       : verdict::not_distinguishable;
+        row.cost_verdict = cost_verdict(cost_a, cost_b);
         return;
     }
     std::vector<double> ratios;
@@ -167,15 +157,18 @@ void decide(std::vector<OpenPair>& pairs) {
     }
 }
 
-void set_dominance(OpenPair& pair, double floor) {
+void set_dominance(OpenPair& pair, const Costs& costs) {
     if (!pair.has_cost) return;
     PairRow& row = pair.row;
     const bool is_same_error = row.error_verdict == verdict::equal;
     const bool errs_less = row.error_verdict == verdict::less, errs_more = row.error_verdict == verdict::more;
     const bool is_cheaper = row.cost_verdict == verdict::less, is_dearer = row.cost_verdict == verdict::more;
     // A difference that two copies of one point may have is none.
-    const bool costs_no_more = pair.cost.median <= 1 && pair.cost.high <= 1 + floor,
-               costs_no_less = pair.cost.median >= 1 && pair.cost.low * (1 + floor) >= 1;
+    const bool is_same_cost = row.cost_verdict == verdict::equal;
+    const bool costs_no_more = costs.is_timed ? pair.cost.median <= 1 && pair.cost.high <= 1 + costs.floor
+                                              : is_cheaper || is_same_cost,
+               costs_no_less = costs.is_timed ? pair.cost.median >= 1 && pair.cost.low * (1 + costs.floor) >= 1
+                                              : is_dearer || is_same_cost;
     const auto says = [](bool is_certain, bool is_possible) {
         return is_certain ? "yes" : is_possible ? "maybe" : "no";
     };
@@ -224,7 +217,7 @@ std::vector<PairRow> pairs_of(const StudyTables& tables, const PrimaryComparison
             }
         decide(pairs);
         for (OpenPair& pair : pairs) {
-            set_dominance(pair, costs.floor);
+            set_dominance(pair, costs);
             rows.push_back(std::move(pair.row));
         }
     }

@@ -31,8 +31,8 @@ struct PairRow {
 /// study was asked for is its effect's; all others of a shot are a family of their own (p_by_intervals(), which knows
 /// no pairs of seeds, and so is the wider one; Holm 1979). Times go likewise: what is in time_effects.csv is decided
 /// there, all others by the ratios of the frames that both were timed in, and by what copies of one point differ by
-/// (time_ratio()). Counted costs are exact. Of estimated ones a point costs less where its interval ends below the
-/// other's begin.
+/// (time_ratio()). Counted and estimated costs go by cost_verdict(), which decides no pair of
+/// estimates closer than model_decides_from, nor of one seed's counts closer than counts_decide_from().
 ///
 /// A point dominates another that errs more and costs no less, or costs more and errs no less: each of them certain. It
 /// may dominate where neither its cost nor its error is certainly the larger one.

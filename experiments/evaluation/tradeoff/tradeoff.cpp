@@ -111,8 +111,8 @@ void add_costs(std::vector<TradeoffShot>& shots, const StudyTables& tables, cons
             p.row.unit = unit_of(kind, cost);
             if (const auto other = others.find(p.name()); other != others.end()) {
                 p.row.cost = other->second.value;
-                p.row.cost_low = p.may_fit_from = other->second.low;
-                p.row.cost_high = p.fits_from = other->second.high;
+                p.row.cost_low = other->second.low, p.row.cost_high = other->second.high;
+                p.fits_from = other->second.fits_from, p.may_fit_from = other->second.may_fit_from;
             }
             for (const TimeSummary& t : tables.times) {
                 if (!is_timed || t.shot != shot.name || t.stage != "total" || PointName(t.variant, t.point) != p.name())
@@ -345,6 +345,6 @@ Tradeoff tradeoff_of(const StudyTables& tables, const TradeoffQuestion& question
         std::ranges::move(rows, std::back_inserter(found.across));
     }
     for (AcrossRow& row : found.across) row.baseline = label_of(labels, found.baseline), row.unit = found.unit;
-    found.changes = changes_of(tables, question.error, found.front, found.unit);
+    found.changes = changes_of(tables, question.error, found.front, found.unit, question.cost);
     return found;
 }

@@ -105,9 +105,11 @@ struct ChangeRow {
 };
 
 /// All changes of one parameter among the compared points (effects.csv) that have costs, as `front` has them; `unit`:
-/// FrontRow's.
+/// FrontRow's; `cost`: see cost_kind(). Estimates that are closer than model_decides_from in a shot differ
+/// significantly neither there nor over scenes.
 std::vector<ChangeRow> changes_of(const StudyTables& tables, const PrimaryComparisons& error,
-                                  std::span<const FrontRow> front, const std::string& unit);
+                                  std::span<const FrontRow> front, const std::string& unit,
+                                  const std::string& cost = "");
 
 /// All that is decided of a study's errors and costs; fits and curves between points are Python's.
 struct Tradeoff {

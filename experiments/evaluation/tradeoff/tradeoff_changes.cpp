@@ -15,6 +15,8 @@ struct Change {
     ChangeRow row;
     std::string asset;
     bool is_error_significant = false, is_cost_significant = false;
+    /// False of estimates that are too close: their model errs in all scenes alike, so that no mean tells more.
+    bool may_differ_over_scenes = true;
 };
 
 /// `rays: 1 -> 4` of the parameters in which two points differ; empty where that is not one.
@@ -122,12 +124,13 @@ std::vector<Change> pooled(const std::vector<Change>& changes) {
     for (const Change& change : changes) {
         if (std::ranges::any_of(found, [&](const Change& other) { return same(other, change); })) continue;
         std::vector<ShotValue> log_errors, differences;
+        Change& of_all = found.emplace_back(change);
         for (const Change& own : changes)
             if (same(own, change)) {
+                of_all.may_differ_over_scenes &= own.may_differ_over_scenes;
                 log_errors.push_back({own.asset, std::log(own.row.error_ratio)});
                 differences.push_back({own.asset, own.row.cost});
             }
-        found.push_back(change);
         errors.push_back(mean_over_scenes(log_errors)), costs.push_back(mean_over_scenes(differences));
     }
     std::map<std::string, std::vector<size_t>> of_machine;
@@ -137,7 +140,8 @@ std::vector<Change> pooled(const std::vector<Change>& changes) {
         for (const size_t i : family) of_errors.push_back(&errors[i]), of_costs.push_back(&costs[i]);
         const std::vector<bool> errs = judged_together(of_errors), takes = judged_together(of_costs);
         for (size_t k = 0; k < family.size(); ++k)
-            found[family[k]].is_error_significant = errs[k], found[family[k]].is_cost_significant = takes[k];
+            found[family[k]].is_error_significant = errs[k],
+            found[family[k]].is_cost_significant = takes[k] && found[family[k]].may_differ_over_scenes;
     }
     for (size_t i = 0; i < found.size(); ++i) {
         const MeanOverScenes &error = errors[i], &cost = costs[i];
@@ -164,7 +168,8 @@ std::vector<Change> pooled(const std::vector<Change>& changes) {
 }  // namespace
 
 std::vector<ChangeRow> changes_of(const StudyTables& tables, const PrimaryComparisons& error,
-                                  std::span<const FrontRow> front, const std::string& unit) {
+                                  std::span<const FrontRow> front, const std::string& unit,
+                                  const std::string& cost_name) {
     using Name = std::tuple<std::string, std::string, std::string>;  // shot, variant, point
     using PairName = std::pair<Name, Name>;
     std::map<Name, const FrontRow*> points;
@@ -178,6 +183,11 @@ std::vector<ChangeRow> changes_of(const StudyTables& tables, const PrimaryCompar
             if (t.stage == "total")
                 time_effects[{{t.shot, t.variant, t.point}, {t.shot, t.against_variant, t.against_point}}] = &t;
     const Deviates normal = deviates_of(normal_quantile);
+    const CostKind kind = cost_kind(tables, cost_name);
+    std::map<std::string, std::map<PointName, OtherCost>> others;  // by shot
+    if (kind != CostKind::timed)
+        for (const FrontRow& p : front)
+            if (!others.contains(p.shot)) others[p.shot] = other_costs(tables, p.shot, cost_name);
 
     std::vector<Change> changes;
     std::set<PairName> known;
@@ -204,10 +214,13 @@ std::vector<ChangeRow> changes_of(const StudyTables& tables, const PrimaryCompar
         row.error_ratio = *e.ratio, row.error_low = *e.low_holm, row.error_high = *e.high_holm;
         row.cost_low = row.cost_high = row.cost = (exact - 1) * cost;
         change.is_cost_significant = exact != 1;
-        if (unit != unit_of_times && before.cost_low && of.cost_low) {
+        if (kind != CostKind::timed && before.cost_low && of.cost_low) {
             row.cost = *of.cost - cost;
             row.cost_low = *of.cost_low - *before.cost_high, row.cost_high = *of.cost_high - *before.cost_low;
-            change.is_cost_significant = *row.cost_low > 0 || *row.cost_high < 0;
+            const std::string decided = cost_verdict(others[e.shot].at({e.variant, e.point}),
+                                                     others[e.shot].at({e.against_variant, e.against_point}));
+            change.is_cost_significant = decided == verdict::less || decided == verdict::more;
+            change.may_differ_over_scenes = kind == CostKind::counted || change.is_cost_significant;
         }
         if (const auto found = time_effects.find(names); found != time_effects.end()) {
             const TimeEffectRow& t = *found->second;

@@ -7,6 +7,7 @@ from matplotlib.transforms import blended_transform_factory
 
 from paper_figures import numbers, style
 from paper_figures.request import near
+from ssrlab import statistics
 from ssrlab.mistakes import ResultsError
 
 MOST_STAGES = 7  # of a technique, named and coloured; the least others are added up, unless there is but one
@@ -91,7 +92,8 @@ def draw_estimates(results, shot, chosen):
     points = results.estimates_of(shot, chip)
     whole = {key: stages for key, stages in points.items() if "total" in stages}
     lacking = ", ".join(results.point_label(*key) for key in points if key not in whole)
-    said = f"microseconds on {chip} (estimate) with the 95 % interval of the total"
+    low, high, _ = statistics.model_range()
+    said = f"microseconds on {chip} (estimate) with the 95 % interval of the total by sampling; measured times were {low:.3g} to {high:.3g} times such estimates"
     said += f"; left out, since a stage has no estimate: {lacking}" if lacking else ""
     return _draw(results, shot, chosen, whole, said, numbers.with_interval)
 

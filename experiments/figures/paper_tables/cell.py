@@ -5,7 +5,8 @@ from dataclasses import dataclass
 NO_INTERVAL = "none: "  # experiments/evaluation/interval.h: before the reason
 NOT_POSITIVE = NO_INTERVAL + "an error is not above 0"
 SOME_ZERO = NO_INTERVAL + "a count is 0"
-EXACT = "exact"  # of counts, in place of what an interval holds
+COUNTED = "counted"  # of counts, in place of what an interval holds: they are of one seed
+EXACT = "exact"  # of what a compiler states of its code
 BOTH = " / "  # between what differs among the parts of a mean
 
 
@@ -23,7 +24,7 @@ class Cell:
     most: float = None
     is_significant: bool = False  # as effects.csv says (`verdict`)
     seeds: int = None
-    interval: str = None  # what it holds, or why there is none: experiments/evaluation/interval.h; EXACT
+    interval: str = None  # what it holds, or why there is none: experiments/evaluation/interval.h; COUNTED; EXACT
     mean_of: int = None  # how many have a value and are in the mean; of how many, its table knows
     clock: str = None  # of times
     disturbed_share: float = None  # of the frames that a time is the median of, by other programs
@@ -32,7 +33,7 @@ class Cell:
     may_be_zero: bool = False  # so that its mean is the arithmetic one; not kept either
 
     def is_count(self):
-        return self.interval == EXACT
+        return self.interval in (COUNTED, EXACT)
 
     def reasons(self):
         """Why there is no interval, where that is known."""

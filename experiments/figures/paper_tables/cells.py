@@ -10,7 +10,7 @@ from ssrlab.csv_files import number, whole
 from ssrlab.mistakes import ResultsError
 from ssrlab.results import BEST, TIED, representative_rows
 from paper_tables import agreement, limits, variance_shares
-from paper_tables.cell import EXACT, Cell
+from paper_tables.cell import COUNTED, EXACT, Cell
 from paper_tables.means import ASSETS, SAMPLED, largest, mean
 
 SOURCES = {  # name to (file, columns of value, low and high)
@@ -21,7 +21,7 @@ SOURCES = {  # name to (file, columns of value, low and high)
     "times": ("time_summary.csv", ("median_ms", "low_ms", "high_ms")),
     "time_effects": ("time_effects.csv", ("ratio", "low", "high")),
     "hits": ("hits.csv", ("value", "low", "high")),
-    "costs": ("costs.csv", ("value", "low", "high")),  # counts: without an interval, as they are exact
+    "costs": ("costs.csv", ("value", "low", "high")),  # counts of one seed: without an interval
     "compiled": ("compiled.csv", ("value", "low", "high")),  # exact for its compiler; quantities are columns: see _compiled_rows()
     "estimates": ("estimates.csv", ("value", "low", "high")),  # likewise: see _estimate_rows()
     "limits": ("summary.csv", ("value", "low", "high")),  # errors over the information limit of one frame: limits.py
@@ -82,7 +82,7 @@ def _estimate_rows(rows):
     """A row for each number that estimates.csv has, named by `quantity`."""
     for row in rows:
         for quantity, value in row.items():
-            if value and quantity not in (*NAMING, *ESTIMATE_TEXTS, "low", "high"):
+            if value and quantity not in (*NAMING, *ESTIMATE_TEXTS, "low", "high", "model_low", "model_high"):
                 yield row | {"quantity": quantity, "value": value} | ({} if quantity == TIME else {"low": "", "high": ""})
 
 
@@ -202,7 +202,7 @@ def _timed(row, against=""):
 def _cell(selection, row, name):
     table = selection.table
     if table.of in ("costs", "compiled"):
-        return Cell(table.name, *name, whole(row, "value"), interval=EXACT)
+        return Cell(table.name, *name, whole(row, "value"), interval=COUNTED if table.of == "costs" else EXACT)
     columns = SOURCES[table.of][1] or ("value", "low", "high")
     if table.of == "time_effects" and row["verdict"]:
         columns = SOURCES["effects"][1]  # of totals, which have verdicts: the interval that agrees with it

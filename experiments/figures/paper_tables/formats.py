@@ -3,9 +3,10 @@
 import io
 
 from paper_figures import numbers
+from ssrlab import statistics
 from ssrlab.csv_files import write_lines
 from ssrlab.results import BEST, TIED
-from paper_tables.cell import BOTH
+from paper_tables.cell import BOTH, COUNTED, EXACT
 from paper_tables.means import ASSETS, SAMPLED
 
 # What intervals hold (experiments/evaluation/interval.h) that is less than the scatter over the seeds and the reference's noise, where
@@ -102,10 +103,12 @@ def other_notes(table, cells):
         found.append(f"in parentheses the range over {over}")
     if any(is_part(table, c) and c.value is not None for c in cells):
         found.append(f"\"n of {table['over_count']}\": so many of the {over} have a value and are in the mean")
-    if any(c.is_count() for c in cells):
-        found.append("counts of the last frame, exact but for rounding to three digits; k, M, G: thousands, millions, billions")
+    if any(c.interval == EXACT for c in cells):
+        found.append("numbers of the compiler, shown with three digits; k, M, G: thousands, millions, billions")
+    if any(c.interval == COUNTED for c in cells):
+        found.append(f"counts of the last frame with one seed; those of other seeds differ by up to {100 * statistics.counts_spread():.2g} %; k, M, G: thousands, millions, billions")
     if table.get("is_estimated"):
-        found.append("estimated: no GPU ran anything")
+        found.append(f"estimated: no GPU ran anything; intervals are of sampling alone, {statistics.model_range()[2]}")
     if any(c.value is None for c in cells):
         found.append(f"{NO_VALUE}: no value")
     share = max((c.disturbed_share for c in cells if c.disturbed_share), default=None)

@@ -3,8 +3,11 @@
 
     cost_agreement.py RESULTS [--costs RESULTS]    costs.csv and estimates.csv of another folder, of the same shots and points
     cost_agreement.py RESULTS --without STAGE ...  without stages (* stands for any text); a point is the sum of its others
+    cost_agreement.py RESULTS --by-shot            a row for each shot, too
+    cost_agreement.py RESULTS --model-range        the range of core/gpu/chips/model_range.h, of these stages and all chips
 
-For each cost, over the shots: Kendall's rank correlation with the median times of the points, and of their stages; of the pairs
+A point of which no stage of its own is left in a shot is left out there: what remains is what techniques share (a texture of noise, a pyramid), no work that
+the point would be compared by. For each cost, over the shots: Kendall's rank correlation with the median times of the points, and of their stages; of the pairs
 of points of a shot whose times differ by a factor of 1.5 or more, the share that the cost puts in the order of their times; and how
 many times an estimate the time of a stage is (median, and from the 5th to the 95th percentile of all shots' stages).
 """
@@ -71,10 +74,17 @@ def estimates(folder):
     return found
 
 
+def is_shared(stage):
+    """Of a pass that techniques share, or that is no technique's: their own are named by a technique, as `amd_sssr/prefilter`."""
+    return stage.startswith("common/") or "/" not in stage
+
+
 def without(shots, patterns):
-    """{shot: values} without the stages that fit a pattern, and without totals."""
+    """{shot: values} without the stages that fit a pattern, without totals, and without points of which no own stage is left."""
     is_left = lambda stage: stage != "total" and not any(fnmatch.fnmatchcase(stage, pattern) for pattern in patterns)  # noqa: E731
-    return {shot: {key: value for key, value in values.items() if is_left(key[2])} for shot, values in shots.items()}
+    left = {shot: {key: value for key, value in values.items() if is_left(key[2])} for shot, values in shots.items()}
+    work = {shot: {key[:2] for key in values if not is_shared(key[2])} for shot, values in left.items()}
+    return {shot: {key: value for key, value in values.items() if key[:2] in work[shot]} for shot, values in left.items()}
 
 
 def add_totals(both):
@@ -113,8 +123,13 @@ def spread(values):
     return f"{statistics.mean(known):.2f} [{min(known):.2f}, {max(known):.2f}]" if known else "none"
 
 
+def percentiles(ratios):
+    """The 5th, the middle and the 95th."""
+    return [sorted(ratios)[round(share * (len(ratios) - 1))] for share in (0.05, 0.5, 0.95)]
+
+
 def range_of(ratios):
-    low, middle, high = (sorted(ratios)[round(share * (len(ratios) - 1))] for share in (0.05, 0.5, 0.95))
+    low, middle, high = percentiles(ratios)
     return f"{middle:.2f} [{low:.2f}, {high:.2f}]"
 
 
@@ -123,6 +138,8 @@ def main():
     parser.add_argument("results")
     parser.add_argument("--costs")
     parser.add_argument("--without", nargs="+", metavar="STAGE", default=[])
+    parser.add_argument("--by-shot", action="store_true")
+    parser.add_argument("--model-range", action="store_true")
     arguments = parser.parse_args()
     folder = arguments.costs or arguments.results
     estimated = estimates(folder)
@@ -133,11 +150,20 @@ def main():
     if not any(set(times) & set(shots) for shots in costs.values()):
         raise ResultsError("no shot has both times and costs")
     print("| cost | totals | stages | clearly apart, in order | time over estimate |\n|---|---|---|---|---|")
+    ends = []
     for name, of_shots in costs.items():
-        of_totals, of_stages, pairs, right, ratios = agreement(times, of_shots, not arguments.without)
-        in_microseconds = [1e3 * ratio for ratio in ratios]
-        over = range_of(in_microseconds) if name in estimated and ratios else "-"
-        print(f"| {name} | {spread(of_totals)} | {spread(of_stages)} | {right} of {pairs} | {over} |")
+        both = sorted(set(times) & set(of_shots))
+        for shots in ([both] if not arguments.by_shot else [[shot] for shot in both] + [both]):
+            of_totals, of_stages, pairs, right, ratios = agreement({s: times[s] for s in shots}, of_shots, not arguments.without)
+            in_microseconds = [1e3 * ratio for ratio in ratios]
+            over = range_of(in_microseconds) if name in estimated and ratios else "-"
+            label = name if shots is both else f"{name}, {shots[0]} ({len({key[:2] for key in times[shots[0]]})} points)"
+            print(f"| {label} | {spread(of_totals)} | {spread(of_stages)} | {right} of {pairs} | {over} |")
+        if name in estimated and ratios:
+            low, _, high = percentiles(in_microseconds)
+            ends += [low, high]
+    if arguments.model_range and ends:
+        print(f"\nmodel_range{{{min(ends):.3g}, {max(ends):.3g}}}")
 
 
 if __name__ == "__main__":

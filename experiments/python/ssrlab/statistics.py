@@ -66,6 +66,18 @@ def p_holm(effects, degrees):
     return _ask("p_holm", [[float(mean), float(half)] for mean, half in effects], degrees=degrees)
 
 
+@functools.cache
+def model_range():
+    """(low, high, sentence): by so many times a stage's measured time was its estimate (core/gpu/chips/model_range.h)."""
+    return tuple(_ask("model_range", []))
+
+
+@functools.cache
+def counts_spread():
+    """By how much the counts of a point's seeds spread at most (experiments/measuring/costs/counts_spread.h), relative."""
+    return _ask("counts_spread", [])[0]
+
+
 def median(values):
     """(median, low, high) of values in order of time."""
     return tuple(_ask("median", [float(v) for v in values]))

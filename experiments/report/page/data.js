@@ -53,8 +53,10 @@ function readData() {
         splits: rows(raw.splits).map(split),
         hits: rows(raw.hits),
         costs: rows(raw.costs),  // a row for each stage, with a column for each quantity
+        countSpread: raw.count_spread,  // of the seeds of a point, %
         compiled: rows(raw.compiled),
         estimates: rows(raw.estimates).map(e => ({...e, value: e.microseconds})),
+        modelRange: raw.model_range,  // {low, high, text}: what the intervals of estimates leave open
         effects: rows(raw.effects).map(effect),
         timeEffects: rows(raw.time_effects).map(timeEffect),
         times: rows(raw.times).map(time)

@@ -82,10 +82,11 @@ class Answers:
         elif study.costs == "estimated":
             lines.append(
                 f"{markdown_code(study.unit)}: microseconds that the chip would take for a technique's own stages. **No GPU ran anything**: what is assumed stands in "
-                "core/gpu/chips/README.md, and no interval holds whether that is so. Those of costs hold the sampling of invocations, and code of which it is not known whether it ran."
+                "core/gpu/chips/README.md, and no interval holds whether that is so. Those of costs hold the sampling of invocations, and code of which it is not known whether it ran. "
+                f"**What the model leaves open is wider**: {study.asked['model_range']}. Two costs closer than {study.asked['model_decides_from']:g} times are not decided, and a point surely fits what it would fit at the range's end."
             )
         else:
-            lines.append(f"{markdown_code(self.study.unit)}: counted over a technique's own stages, without scatter; times may order techniques otherwise.")
+            lines.append(f"{markdown_code(self.study.unit)}: counted over a technique's own stages with the first seed. Counts of a point's seeds spread by up to {100 * study.asked['counts_spread']:.2g} %, so that points closer than twice that are not decided; times may order techniques otherwise.")
         lines += [
             f"**{markdown_text(study.label_of(tuple(r['point'])))} has no estimate** in {listed(markdown_text(self.shot_labels[s]) for s in r['shots'])} and is left out there: "
             f"{markdown_text(r['why'])}."

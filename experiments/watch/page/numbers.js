@@ -88,6 +88,8 @@ function writeTimes({times, state}) {
     const notes = (times?.effects ?? []).map(
         e => `${fourDigits(e.ratio)}${ends(e)} times the time of ${e.label}${e.verdict ? `: ${e.verdict}` : ""}`);
     if (refusal) notes.push(`No estimate of a GPU's time: ${refusal}`);
+    if ([...estimates.values()].some(e => e.microseconds !== null))
+        notes.push(`Intervals of estimates are of sampling alone: ${times.model_range}`);
     at("time-note").textContent = times ? notes.join("; ") : "Taken once the errors are there.";
     at("times").classList.toggle("is-old", Boolean(times) && times.state !== state);
 }

@@ -3,6 +3,7 @@
 
 #include "experiments/evaluation/interval.h"
 #include "experiments/evaluation/standings.h"
+#include "experiments/evaluation/tradeoff/other_costs.h"
 
 #include <gtest/gtest.h>
 #include <cmath>
@@ -90,21 +91,33 @@ TEST(Pairs, SayNothingOfTimesWithoutCopies) {
     EXPECT_EQ(pair.error_verdict, verdict::less);
 }
 
-TEST(Pairs, TakeCountedCostsForExact) {
-    ShotOfPairs shot;
-    shot.add_error("a", 1, 0.1), shot.add_error("b", 2, 0.1);
-    set_standings(shot.tables.errors);
-    for (const auto& [variant, value] : {std::pair("a", 100), std::pair("b", 101)})
-        shot.tables.costs.push_back({"s", variant, "p", "march", "fetches", size_t(value)});
-    const PairRow pair = pairs_of(shot.tables, specular_mse, "fetches").at(0);
-    EXPECT_EQ(pair.cost_verdict, verdict::less);
-    EXPECT_EQ(dominance(pair), Dominance("yes", "no"));
+/// Of points that draw random numbers a count is of one seed; of others it is all there is.
+TEST(Pairs, DecideCountsOfOneSeedBeyondTheSpreadOfSeeds) {
+    const auto verdict_of = [](size_t a, size_t b, bool draws_numbers) {
+        ShotOfPairs shot;
+        shot.add_error("a", 1, 0.1), shot.add_error("b", 2, 0.1);
+        set_standings(shot.tables.errors);
+        shot.tables.manifest["variants"] = {{{"variant", "a"}, {"point", "p"}, {"depends_on_seed", false}},
+                                            {{"variant", "b"}, {"point", "p"}, {"depends_on_seed", draws_numbers}}};
+        shot.tables.costs = {{"s", "a", "p", "march", "fetches", a}, {"s", "b", "p", "march", "fetches", b}};
+        const PairRow pair = pairs_of(shot.tables, specular_mse, "fetches").at(0);
+        return pair.cost_verdict + ", " + pair.dominates;
+    };
+    const size_t near = size_t(1000 * counts_decide_from("fetches")) - 1, apart = near + 2;
+    EXPECT_EQ(verdict_of(1000, 1001, false), "less, yes");
+    EXPECT_EQ(verdict_of(1000, 1000, false), "equal, yes");
+    EXPECT_EQ(verdict_of(1000, near, true), "not distinguishable, maybe");
+    EXPECT_EQ(verdict_of(near, 1000, true), "not distinguishable, maybe");
+    EXPECT_EQ(verdict_of(1000, 1000, true), "not distinguishable, maybe") << "by chance";
+    EXPECT_EQ(verdict_of(1000, apart, true), "less, yes");
+    EXPECT_EQ(verdict_of(apart, 1000, true), "more, no");
 }
 
-/// Which of two costs less is certain where their intervals do not meet.
-TEST(Pairs, KnowWhatIsNotKnownOfEstimatedCosts) {
+/// Which of two estimates costs less is certain where their intervals do not meet and they differ by more than the
+/// model is known to err.
+TEST(Pairs, DecideEstimatesBeyondWhatTheModelLeavesOpen) {
     ShotOfPairs shot;
-    for (const char* variant : {"a", "b", "c", "d"}) shot.add_error(variant, 1 + variant[0] - 'a', 0.1);
+    for (const char* variant : {"a", "b", "c", "d", "e", "f"}) shot.add_error(variant, 1 + variant[0] - 'a', 0.1);
     set_standings(shot.tables.errors);
     const auto add = [&](const char* variant, double microseconds, double low, double high) {
         EstimateRow row;
@@ -115,18 +128,23 @@ TEST(Pairs, KnowWhatIsNotKnownOfEstimatedCosts) {
             low = high = microseconds = 500;
         }
     };
-    add("a", 10, 9, 11), add("b", 12, 11.5, 13), add("c", 12, 11.5, 13), add("d", 12.5, 0, 14);
+    add("a", 10, 9.9, 10.1), add("b", 14.9, 14.8, 15), add("c", 14.9, 14.8, 15), add("d", 15.1, 15, 15.2),
+        add("e", 6.6, 6.5, 6.7), add("f", 30, 0, 40);
     const auto verdict_of = [&](const std::string& a, const std::string& b) {
         for (const PairRow& pair : pairs_of(shot.tables, specular_mse, "navi21"))
-            if (pair.variant == a && pair.other_variant == b) return pair.cost_verdict + ", " + pair.dominates;
+            if (pair.variant == a && pair.other_variant == b)
+                return pair.cost_verdict + ", " + pair.dominates + ", " + pair.is_dominated;
         return std::string("no such pair");
     };
-    EXPECT_EQ(verdict_of("a", "b"), "less, yes");
-    EXPECT_EQ(verdict_of("b", "c"), "equal, yes");
-    EXPECT_EQ(verdict_of("b", "d"), "not distinguishable, maybe");
+    EXPECT_EQ(verdict_of("a", "b"), "not distinguishable, maybe, no") << "1.49 times";
+    EXPECT_EQ(verdict_of("a", "d"), "less, yes, no") << "1.51 times";
+    EXPECT_EQ(verdict_of("a", "e"), "more, no, no") << "1.52 times";
+    EXPECT_EQ(verdict_of("d", "e"), "more, no, no");
+    EXPECT_EQ(verdict_of("b", "c"), "equal, yes, no");
+    EXPECT_EQ(verdict_of("a", "f"), "not distinguishable, maybe, no") << "intervals that meet";
     for (EstimateRow& row : shot.tables.estimates)
         if (row.variant == "b") row.microseconds = row.low = row.high = std::nullopt, row.refusal = "no radv";
-    EXPECT_EQ(verdict_of("a", "b"), ", ") << "without an estimate there is no cost";
+    EXPECT_EQ(verdict_of("a", "b"), ", , ") << "without an estimate there is no cost";
 }
 
 TEST(Pairs, AreDecidedWhereTheStudyAskedForThem) {

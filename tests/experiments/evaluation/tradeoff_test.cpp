@@ -1,6 +1,7 @@
 // Error against cost: the point that stands for a technique, the front, and what changes are worth, of made-up tables.
 #include "experiments/evaluation/tradeoff/tradeoff.h"
 
+#include "core/gpu/chips/model_range.h"
 #include "experiments/evaluation/interval.h"
 #include "tests/error_message.h"
 
@@ -249,6 +250,46 @@ TEST(Tradeoff, ChangesOverScenesAreStudents) {
     EXPECT_NEAR(std::log(*mean.error_high), -1 + half, 1e-9);
     EXPECT_NEAR(*mean.cost_high, 10 + 10 * half, 1e-9);
     EXPECT_NEAR(*mean.cost_per_percent, 10 / (100 * (std::exp(1) - 1)), 1e-12);
+}
+
+/// Estimates of 1.49 times the cost in four scenes do not differ: their model may err in all of them alike. Budgets are
+/// surely kept at the upper end of what the model leaves open.
+TEST(Tradeoff, EstimatesGoByTheirModel) {
+    for (const double factor : {1.49, 1.51}) {
+        MadeStudy made;
+        made.add_point("v", "a", {{"rays", 1}}), made.add_point("v", "b", {{"rays", 4}});
+        for (int i = 0; i < 4; ++i) {
+            const std::string shot = "s" + std::to_string(i);
+            for (const char* point : {"a", "b"}) {
+                made.add(shot, "v", point, 1, 10);
+                EstimateRow estimate;
+                estimate.shot = shot, estimate.variant = "v", estimate.point = point, estimate.stage = "total";
+                estimate.chip = "navi21", estimate.microseconds = *point == 'a' ? 10 : 10 * factor;
+                estimate.low = 0.999 * *estimate.microseconds, estimate.high = 1.001 * *estimate.microseconds;
+                made.tables.estimates.push_back(estimate);
+            }
+            EffectRow effect{.shot = shot, .variant = "v", .point = "b"};
+            effect.against_variant = "v", effect.against_point = "a";
+            effect.target = "specular", effect.metric = "mse", effect.mask = "reflective";
+            effect.verdict = verdict::less, effect.ratio = std::exp(-1 - 0.1 * i);
+            effect.low_holm = 0.9 * *effect.ratio, effect.high_holm = 1.1 * *effect.ratio;
+            made.tables.effects.push_back(effect);
+        }
+        const auto found = tradeoff_of(made.tables, {.error = {"mse", "reflective", "specular"},
+                                                     .cost = "navi21",
+                                                     .baseline = "",
+                                                     .costs = {2, 20, 10.2 * model_range.high, 17 * model_range.high},
+                                                     .left_out = {}});
+        ASSERT_EQ(found.changes.size(), 5u) << "of four scenes, and over them";
+        for (const ChangeRow& row : found.changes)
+            EXPECT_EQ(row.verdict, factor < 1.5 ? "less error, cost not significant" : "buys error") << row.shot;
+        std::vector<std::string> fits;
+        for (const ChosenPoint& c : found.chosen)
+            if (c.shot == "s0") fits.push_back(c.fits);
+        EXPECT_EQ(fits.front(), "no") << "0.22 times the cheapest is more";
+        EXPECT_EQ(fits.at(1), "maybe");
+        EXPECT_EQ(fits.back(), "surely");
+    }
 }
 
 /// Twenty changes that change nothing: studies in which any is said to change the error are at most 5 %, 10 of 200

@@ -470,7 +470,7 @@ def test_counts(temporary):
     check(f"| trace | 6.09 M (3.00 M to 12.3 M) | 10.0 k | \N{EN DASH}{A} |" in text, text)
     check("| total | 349 k (987 to 123 M) | 663 k | 0 |" in text, text)
     check(f"{A}: no number: a count is 0;" in text, text)
-    check("exact but for rounding to three digits; k, M, G" in text and "no interval" not in text.split("mean -->")[0], text)
+    check("counts of the last frame with one seed; those of other seeds differ by up to 2.5 %; k, M, G" in text and "no interval" not in text.split("mean -->")[0], text)
     made = [read(os.path.join(folder, "tables", name + ".md")) for name in ("counts", "mean")]
     check(all(table in read(os.path.join(root, "README.md")) for table in made), f"{made} became {text}")
     check(r"349~k {\scriptsize (987 to 123~M)}" in read(os.path.join(folder, "tables", "mean.tex")), "LaTeX")
@@ -504,6 +504,8 @@ def test_compiled(temporary):
     grid = list(csv.reader(open(os.path.join(folder, "tables", "chips.csv"))))
     check({head.removesuffix(" low").removesuffix(" high") for head in grid[0][1:]} == set(HEADS), f"only numbers are quantities: {grid[0]}")
     values = {(row[0], head): value for row in grid[1:] for head, value in zip(grid[0], row, strict=True) if value and head in HEADS}
+    said = read(os.path.join(folder, "tables", "chips.md"))
+    check("Numbers of the compiler, shown with three digits" in said and "seed;" not in said, said)
     check(values == {("trace", HEADS[0]): "48", ("trace", HEADS[1]): "10", ("trace", HEADS[2]): "52", ("blur", HEADS[0]): "16", ("blur", HEADS[1]): "16"}, grid)
 
 

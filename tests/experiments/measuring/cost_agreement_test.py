@@ -65,6 +65,33 @@ class CostAgreement(unittest.TestCase):
         none_left = self.run_on(costs, ESTIMATES, ["--without", "v/*"])
         self.assertIn("| navi21 estimate | none | none | 0 of 0 | - |", none_left.stdout, none_left.stderr)
 
+    def test_points_without_work_of_their_own_are_left_out_of_a_shot(self):
+        """`d` keeps the noise's texture alone in `moves`, which takes a thousandth of what the others take: three pairs in order for nothing."""
+        names = "shot,variant,point,seed,stage,frame,milliseconds,clock,foreign_load,disturbed\n"
+        times, estimates = names, "shot,variant,point,stage,chip,product,microseconds,refusal\n"
+        for shot in ("still", "moves"):
+            for variant, ms, microseconds in (("a", 1, 2000), ("b", 2, 1000), ("c", 4, 4000), ("d", 8, 9000)):
+                stages = {f"{variant}/trace": (ms, microseconds)}
+                if shot == "moves":
+                    stages |= {"common/noise": (0.001, 1), "clear": (9, 9)}
+                for stage, (of_time, estimate) in stages.items():
+                    times += f"{shot},{variant},p,0,{stage},0,{of_time},host_fence,,0\n"
+                    estimates += f"{shot},{variant},p,{stage},navi21,R,{estimate},\n"
+        with tempfile.TemporaryDirectory() as folder:
+            costs = "shot,variant,point,stage,quantity,value\nstill,a,p,a/trace,fetches,1\n"
+            for name, text in (("times.csv", times), ("costs.csv", costs), ("estimates.csv", estimates)):
+                with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                    file.write(text)
+            command = [sys.executable, "-B", PROGRAM, folder, "--without", "d/*", "clear", "--by-shot", "--model-range"]
+            done = subprocess.run(command, capture_output=True, text=True)
+        # Of a, b and c all pairs are clearly apart; a and b are in the wrong order.
+        row = "(3 points) | 0.33 [0.33, 0.33] |"
+        self.assertIn(f"| navi21 estimate, moves {row}", done.stdout, done.stderr)
+        self.assertIn(f"| navi21 estimate, still {row}", done.stdout)
+        self.assertIn("| navi21 estimate | 0.33 [0.33, 0.33] | ", done.stdout)
+        self.assertIn("| 4 of 6 | 1.00 [0.50, 2.00] |", done.stdout)
+        self.assertIn("model_range{0.5, 2}", done.stdout)
+
     def test_without_a_common_shot(self):
         done = self.run_on("shot,variant,point,stage,quantity,value\nthird,v,a,total,fetches,1\n")
         self.assertEqual((done.returncode, done.stderr), (2, "error: no shot has both times and costs\n"))

@@ -9,7 +9,8 @@ const costKinds = {
 };
 
 const howCounted =
-    "Counted by the shaders as they ran, in the shot's last frame with the first seed: exact, and of no machine.";
+    "Counted by the shaders as they ran, in the shot's last frame with the first seed; of no machine." +
+    ` Other seeds of a point that draws random numbers count up to ${report.countSpread} % more or less.`;
 
 const costTotals = new Map(report.costs.filter(c => c.stage === "total").map(c => [c.shot + "|" + pointKey(c), c]));
 
@@ -19,7 +20,7 @@ function totalCost(row, kind) {
     return total && {value: costKinds[kind].of(total), low: null, high: null};
 }
 
-/// 12 345 678 as 12.3 M: counts are exact, and longer than anyone compares.
+/// 12 345 678 as 12.3 M: counts have more digits than anyone compares.
 function countText(count) {
     const [size, letter] = [[1e9, "G"], [1e6, "M"], [1e3, "k"]].find(([size]) => count >= size) ?? [1, ""];
     return letter ? `${number(count / size, 3)} ${letter}` : String(count);

@@ -42,12 +42,18 @@ function estimatesPart() {
     const place = e => e.stage === "total" ? pointLabel(e) : `${e.stage} of ${pointLabel(e)}`;
     return [
         refusalsNote(refused, own.length, place, "All points"),
+        estimated.length ? h("p", {class: "note"}, howSure()) : "",
         stages.length ? h("div", {class: "bars"}, estimateBars(own, stages),
                           h("div", {}, boundLegend(stages), estimateSentences(own, stages))) :
                         "",
         estimated.length ? estimateTable(estimated) : ""
     ];
 }
+
+const howSure = () => `Intervals are of sampling alone: ${report.modelRange.text}.`;
+
+/// Between what the model leaves the time.
+const modelRangeOf = e => `[${number(e.low * report.modelRange.low, 3)}, ${number(e.high * report.modelRange.high, 3)}]`;
 
 const totalEstimate = (own, point) => own.find(e => e.stage === "total" && isSamePoint(e, point) && !e.refusal);
 const microseconds = value => `${number(value, 3)} µs`;
@@ -84,8 +90,9 @@ function boundLegend(stages) {
 function estimateSentences(own, stages) {
     const points = unique(stages.map(pointKey)).map(key => stages.find(e => pointKey(e) === key));
     const text = total => total ?
-        `${microseconds(total.value)} by estimate (95\u00a0% interval from ${number(total.low, 3)} to ${
-            number(total.high, 3)}), most of it bound by ${partOf(total).name}.` :
+        `${microseconds(total.value)} by estimate (95\u00a0% interval of sampling from ${number(total.low, 3)} to ${
+            number(total.high, 3)}; with what the model leaves open ${modelRangeOf(total)}), most of it bound by ${
+            partOf(total).name}.` :
         "no total, since a stage has no estimate.";
     const items = points.map(p => h("li", {}, h("b", {}, pointLabel(p)), ": ", text(totalEstimate(own, p))));
     const sentences = h("ul", {class: "sentences"}, items);
@@ -101,10 +108,10 @@ function estimateTable(estimated) {
         h("b", {}, "total") :
         h("span", {}, isBound(e) ? textureSwatch(partOf(e).fill) : null, stageName(e.stage));
     const lines = estimated.map(
-        e => [pointLabel(e), stage(e), time(e.value), interval(e, 3), ...estimateParts.map(p => part(e, p)),
+        e => [pointLabel(e), stage(e), time(e.value), interval(e, 3), modelRangeOf(e), ...estimateParts.map(p => part(e, p)),
               time(e.caches), share(e.activeLanes), share(e.unmatched)]);
     const numbers = [
-        "estimate", "95 % interval", ...estimateParts.map(p => p.name), "caches", "lanes that run", "runs at most"
+        "estimate", "95 % interval", "model range", ...estimateParts.map(p => p.name), "caches", "lanes that run", "runs at most"
     ];
     const columns = [
         {name: "Point"}, {name: "Stage"},
@@ -113,6 +120,7 @@ function estimateTable(estimated) {
     const note =
         h("p", {class: "note"},
           `Estimates for ${chipText(estimateChoice.chip)} in microseconds, and what each part of the chip would take for them alone.`,
+          ` Intervals are of sampling; the model range is what they leave open: ${report.modelRange.text}.`,
           " Bold is the part that bounds the stage.",
           " Caches are no part of the estimate: they are what it would be if every byte came through the L2 cache.",
           " Lanes that run are the share of the waves' lanes that do, weighted by vector instructions.",
