@@ -7,7 +7,8 @@
 
 /// The error that the noise of the lit colour adds to a technique. Techniques read the path-traced lit colour of the
 /// reference that they are compared with. All seeds read the same, so its noise is a bias of all of them, which neither
-/// the correction for the reference's noise nor the scatter of the seeds includes.
+/// the correction for the reference's noise nor the scatter of the seeds includes. A reflection probe is no part of it:
+/// its noise does not depend on the reference (reflection_probe.h).
 ///
 /// It is estimated from two further runs of the point, with one seed, that read the lit colour of half A and of half B.
 /// To first order a result is linear in what it reads, so that with x_a, x_b those two results

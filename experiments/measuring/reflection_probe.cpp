@@ -11,9 +11,6 @@
 namespace {
 
 constexpr unsigned face_side = 32, probe_samples = 64, probe_guide_samples = 16;
-/// Added to the study's seed: what reads a probe is compared with the reference, so that the noise of one must not be
-/// that of the other.
-constexpr unsigned probe_seed = 0x9706e;
 constexpr glm::uvec2 latlong_extent(4 * face_side, 2 * face_side);
 
 /// One side of a cube around the probe.
@@ -42,7 +39,7 @@ glm::vec3 radiance_along(const Face& face, glm::vec3 vs_direction) {
 }
 
 /// The face that `direction` meets.
-glm::vec3 radiance_along(const std::array<Face, 6>& faces, glm::vec3 direction) {
+glm::vec3 radiance_along(const std::array<Face, probe_views>& faces, glm::vec3 direction) {
     const auto depth = [&](const Face& face) { return -glm::dot(face.world_from_view[2], direction); };
     const Face& met = *std::ranges::max_element(faces, {}, depth);
     return radiance_along(met, glm::transpose(met.world_from_view) * direction);
@@ -51,12 +48,16 @@ glm::vec3 radiance_along(const std::array<Face, 6>& faces, glm::vec3 direction) 
 }  // namespace
 
 Environment reflection_probe(glm::vec3 position, const ReferenceSettings& settings, const ProbeView& render) {
-    const std::array<glm::vec3, 6> axes = {{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
+    const std::array<glm::vec3, probe_views> axes = {
+        {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
     ReferenceSettings of_face{.max_samples = probe_samples,
                               .max_depth = settings.max_depth,
                               .guide_samples = probe_guide_samples,
                               .keep_all = settings.keep_all};
-    std::array<Face, 6> faces;
+    // A reference of one of these seeds would draw the same samples as the probe: of it the next six.
+    const bool is_taken = settings.seed - first_probe_seed < probe_views;  // unsigned: not of seeds below
+    const unsigned first_seed = first_probe_seed + (is_taken ? probe_views : 0);
+    std::array<Face, probe_views> faces;
     for (size_t i = 0; i < faces.size(); ++i) {
         faces[i].world_from_view = looking_along(axes[i]);
         CameraPose camera{.vertical_fov = float(std::numbers::pi / 2),  // a probe has no planes
@@ -64,7 +65,7 @@ Environment reflection_probe(glm::vec3 position, const ReferenceSettings& settin
                           .far = std::numeric_limits<float>::infinity()};
         camera.world_from_view = glm::mat4(faces[i].world_from_view);
         camera.world_from_view[3] = glm::vec4(position, 1.0f);
-        of_face.seed = settings.seed + probe_seed + unsigned(i);
+        of_face.seed = first_seed + unsigned(i);
         faces[i].radiance = render(camera, glm::uvec2(face_side), of_face).image.mean;
     }
     Environment probe{.type = Environment::Type::image, .latlong = HostImage(latlong_extent, 3)};

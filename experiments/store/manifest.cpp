@@ -137,7 +137,9 @@ nlohmann::json study_entry(const Config& config) {
     if (std::ranges::any_of(config.shots, &ShotConfig::lit_has_environment))
         warnings.push_back("the lit image that SSR read held the environment's specular reflections, as engines' do");
     if (std::ranges::any_of(config.shots, &ShotConfig::has_probe))
-        warnings.push_back("reflections fell back to a probe at the camera's first place, not to the environment");
+        warnings.push_back(
+            "reflections fell back to a probe at the camera's first place, not to the environment: the same probe in "
+            "all studies of a scene, so that no interval holds what its own noise adds");
     if (config.composite == CompositeFormula::additive_fresnel)
         warnings.push_back(
             "reflections were added to an image that holds the environment's already, as an engine's document prints "

@@ -34,6 +34,27 @@ TEST(ReflectionProbes, OfASkyAreThatSky) {
     }
 }
 
+/// Studies whose references have other seeds read the same probe, and no reference draws the samples of its probe.
+TEST(ReflectionProbes, AreTheSameForAllReferencesAndIndependentOfThem) {
+    const auto seeds_of_views = [](unsigned reference_seed) {
+        std::vector<unsigned> seeds;
+        reflection_probe({}, {.seed = reference_seed},
+                         [&](const CameraPose&, glm::uvec2 extent, const ReferenceSettings& of_view) {
+                             seeds.push_back(of_view.seed);
+                             Reference black;
+                             black.image.mean = HostImage(extent, 3);
+                             return black;
+                         });
+        return seeds;
+    };
+    const std::vector<unsigned> usual = seeds_of_views(ReferenceSettings().seed);
+    EXPECT_EQ(std::set(usual.begin(), usual.end()).size(), 6u) << "nor do two views draw the same";
+    for (const unsigned seed : {0u, 1u, 0x9706eu, 1u << 30, usual.front() - 1, usual.back() + 1})
+        EXPECT_EQ(seeds_of_views(seed), usual) << seed;
+    for (const unsigned seed : usual)
+        EXPECT_EQ(std::ranges::count(seeds_of_views(seed), seed), 0) << "a reference of the probe's own seed " << seed;
+}
+
 TEST_F(StudyTest, ReflectionsFallBackToAProbeWhereAsked) {
     write_text(folder / "study.json",
                R"({"shots": [{"scene": "dark_room", "resolution": [48, 27]}], "fallback": ["environment", "probe"],
