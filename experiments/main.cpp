@@ -36,6 +36,15 @@ CLI::Validator positive() {
 }
 
 /// What files may cost and name, of all commands that read them (core/reading_limits.h).
+/// Of equivalence: PrimaryComparisons::margin.
+void add_margin(CLI::App& command, double& margin, const std::string& otherwise) {
+    command
+        .add_option("--margin", margin,
+                    "Errors that differ by a smaller share than this for certain are equivalent; default: " + otherwise)
+        ->type_name("SHARE")
+        ->check(CLI::Range(0.001, 1.0));
+}
+
 void add_reading(CLI::App& command) {
     command
         .add_option_function<uint64_t>(
@@ -289,6 +298,7 @@ int parse_and_run(int argc, char** argv) {
         .add_option("--page", diff.page,
                     "Also write a page with both pictures, their difference and the numbers of what changed")
         ->type_name("FILE.html");
+    add_margin(diff_command_, diff.margin, "the new study's `primary.margin`");
     add_reading(diff_command_);
     diff_command_.callback([&] { status = diff_command(diff); });
 
@@ -296,7 +306,7 @@ int parse_and_run(int argc, char** argv) {
     CLI::App& judge_command_ = *app.add_subcommand(
         "judge",
         "Judge the frames of another renderer by the truth, and against those that it rendered before: better, worse, "
-        "not distinguishable or identical (at most 1 % false alarms)");
+        "equivalent, undecided or identical (at most 1 % false alarms)");
     judge_command_
         .add_option("frames", judge.frames,
                     "Folder with external.json and SCENE.CAMERA.WIDTHxHEIGHT/fFRAME.sSEED.exr (experiments/README.md, "
@@ -319,6 +329,7 @@ int parse_and_run(int argc, char** argv) {
         ->check(CLI::Range(32, 1 << 20));
     judge_command_.add_option("--out", judge.out, "Results folder with the page; default: results/judge")
         ->type_name("DIR");
+    add_margin(judge_command_, judge.margin, "0.05");
     add_scene_path(judge_command_, common), add_device(judge_command_, common), add_cache(judge_command_, common);
     add_reading(judge_command_);
     judge_command_.callback([&] { status = judge_command(judge, common); });
@@ -388,6 +399,7 @@ int parse_and_run(int argc, char** argv) {
         ->capture_default_str()
         ->type_name("F");
     tradeoff_command_.add_option("--leave-out", tradeoff.left_out, "Scenes or shots to exclude")->type_name("SCENE");
+    add_margin(tradeoff_command_, tradeoff.margin, "the study's `primary.margin`");
     tradeoff_command_.add_option("--metric", tradeoff.metric, "Default: that of the study's primary error");
     tradeoff_command_.add_option("--mask", tradeoff.mask, "Default: that of the study's primary error");
     tradeoff_command_.add_option("--target", tradeoff.target, "Default: that of the study's primary error");
@@ -414,7 +426,8 @@ int parse_and_run(int argc, char** argv) {
     tune_command_.callback([&] { status = tune_command(tune, run_options(tune_command_, common)); });
 
     CompareCommandOptions compare;
-    CLI::App& compare_command_ = *app.add_subcommand("compare", "Compare two images (OpenEXR, Radiance or PNG): one number per line");
+    CLI::App& compare_command_ =
+        *app.add_subcommand("compare", "Compare two images (OpenEXR, Radiance or PNG): one number per line");
     compare_command_.add_option("reference", compare.reference, "What is right: .exr (linear radiance) or .png (sRGB)")
         ->required()
         ->type_name("REFERENCE");
@@ -428,9 +441,10 @@ int parse_and_run(int argc, char** argv) {
                     "ms_ssim, and hdr_flip of an EXR reference")
         ->type_name("NAME");
     compare_command_
-        .add_option("--layer", compare.layer,
-                    "Layer, part, view or channel of EXR files that have several, such as specular; default: that without "
-                    "a name, else image, as of files by `ssrlab reference`, else the only one with R, G and B")
+        .add_option(
+            "--layer", compare.layer,
+            "Layer, part, view or channel of EXR files that have several, such as specular; default: that without "
+            "a name, else image, as of files by `ssrlab reference`, else the only one with R, G and B")
         ->type_name("NAME");
     compare_command_
         .add_option("--map", compare.map,

@@ -49,6 +49,16 @@ std::pair<double, double> RatioEstimate::interval(double error) const {
     return {std::exp(logarithm - half_width - excess_of_a), std::exp(logarithm + half_width + excess_of_b)};
 }
 
+double p_beyond_limits(double value, double limit, double standard_error, double degrees, double down, double up) {
+    const double within = limit - std::max(value + up, down - value);  // of the end that is nearer to its limit
+    if (!(standard_error > 0)) return within > 0 ? 0 : 1;
+    return student_t_cdf(-within / standard_error, degrees);
+}
+
+double RatioEstimate::p_beyond(double margin) const {
+    return p_beyond_limits(std::log(value), std::log1p(margin), standard_error, degrees, excess_of_a, excess_of_b);
+}
+
 RatioEstimate jackknifed_ratio(const Jackknifed& a, const Jackknifed& b, const SharedScatter& shared) {
     if (a.without.size() != b.without.size())
         fail("a paired comparison needs as many seeds on each side, found ", a.without.size(), " and ",
@@ -78,14 +88,14 @@ RatioEstimate jackknifed_ratio(const Jackknifed& a, const Jackknifed& b, const S
     return ratio;
 }
 
-std::vector<double> holm_adjusted(std::span<const double> p_values) {
+std::vector<double> holm_adjusted(std::span<const double> p_values, size_t others) {
     std::vector<size_t> order(p_values.size());
     std::iota(order.begin(), order.end(), size_t(0));
     std::ranges::stable_sort(order, {}, [&](size_t i) { return p_values[i]; });
     std::vector<double> adjusted(p_values.size());
     double greatest = 0;
     for (size_t rank = 0; rank < order.size(); ++rank) {
-        greatest = std::max(greatest, double(order.size() - rank) * p_values[order[rank]]);
+        greatest = std::max(greatest, double(others + order.size() - rank) * p_values[order[rank]]);
         adjusted[order[rank]] = std::min(1.0, greatest);
     }
     return adjusted;

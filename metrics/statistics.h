@@ -35,7 +35,17 @@ struct RatioEstimate {
     /// The interval of another probability of error than 0.05, in (0, 1): it excludes 1 where p_value is below
     /// `error`. Only where there is one at 0.05.
     std::pair<double, double> interval(double error) const;
+
+    /// Of "the ratio is not between 1 / (1 + margin) and 1 + margin": the larger p of two one-sided tests (Schuirmann
+    /// 1987, "A Comparison of the Two One-Sided Tests Procedure and the Power Approach"). Only where there is an
+    /// interval; `margin` is above 0.
+    double p_beyond(double margin) const;
 };
+
+/// The larger p of two one-sided tests of "`value` is not between -limit and limit", Student's t with `degrees`; `down`
+/// and `up`: by which a bias may reach further to either side.
+double p_beyond_limits(double value, double limit, double standard_error, double degrees, double down = 0,
+                       double up = 0);
 
 /// Uncertainty of ln(a / b) in addition to the scatter of the seeds, and independent of it: its variance with its
 /// degrees of freedom, and the shares of themselves by which a and b may be too large, below 1.
@@ -54,9 +64,9 @@ struct SharedScatter {
 /// unequal numbers of seeds. metrics/README.md has the measured coverage.
 RatioEstimate jackknifed_ratio(const Jackknifed& a, const Jackknifed& b, const SharedScatter& shared = {});
 
-/// p-values adjusted for their number, in the order given (Holm 1979, "A Simple
-/// Sequentially Rejective Multiple Test Procedure").
-std::vector<double> holm_adjusted(std::span<const double> p_values);
+/// p-values adjusted for their number, in the order given (Holm 1979, "A Simple Sequentially Rejective Multiple Test
+/// Procedure"). `others`: members of their family that stay undecided, whatever these say.
+std::vector<double> holm_adjusted(std::span<const double> p_values, size_t others = 0);
 
 /// Mean and variance of each channel of each pixel over independent seeds, one image at a time (Welford 1962).
 struct SeedMoments {

@@ -71,6 +71,7 @@ int tables_command(const std::vector<std::string>& arguments);
 struct DiffOptions {
     std::filesystem::path before, after, csv, page;
     bool judges_times = false, shows_all = false;
+    double margin = 0;  ///< 0: that of the new study
 };
 int diff_command(const DiffOptions& options);  ///< the exit code: 0, or 1 if a number changed
 
@@ -78,6 +79,7 @@ struct JudgeOptions {
     std::filesystem::path frames, against, capture, reference, out = "results/judge";  ///< "": none
     std::string scene;                                                                 ///< "": by the views' names
     unsigned samples = 256;
+    double margin = 0;  ///< 0: PrimaryComparisons'
     bool fails_if_worse = false;
 };
 int judge_command(const JudgeOptions& options, const CommonOptions& common);  ///< the exit code: 0, or 1 if worse
@@ -100,6 +102,7 @@ struct TradeoffOptions {
     std::string baseline, metric, mask, target, cost;                   ///< empty: the study's own, and time
     std::vector<double> times{5, 10, 20, 40}, factors{0.5, 0.25, 0.1};  ///< ms or counts; of the baseline's error
     std::vector<std::string> left_out;                                  ///< scenes or shots
+    double margin = 0;                                                  ///< 0: the study's own
 };
 int tradeoff_command(const TradeoffOptions& options);  ///< the exit code: 0, 2 or 3
 
@@ -184,8 +187,8 @@ struct RaysOptions {
 void rays_command(const RaysOptions& options, const CommonOptions& common);
 
 struct RecordOptions {
-    ShotOptions shot{.size = {192, 108}};                             ///< its frame is not looked at
-    std::string variant, preset, frames = "0-7";                      ///< a frame, or a range with both ends
+    ShotOptions shot{.size = {192, 108}};         ///< its frame is not looked at
+    std::string variant, preset, frames = "0-7";  ///< a frame, or a range with both ends
     nlohmann::json parameters = nlohmann::json::object();
     unsigned samples = 256;
     bool is_packed = false, has_results = false, has_passes = false;

@@ -3,6 +3,7 @@
 #include "core/shown_text.h"
 #include "experiments/commands/commands.h"
 #include "experiments/evaluation/study_diff.h"
+#include "experiments/evaluation/study_points.h"
 #include "experiments/report/diff_page.h"
 
 #include <algorithm>
@@ -15,7 +16,8 @@ namespace {
 constexpr size_t most_named = 12;  // changes, unless all are asked for
 
 void print_techniques(const std::vector<NumberChange>& errors) {
-    const char* verdicts[] = {change::equal, change::not_distinguishable, change::changed, change::not_judged};
+    const char* verdicts[] = {change::equal, change::equivalent, change::undecided, change::changed,
+                              change::not_judged};
     std::map<std::string, std::vector<NumberChange>> by_technique;
     for (const NumberChange& c : errors) by_technique[c.variant].push_back(c);
     std::cout << std::left << std::setw(32) << "" << std::right << std::setw(8) << "numbers";
@@ -76,7 +78,8 @@ void print_times(const StudyDiff& diff, const DiffOptions& options) {
 
 int diff_command(const DiffOptions& options) {
     const StudyTables before = read_study_tables(options.before), after = read_study_tables(options.after);
-    const StudyDiff diff = diff_studies(before, after, options.judges_times);
+    const StudyDiff diff = diff_studies(before, after, options.judges_times,
+                                        options.margin > 0 ? options.margin : primary_of(after.manifest).margin);
     if (diff.errors.empty())
         fail(options.before.string(), " and ", options.after.string(), " have no shot and point in common");
     print_techniques(diff.errors);

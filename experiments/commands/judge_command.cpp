@@ -42,6 +42,7 @@ int judge_command(const JudgeOptions& options, const CommonOptions& common) {
                       .capture = options.capture,
                       .reference = options.reference,
                       .samples = options.samples,
+                      .margin = options.margin > 0 ? options.margin : PrimaryComparisons().margin,
                       .run = {.out = options.out,
                               .device = common.device,
                               .cache = common.cache.empty() ? default_cache_folder() : common.cache,

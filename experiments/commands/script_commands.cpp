@@ -9,6 +9,7 @@
 #include "experiments/config/config.h"
 #include "experiments/config/config_parts.h"
 #include "experiments/config/config_schema.h"
+#include "experiments/evaluation/study_points.h"
 #include "experiments/evaluation/tradeoff/tradeoff.h"
 #include "experiments/measuring/costs/counts_spread.h"
 #include "experiments/store/host_info.h"
@@ -48,13 +49,11 @@ int tables_command(const std::vector<std::string>& arguments) {
 
 int tradeoff_command(const TradeoffOptions& options) {
     const StudyTables tables = read_study_tables(options.results);
-    const nlohmann::json own = tables.manifest.value("primary", nlohmann::json::object());
-    const auto chosen = [&](const std::string& asked, const char* key, const std::string& fallback) {
-        return asked.empty() ? own.value(key, fallback) : asked;
-    };
-    const PrimaryComparisons plain, error{.metric = chosen(options.metric, "metric", plain.metric),
-                                          .mask = chosen(options.mask, "mask", plain.mask),
-                                          .target = chosen(options.target, "target", plain.target)};
+    PrimaryComparisons error = primary_of(tables.manifest);
+    if (!options.metric.empty()) error.metric = options.metric;
+    if (!options.mask.empty()) error.mask = options.mask;
+    if (!options.target.empty()) error.target = options.target;
+    if (options.margin > 0) error.margin = options.margin;
     std::vector<double> costs = options.times;
     std::ranges::sort(costs);
     const Tradeoff found = tradeoff_of(tables, {.error = error,

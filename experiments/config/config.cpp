@@ -83,7 +83,10 @@ Keys primary_keys() {
     const PrimaryComparisons plain;
     return {{"metric", any_text(), otherwise("`" + plain.metric + "`" + or_first), "of which less is better"},
             {"mask", any_text(), otherwise("`" + plain.mask + "`" + or_first), "one of `masks`"},
-            {"target", one_of(target_names()), otherwise("`" + plain.target + "`" + or_first), "one of `targets`"}};
+            {"target", one_of(target_names()), otherwise("`" + plain.target + "`" + or_first), "one of `targets`"},
+            {"margin", number(0.001, 1), plain.margin,
+             "two errors, whichever the study measures, are equivalent where it is certain that they differ by a "
+             "smaller share than this"}};
 }
 
 /// `variant`: the schema of an entry of `variants`.
@@ -237,6 +240,7 @@ void read_primary(ConfigObject& study, Config& config) {
     if (object.has("metric")) primary.metric = object.known_texts("metric", errors).front();
     if (object.has("mask")) primary.mask = object.known_texts("mask", config.masks).front();
     if (object.has("target")) primary.target = object.known_texts("target", config.targets).front();
+    if (object.has("margin")) primary.margin = object.get<double>("margin");
     object.finish();
 }
 

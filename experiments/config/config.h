@@ -17,9 +17,9 @@
 
 /// One camera of one scene at one resolution, over some frames; or one G-buffer from files.
 struct ShotConfig {
-    std::string scene;   ///< a scene's name, or a path to a .json/.gltf/.glb
-    GltfChoices choices;  ///< of the command line, in place of the scene's own
-    std::string camera;  ///< "": the scene's first
+    std::string scene;                 ///< a scene's name, or a path to a .json/.gltf/.glb
+    GltfChoices choices;               ///< of the command line, in place of the scene's own
+    std::string camera;                ///< "": the scene's first
     bool has_planes_of_scene = false;  ///< derive_planes() in place of the camera's own
     glm::uvec2 extent{480, 270};
     std::vector<unsigned> frames{0};  ///< poses, ascending: rendered in this order, so histories work
@@ -99,6 +99,7 @@ struct JudgedRays {
 /// The comparisons that a study is made for: one error of all points and shots. All others are exploratory.
 struct PrimaryComparisons {
     std::string metric = "mse", mask = "reflective", target = "specular";
+    double margin = 0.05;  ///< errors that differ by a smaller share than this are equivalent; in (0, 1]
 };
 
 /// Seeds of a point whose result depends on them, if the config names none: few seeds give wide intervals, and those of

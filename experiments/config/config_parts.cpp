@@ -136,7 +136,8 @@ Keys table_keys() {
              "in place of a cell for each `shot`, say, the geometric mean over them with their range, below"},
             {"sort", any_text(), otherwise("as in the file"), "the column of the table that its rows are sorted by"},
             {"best", one_of({"column", "row"}), otherwise("none is marked"),
-             "among which cells those that are the best of their shot are bold, and those that are tied italic, as "
+             "among which cells those that are the best of their shot are bold, and those that are tied or equivalent "
+             "italic, as "
              "summary.csv says (`standing`). Of `results` and `limits`, without `over`"},
             {"labels", any_object, none,
              "names in the table to better ones: `{\"lobe = normals\": \"normals\"}`; \"\" leaves one out"}};

@@ -47,18 +47,19 @@ void write_evaluation(const std::filesystem::path& folder, const StudyRows& rows
     for (MetricSummary& e : errors)
         if (not_repeatable.contains({e.variant, e.point})) e.holds_all_noise = false;
     set_standings(errors, paired_errors(rows.results, variants, not_repeatable, rows.reference_noise),
-                  points_using_scene_data(manifest));
+                  points_using_scene_data(manifest), primary.margin);
     std::map<std::string, double> floors;
     for (const TimeRow& t : rows.times)
         if (const auto floor = aa_floor(manifest, t.shot)) floors[t.shot] = *floor;
     const std::vector<TimeSummary> times = summarise(rows.times, floors);
     set_fronts(errors, times, rows.costs);
-    write_rows(folder / "over_scenes.csv", errors_over_scenes(errors, manifest, variants));
+    write_rows(folder / "over_scenes.csv", errors_over_scenes(errors, manifest, primary.margin, variants));
     write_rows(folder / "time_summary.csv", times);
 
     std::vector<EffectRow> effects = paired_effects(rows.results, variants, not_repeatable, rows.reference_noise);
     std::ranges::move(split_effects(rows.splits, variants, not_repeatable), std::back_inserter(effects));
     set_verdicts(effects, primary, decided_by_standings(errors));
+    match_effects(errors, effects);
     write_rows(folder / "effects.csv", effects);
     std::vector<TimeEffectRow> of_times = time_effects(rows.times, variants);
     set_time_verdicts(of_times, manifest);

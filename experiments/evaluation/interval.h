@@ -9,8 +9,7 @@ inline constexpr double significance = 0.05;
 
 /// By how much p was multiplied to become `p_holm`, among `count` p-values (holm_adjusted()): an interval of the
 /// probability of error significance / factor agrees with the verdict. A p that was cut off at 1 was multiplied by 1 /
-/// p at least. Where the p of a standing, which is another estimate's, takes p_holm's place and is less than p, the
-/// interval is that of the effect alone: never one of less than its 95 %.
+/// p at least.
 inline double adjustment_factor(double p, double p_holm, size_t count) {
     return !(p > 0) ? double(count) : p_holm < 1 ? std::max(1.0, p_holm / p) : std::max(double(count), 1 / p);
 }

@@ -34,10 +34,10 @@ double detectable_ratio(const EffectRow& row) {
                     (student_t_quantile(1 - judge_significance / 2, degrees) + student_t_quantile(power, degrees)));
 }
 
-std::string verdict_at(double p_holm, double ratio) {
-    return !(p_holm < judge_significance) ? judgement::not_distinguishable
-           : ratio > 1                    ? judgement::worse
-                                          : judgement::better;
+std::string verdict_at(const PairP& p, double ratio) {
+    return p.different < judge_significance ? (ratio > 1 ? judgement::worse : judgement::better)
+           : p.beyond < judge_significance  ? judgement::equivalent
+                                            : judgement::undecided;
 }
 
 }  // namespace
@@ -46,29 +46,29 @@ Judgement judge_effects(std::span<const EffectRow> effects, const PrimaryCompari
                         const PointName& against) {
     const auto rows = rows_of_shots(effects, primary, point, against);
     if (rows.empty()) fail("no view has an error of both: ", primary.metric, " of ", primary.mask, " pixels");
-    std::vector<double> p;
+    std::vector<double> different, beyond;
     for (const auto& [shot, row] : rows) {
         if (!row->p || !row->ratio || !row->low || !row->high || row->verdict.empty())
             fail(shot, ": whether ", primary.metric, " of ", primary.mask,
                  " pixels changed cannot be decided: ", row->interval);
-        p.push_back(*row->p);
+        different.push_back(*row->p), beyond.push_back(row->p_equivalent.value_or(1));
     }
-    const std::vector<double> adjusted = holm_adjusted(p);
-    Judgement judged{.views = {}, .verdict = judgement::not_distinguishable};
+    different = holm_adjusted(different), beyond = holm_adjusted(beyond);
+    Judgement judged{.views = {}, .verdict = judgement::equivalent};
     size_t i = 0;
     for (const auto& [shot, row] : rows) {
-        const double p_holm = adjusted[i++];
+        const PairP p = {different[i], beyond[i]};
+        ++i;
         judged.views.push_back({.shot = shot,
                                 .ratio = *row->ratio,
                                 .low = *row->low,
                                 .high = *row->high,
-                                .p_holm = p_holm,
+                                .p_holm = p.different,
                                 .detectable = detectable_ratio(*row),
-                                .verdict = verdict_at(p_holm, *row->ratio)});
-        const std::string& verdict = judged.views.back().verdict;
-        if (verdict == judgement::worse || (verdict == judgement::better && judged.verdict != judgement::worse))
-            judged.verdict = verdict;
+                                .verdict = verdict_at(p, *row->ratio)});
     }
+    for (const char* verdict : {judgement::undecided, judgement::better, judgement::worse})
+        if (std::ranges::count(judged.views, verdict, &JudgedView::verdict) > 0) judged.verdict = verdict;
     return judged;
 }
 

@@ -10,7 +10,8 @@
 namespace judgement {
 inline constexpr const char* better = "better";
 inline constexpr const char* worse = "worse";
-inline constexpr const char* not_distinguishable = "not distinguishable";
+inline constexpr const char* equivalent = "equivalent";  ///< neither, and certainly within the margin
+inline constexpr const char* undecided = "undecided";
 inline constexpr const char* identical = "identical";  ///< the same bytes, of which nothing is measured
 }  // namespace judgement
 
@@ -27,7 +28,7 @@ struct JudgedView {
 
 struct Judgement {
     std::vector<JudgedView> views;
-    std::string verdict;  ///< worse if a view is, else better if one is, else not distinguishable
+    std::string verdict;  ///< worse if a view is, else better if one is, else equivalent if all are, else undecided
 };
 
 /// By the primary error of `point` over that of `against`, of each shot its mean over frames or its only frame,

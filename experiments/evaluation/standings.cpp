@@ -1,11 +1,13 @@
 #include "experiments/evaluation/standings.h"
 
+#include "experiments/evaluation/family.h"
 #include "experiments/evaluation/interval.h"
 #include "metrics/quantiles.h"
 #include "metrics/statistics.h"
 #include "metrics/temporal.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -34,38 +36,65 @@ bool holds_all_noise(const EffectRow& effect, const MetricSummary& a, const Metr
                         (effect.interval == interval::seeds && is_exact));
 }
 
-/// The p of "no worse than `best`"; sets over_best where the pair has a ratio.
-double compare(MetricSummary& e, const MetricSummary& best, const PairedErrors& paired) {
+/// Sets over_best where the pair has a ratio.
+PairP compare(MetricSummary& e, const MetricSummary& best, const PairedErrors& paired, double margin) {
     if (paired) {
         EffectRow asked{.shot = e.shot, .variant = e.variant, .point = e.point};
         asked.against_variant = best.variant, asked.against_point = best.point;
         asked.target = e.target, asked.metric = e.metric, asked.mask = e.mask;
         if (const auto effect = paired(asked); effect && holds_all_noise(*effect, e, best)) {
             e.over_best = effect->ratio, e.over_best_low = effect->low, e.over_best_high = effect->high;
-            return *effect->p;
+            return {*effect->p, effect->estimate.p_beyond(margin)};
         }
     }
-    return p_by_intervals(e, best);
+    return p_by_intervals(e, best, margin);
 }
 
-void rank(const std::vector<MetricSummary*>& points, const PairedErrors& paired) {
-    if (points.size() < 2) return;
-    const Better better = *direction_of(points.front()->metric);
-    MetricSummary& best =
-        **std::ranges::min_element(points, {}, [&](const MetricSummary* e) { return shortfall(better, *e->value); });
-    std::vector<MetricSummary*> others;
-    std::vector<double> p;
-    for (MetricSummary* e : points)
-        if (e != &best) others.push_back(e), p.push_back(compare(*e, best, paired));
-    const std::vector<double> adjusted = holm_adjusted(p);
+/// The ranked points of one shot; the best measured one comes first.
+using Contest = std::vector<MetricSummary*>;
+
+/// Those with two ranked points or more, by target, metric and mask, which are families.
+std::map<std::array<std::string, 3>, std::vector<Contest>> contests_of(std::span<MetricSummary* const> ranked) {
+    std::map<std::array<std::string, 3>, std::map<std::string, Contest>> by_shot;
+    for (MetricSummary* e : ranked) by_shot[{e->target, e->metric, e->mask}][e->shot].push_back(e);
+    std::map<std::array<std::string, 3>, std::vector<Contest>> families;
+    for (auto& [error, shots] : by_shot)
+        for (auto& [shot, points] : shots) {
+            if (points.size() < 2) continue;
+            const Better better = *direction_of(points.front()->metric);
+            const auto best = std::ranges::min_element(
+                points, {}, [&](const MetricSummary* e) { return shortfall(better, *e->value); });
+            std::rotate(points.begin(), best, best + 1);
+            families[error].push_back(std::move(points));
+        }
+    return families;
+}
+
+/// By the adjusted p-values.
+void set_standing(const Contest& points) {
     bool is_alone = true;
-    for (size_t i = 0; i < others.size(); ++i) {
-        const bool is_behind = adjusted[i] < significance;
-        others[i]->p_best = adjusted[i];
-        others[i]->standing = is_behind ? standing::behind : standing::tied;
-        is_alone = is_alone && is_behind;
+    for (MetricSummary* e : std::span(points).subspan(1)) {
+        e->standing = standing::of(*e->p_best, *e->p_equivalent);
+        is_alone = is_alone && e->standing == standing::behind;
     }
-    best.standing = is_alone ? standing::best : standing::tied;
+    points.front()->standing = is_alone ? standing::best : standing::tied;
+}
+
+void rank(const std::vector<Contest>& family, const PairedErrors& paired, double margin) {
+    std::vector<MetricSummary*> others;
+    std::vector<AgainstBest> different;
+    std::vector<double> beyond;
+    std::vector<size_t> sizes;
+    for (const Contest& points : family) {
+        for (MetricSummary* e : std::span(points).subspan(1)) {
+            const PairP p = compare(*e, *points.front(), paired, margin);
+            others.push_back(e), different.push_back({sizes.size(), p.different}), beyond.push_back(p.beyond);
+        }
+        sizes.push_back(points.size());
+    }
+    const std::vector<double> p_best = adjusted_for_choice(different, sizes), p_equivalent = holm_adjusted(beyond);
+    for (size_t i = 0; i < others.size(); ++i) others[i]->p_best = p_best[i], others[i]->p_equivalent = p_equivalent[i];
+    for (const Contest& points : family) set_standing(points);
 }
 
 using Totals = std::map<std::tuple<std::string, std::string, std::string>, double>;  // by shot, variant, point
@@ -89,18 +118,23 @@ void add_front(std::span<MetricSummary> errors, const std::string& cost, const T
 
 }  // namespace
 
-double p_by_intervals(const MetricSummary& a, const MetricSummary& b) {
+PairP p_by_intervals(const MetricSummary& a, const MetricSummary& b, double margin) {
     const Better better = direction_of(a.metric).value_or(Better::lower);
     const double difference = shortfall(better, *a.value) - shortfall(better, *b.value);
-    if (difference == 0) return 1;
-    const bool is_a_worse = difference > 0;
-    const double both = std::hypot(half_width(a, better, !is_a_worse), half_width(b, better, is_a_worse));
-    if (!(both > 0)) return 0;
+    // Of which one side of each counts: as the errors approach each other, or as they part.
+    const auto both = [&](bool is_apart) {
+        const bool is_a_worse = (difference > 0) == is_apart;
+        return std::hypot(half_width(a, better, is_a_worse), half_width(b, better, !is_a_worse));
+    };
     const unsigned of_a = degrees_of(a), of_b = degrees_of(b),
-                   degrees = of_a > 0 && of_b > 0 ? std::min(of_a, of_b) : std::max(of_a, of_b);
-    const double quantile = degrees > 0 ? student_t_quantile(0.975, degrees) : normal_quantile(0.975);
-    const double statistic = std::abs(difference) / both * quantile;
-    return degrees > 0 ? 2 * student_t_cdf(-statistic, degrees) : std::erfc(statistic / std::sqrt(2.0));
+                   least = of_a > 0 && of_b > 0 ? std::min(of_a, of_b) : std::max(of_a, of_b);
+    const double degrees = least > 0 ? least : 1e9;  // as good as a normal's
+    const double quantile = student_t_quantile(0.975, degrees), closer = both(false) / quantile;
+    PairP p;
+    if (difference != 0) p.different = closer > 0 ? 2 * student_t_cdf(-std::abs(difference) / closer, degrees) : 0;
+    p.beyond = p_beyond_limits(difference, margin * shortfall(better, *b.value),
+                               std::max(both(true), both(false)) / quantile, degrees);
+    return p;
 }
 
 void set_fronts(std::span<MetricSummary> errors, std::span<const TimeSummary> times, std::span<const CostRow> counts) {
@@ -124,29 +158,51 @@ bool is_on_front(const MetricSummary& error, const std::string& cost) {
     return std::find(std::istream_iterator<std::string>(names), {}, cost) != std::istream_iterator<std::string>();
 }
 
-void set_standings(std::span<MetricSummary> errors, const PairedErrors& paired, const PointSet& without_part) {
-    std::map<std::tuple<std::string, std::string, std::string, std::string>, std::vector<MetricSummary*>> contests;
+void set_standings(std::span<MetricSummary> errors, const PairedErrors& paired, const PointSet& without_part,
+                   double margin) {
+    std::vector<MetricSummary*> ranked;
     for (MetricSummary& e : errors) {
         e.standing.clear();
-        e.over_best = e.over_best_low = e.over_best_high = e.p_best = std::nullopt;
+        e.over_best = e.over_best_low = e.over_best_high = e.p_best = e.p_equivalent = std::nullopt;
         if (e.represents_shot && e.holds_all_noise && e.value && e.low && e.high && direction_of(e.metric) &&
             !without_part.contains({e.variant, e.point}))
-            contests[{e.shot, e.target, e.metric, e.mask}].push_back(&e);
+            ranked.push_back(&e);
     }
-    for (const auto& [name, points] : contests) rank(points, paired);
+    for (const auto& [error, family] : contests_of(ranked)) rank(family, paired, margin);
 }
 
-DecidedP decided_by_standings(std::span<const MetricSummary> errors) {
+void match_effects(std::span<MetricSummary> errors, std::span<const EffectRow> effects) {
+    using Name = std::array<std::string, 6>;  // shot, target, metric, mask, variant, point
+    std::map<Name, MetricSummary*> by_name;
+    std::vector<MetricSummary*> ranked;
+    for (MetricSummary& e : errors)
+        if (!e.standing.empty())
+            by_name[{e.shot, e.target, e.metric, e.mask, e.variant, e.point}] = &e, ranked.push_back(&e);
+    for (const EffectRow& e : effects) {
+        if (!e.p_holm) continue;
+        const auto a = by_name.find({e.shot, e.target, e.metric, e.mask, e.variant, e.point}),
+                   b = by_name.find({e.shot, e.target, e.metric, e.mask, e.against_variant, e.against_point});
+        if (a == by_name.end() || b == by_name.end() || bool(a->second->p_best) == bool(b->second->p_best)) continue;
+        MetricSummary& behind = *(a->second->p_best ? a : b)->second;
+        behind.p_best = std::max(*behind.p_best, *e.p_holm);
+        behind.p_equivalent = std::max(*behind.p_equivalent, *e.p_equivalent_holm);
+    }
+    for (const auto& [error, family] : contests_of(ranked))
+        for (const Contest& points : family) set_standing(points);
+}
+
+DecidedPair decided_by_standings(std::span<const MetricSummary> errors) {
     using Name = std::tuple<std::string, std::string, std::string, std::string, std::string, std::string>;
     std::map<Name, const MetricSummary*> ranked;
     for (const MetricSummary& e : errors)
         if (!e.standing.empty()) ranked[{e.shot, e.target, e.metric, e.mask, e.variant, e.point}] = &e;
-    return [ranked](const EffectRow& e) -> std::optional<double> {
+    return [ranked](const EffectRow& e) -> std::optional<PairP> {
         const auto a = ranked.find({e.shot, e.target, e.metric, e.mask, e.variant, e.point}),
                    b = ranked.find({e.shot, e.target, e.metric, e.mask, e.against_variant, e.against_point});
         if (a == ranked.end() || b == ranked.end()) return {};
         // The best measured one is compared with none, and has no p.
-        if (!a->second->p_best) return b->second->p_best;
-        return b->second->p_best ? std::nullopt : a->second->p_best;
+        if (bool(a->second->p_best) == bool(b->second->p_best)) return {};
+        const MetricSummary& other = *(a->second->p_best ? a : b)->second;
+        return PairP{*other.p_best, *other.p_equivalent};
     };
 }

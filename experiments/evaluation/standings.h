@@ -8,22 +8,34 @@
 /// and answers print it.
 namespace standing {
 
-inline constexpr const char* best = "best";      ///< significantly better than all others that are ranked
-inline constexpr const char* tied = "tied";      ///< the best measured, and those not distinguishable from it
-inline constexpr const char* behind = "behind";  ///< significantly worse than the best measured
+inline constexpr const char* best = "best";  ///< significantly better than all others that are ranked
+/// The best measured where another is not behind, and those of which nothing is decided.
+inline constexpr const char* tied = "tied";
+inline constexpr const char* equivalent = "equivalent";  ///< not behind, and certainly within the margin of the best
+inline constexpr const char* behind = "behind";          ///< significantly worse than the best measured
+
+/// Of a point that is not the best measured one, by its adjusted p-values.
+inline const char* of(double p_best, double p_equivalent) {
+    return p_best < significance ? behind : p_equivalent < significance ? equivalent : tied;
+}
 
 }  // namespace standing
 
-/// Decides `standing` of all rows that stand for their shot (represents_shot) and are ranked (holds_all_noise), for
-/// each shot, target, metric and mask by itself; fewer than two ranked points have none. All others keep it empty: a
-/// single seed's error is measured, not ranked. Points in `without_part` take none, as those that use scene data.
+/// Decides `standing` of all rows that stand for their shot (represents_shot) and are ranked (holds_all_noise), among
+/// the points of each shot; fewer than two ranked points have none. All others keep it empty: a single seed's error is
+/// measured, not ranked. Points in `without_part` take none, as those that use scene data.
 ///
 /// Each point is compared with the best measured one, by the ratio of their errors paired by seed and reference
-/// (`paired`, jackknifed_ratio()) where that holds all noise, else by the intervals of both. p-values are adjusted for
-/// the points of the shot (Holm 1979) and judged at 0.05, so that the point which is truly best is among `best` and
-/// `tied` in 95 % of shots or more: the confidence set of Hsu 1984, "Constrained Simultaneous Confidence Intervals for
-/// Multiple Comparisons with the Best", by adjusted p-values. Simulated in tests/experiments/evaluation.
-void set_standings(std::span<MetricSummary> errors, const PairedErrors& paired = {}, const PointSet& without_part = {});
+/// (`paired`, jackknifed_ratio()) where that holds all noise, else by the intervals of both. All shots of an error
+/// (target, metric, mask) are a family, adjusted_for_choice(): in at most 5 % of studies a point that is truly best in
+/// its shot is called behind. "Within `margin` of the best" is the opposite claim, of two one-sided tests, adjusted for
+/// all points and shots of the error (Holm 1979).
+void set_standings(std::span<MetricSummary> errors, const PairedErrors& paired = {}, const PointSet& without_part = {},
+                   double margin = PrimaryComparisons().margin);
+
+/// A pair has one verdict: raises the p of points that an effect of the study compares with the best of their shot to
+/// that effect's, whose family is another, and decides their standing anew.
+void match_effects(std::span<MetricSummary> errors, std::span<const EffectRow> effects);
 
 /// What a front of errors may be against: the median time of a frame, or counts of the last frame (pass_cost.h).
 namespace front {
@@ -40,10 +52,11 @@ void set_fronts(std::span<MetricSummary> errors, std::span<const TimeSummary> ti
                 std::span<const CostRow> costs = {});
 bool is_on_front(const MetricSummary& error, const std::string& cost);
 
-/// Two-sided p of "both are equal" by their 95 % intervals, of which the ends that face each other count; the
-/// half-widths are Student's of the lesser number of seeds, or a normal's of points that do not depend on seeds.
-double p_by_intervals(const MetricSummary& a, const MetricSummary& b);
+/// By the 95 % intervals of two errors, of which the ends that face each other count; the half-widths are Student's of
+/// the lesser number of seeds, or a normal's of points that do not depend on seeds. Two-sided p of "both are equal",
+/// and the p of "a is not within `margin` of b", a share of b's error (p_beyond_limits()).
+PairP p_by_intervals(const MetricSummary& a, const MetricSummary& b, double margin);
 
 /// The adjusted p of a point and the best measured one of its shot, as their standing has it (MetricSummary::p_best).
 /// Refers to `errors`, which have standings and must outlive it.
-DecidedP decided_by_standings(std::span<const MetricSummary> errors);
+DecidedPair decided_by_standings(std::span<const MetricSummary> errors);

@@ -63,20 +63,22 @@ json truth_of(const json& manifest, const std::string& shot) {
 
 bool is_rounding(double a, double b) { return std::abs(a - b) <= rounding * std::max(std::abs(a), std::abs(b)); }
 
-/// Two-sided p of "the mean difference is 0"; none where no seed differs but by rounding.
-std::optional<double> paired_p(const std::map<unsigned, double>& before, const std::map<unsigned, double>& after) {
+/// By the mean difference of the seeds; none where no seed differs but by rounding.
+std::optional<PairP> paired_p(const std::map<unsigned, double>& before, const std::map<unsigned, double>& after,
+                              double margin) {
     std::vector<double> differences;
     bool is_equal = true;
-    double mean = 0, squares = 0;
+    double mean = 0, squares = 0, mean_before = 0;
     for (const auto& [seed, value] : before) {
         differences.push_back(after.at(seed) - value);
-        mean += differences.back() / double(before.size());
+        mean += differences.back() / double(before.size()), mean_before += value / double(before.size());
         is_equal = is_equal && is_rounding(value, after.at(seed));
     }
     if (is_equal) return {};
     for (const double d : differences) squares += (d - mean) * (d - mean);
     const double n = double(differences.size()), error = std::sqrt(squares / (n - 1) / n);
-    return error > 0 ? 2 * student_t_cdf(-std::abs(mean) / error, n - 1) : 0.0;
+    return PairP{error > 0 ? 2 * student_t_cdf(-std::abs(mean) / error, n - 1) : 0.0,
+                 p_beyond_limits(mean, margin * std::abs(mean_before), error, n - 1)};
 }
 
 bool has_same_seeds(const std::map<unsigned, double>& a, const std::map<unsigned, double>& b) {
@@ -88,7 +90,10 @@ void settle(NumberChange& c, const char* verdict, std::string how) { c.verdict =
 
 /// Gives a verdict where chance has no part, else a p.
 void compare_errors(NumberChange& c, const MetricSummary& a, const MetricSummary& b, const ComparedFolder& before,
-                    const ComparedFolder& after) {
+                    const ComparedFolder& after, double margin) {
+    const auto set = [&](const PairP& p, const char* how) {
+        c.p = p.different, c.p_equivalent = p.beyond, c.how = how;
+    };
     const auto is_in = [&](PointSet ComparedFolder::*set) {
         return (before.*set).contains({c.variant, c.point}) || (after.*set).contains({c.variant, c.point});
     };
@@ -100,9 +105,8 @@ void compare_errors(NumberChange& c, const MetricSummary& a, const MetricSummary
     if (has_seeds && has_same_seeds(seeds_before->second, seeds_after->second) &&
         truth_of(before.manifest, c.shot) == truth_of(after.manifest, c.shot)) {
         if (seeds_before->second.size() > 1 && !is_in(&ComparedFolder::without_seeds)) {
-            c.p = paired_p(seeds_before->second, seeds_after->second), c.how = "paired by seed";
-            if (!c.p) settle(c, change::equal, "rounding");
-            return;
+            const auto p = paired_p(seeds_before->second, seeds_after->second, margin);
+            return p ? set(*p, "paired by seed") : settle(c, change::equal, "rounding");
         }
         return is_rounding(*a.value, *b.value) ? settle(c, change::equal, "rounding")
                                                : settle(c, change::changed, "same seed and truth");
@@ -111,7 +115,7 @@ void compare_errors(NumberChange& c, const MetricSummary& a, const MetricSummary
     for (const MetricSummary* e : {&a, &b})
         if (!e->holds_all_noise || !e->low || !e->high)
             return settle(c, change::not_judged, e->interval.starts_with("none") ? e->interval : "not ranked");
-    c.p = p_by_intervals(a, b), c.how = "by intervals";
+    set(p_by_intervals(b, a, margin), "by intervals");
 }
 
 void compare_times(NumberChange& c, const TimeSummary& a, const TimeSummary& b, const json& before, const json& after) {
@@ -150,12 +154,14 @@ std::string machine_of(const json& manifest, const std::string& shot) {
 
 /// Decides those that have a p, all as one family.
 void decide(const std::vector<NumberChange*>& family) {
-    std::vector<double> p;
-    for (const NumberChange* c : family) p.push_back(*c->p);
-    const std::vector<double> adjusted = holm_adjusted(p);
+    std::vector<double> different, beyond;
+    for (const NumberChange* c : family) different.push_back(*c->p), beyond.push_back(c->p_equivalent.value_or(1));
+    different = holm_adjusted(different), beyond = holm_adjusted(beyond);
     for (size_t i = 0; i < family.size(); ++i) {
-        family[i]->p_holm = adjusted[i];
-        family[i]->verdict = adjusted[i] < significance ? change::changed : change::not_distinguishable;
+        family[i]->p_holm = different[i];
+        family[i]->verdict = different[i] < significance ? change::changed
+                             : beyond[i] < significance  ? change::equivalent
+                                                         : change::undecided;
     }
 }
 
@@ -172,7 +178,8 @@ double NumberChange::size() const {
     return ratio > 0 && std::isfinite(ratio) ? std::abs(std::log(ratio)) : HUGE_VAL;
 }
 
-StudyDiff diff_studies(const StudyTables& before_tables, const StudyTables& after_tables, bool judges_times) {
+StudyDiff diff_studies(const StudyTables& before_tables, const StudyTables& after_tables, bool judges_times,
+                       double margin) {
     const ComparedFolder before(before_tables), after(after_tables);
     StudyDiff diff{.errors = {},
                    .times = {},
@@ -183,7 +190,7 @@ StudyDiff diff_studies(const StudyTables& before_tables, const StudyTables& afte
         if (const auto b = after.errors.find(number); b != after.errors.end()) {
             NumberChange c{a->shot,   a->frame, a->variant, a->point,        a->target,
                            a->metric, a->mask,  a->value,   b->second->value};
-            compare_errors(c, *a, *b->second, before, after);
+            compare_errors(c, *a, *b->second, before, after, margin);
             diff.errors.push_back(c);
         }
     std::set<std::string> moved;

@@ -10,7 +10,8 @@
 namespace change {
 inline constexpr const char* equal = "equal";  ///< but for rounding
 inline constexpr const char* changed = "changed";
-inline constexpr const char* not_distinguishable = "not distinguishable";
+inline constexpr const char* equivalent = "equivalent";  ///< of errors: certainly changed by less than the margin
+inline constexpr const char* undecided = "undecided";    ///< chance may have made the difference, or hidden one
 inline constexpr const char* not_judged = "not judged";  ///< `how` says why
 }  // namespace change
 
@@ -21,6 +22,7 @@ struct NumberChange {
     std::optional<double> before, after;
     std::optional<double> p;       ///< two-sided, of "nothing changed"; none where that is not a matter of chance
     std::optional<double> p_holm;  ///< p adjusted for its family, see diff_studies()
+    std::optional<double> p_equivalent = {};  ///< of "it changed by the margin or more", of errors; not adjusted
     std::string verdict;
     std::string how;  ///< by what it was judged, or why it was not
 
@@ -64,8 +66,11 @@ struct StudyDiff {
 /// times where no point was timed twice, or where other programs disturbed half of the frames or more.
 ///
 /// All p-values of the errors are adjusted together (Holm 1979); those of times with them if `judges_times`, and else
-/// by themselves. Of two runs of one program at most 5 % have a change: simulated in tests/experiments/evaluation.
-StudyDiff diff_studies(const StudyTables& before, const StudyTables& after, bool judges_times);
+/// by themselves. Errors that did not change significantly are equivalent where they changed by less than `margin` of
+/// themselves for certain (two one-sided tests, adjusted likewise). Of two runs of one program at most 5 % have a
+/// change: simulated in tests/experiments/evaluation.
+StudyDiff diff_studies(const StudyTables& before, const StudyTables& after, bool judges_times,
+                       double margin = PrimaryComparisons().margin);
 
 /// How many of them have this verdict.
 size_t count_of(const std::vector<NumberChange>& changes, const std::string& verdict);

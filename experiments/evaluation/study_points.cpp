@@ -34,6 +34,14 @@ PointSet points_where(const json& manifest, IsChosen is_chosen) {
 
 }  // namespace
 
+PrimaryComparisons primary_of(const nlohmann::json& manifest) {
+    PrimaryComparisons primary;
+    const nlohmann::json own = manifest.value("primary", nlohmann::json::object());
+    primary.metric = own.value("metric", primary.metric), primary.mask = own.value("mask", primary.mask);
+    primary.target = own.value("target", primary.target), primary.margin = own.value("margin", primary.margin);
+    return primary;
+}
+
 PointSet single_changes(const json& manifest) {
     return points_where(manifest, [](const json& v) { return v.contains("single_change"); });
 }

@@ -8,6 +8,9 @@
 #include <utility>
 #include <vector>
 
+/// The error that the study is made to compare, with its margin; what the manifest lacks is as a config has it.
+PrimaryComparisons primary_of(const nlohmann::json& manifest);
+
 /// Points that differ from a baseline of their variant in one swept parameter (config/comparisons.h), as the
 /// manifest has them. A study may hold dozens: they belong into the list of effects, not into every table and chart.
 PointSet single_changes(const nlohmann::json& manifest);

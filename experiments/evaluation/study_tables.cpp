@@ -15,7 +15,7 @@ using nlohmann::json;
 const json& manifest_types() {
     static const json types = json::parse(R"({
         "title?": "text", "is_complete?": "true or false",
-        "primary?": {"metric?": "text", "mask?": "text", "target?": "text"},
+        "primary?": {"metric?": "text", "mask?": "text", "target?": "text", "margin?": "number"},
         "written?": {"ssrlab?": "object"}, "config?": "object",
         "variants?": [{"variant?": "text", "point?": "text", "label?": "text", "group?": "text",
                        "baseline?": "true or false", "uses_scene_data?": "true or false", "parameters?": "object"}],

@@ -29,9 +29,10 @@ struct MetricSummary {
     bool represents_shot = false;                     ///< see mark_representative_rows()
     std::string standing = {};  ///< among the points of its shot, see evaluation/standings.h; empty: not ranked
     std::optional<double> over_best, over_best_low, over_best_high;  ///< value / the least ranked one, where paired
-    std::optional<double> p_best;  ///< Holm-adjusted p of "no worse than the best measured"
-    std::string fronts = {};       ///< the costs against which the point is on the front, see set_fronts()
-    std::string dominated = {};    ///< whether another point of the shot surely beats it, see set_dominated()
+    std::optional<double> p_best;        ///< of "no worse than the truly best", adjusted for the study
+    std::optional<double> p_equivalent;  ///< of "not within the margin of the best measured", adjusted likewise
+    std::string fronts = {};             ///< the costs against which the point is on the front, see set_fronts()
+    std::string dominated = {};          ///< whether another point of the shot surely beats it, see set_dominated()
 
     /// `value` with and without the reference's noise: three times the same where that is no part of it.
     Extrapolated extrapolated() const;
@@ -57,7 +58,8 @@ struct MetricSummary {
             Column{"represents_shot", &MetricSummary::represents_shot}, Column{"standing", &MetricSummary::standing},
             Column{"over_best", &MetricSummary::over_best}, Column{"over_best_low", &MetricSummary::over_best_low},
             Column{"over_best_high", &MetricSummary::over_best_high}, Column{"p_best", &MetricSummary::p_best},
-            Column{"fronts", &MetricSummary::fronts}, Column{"dominated", &MetricSummary::dominated});
+            Column{"p_equivalent", &MetricSummary::p_equivalent}, Column{"fronts", &MetricSummary::fronts},
+            Column{"dominated", &MetricSummary::dominated});
     }
 };
 

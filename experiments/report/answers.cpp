@@ -3,6 +3,7 @@
 #include "experiments/evaluation/interval.h"
 #include "experiments/evaluation/standings.h"
 #include "experiments/evaluation/study_points.h"
+#include "experiments/report/answer_text.h"
 #include "experiments/store/manifest.h"
 #include "metrics/temporal.h"
 
@@ -16,49 +17,21 @@ namespace {
 
 using nlohmann::json;
 
-/// Three significant digits, as a reader compares them.
-std::string shown(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
-}
-
-/// Of a ratio `least_digits`; three near 1, where two would hide on which side it lies.
-std::string shown_ratio(double ratio, int least_digits = 2) {
-    char text[32];
-    if (ratio < 9.95)
-        std::snprintf(text, sizeof text, "%.*g", std::max(least_digits, std::abs(ratio - 1) < 0.1 ? 3 : 2), ratio);
-    else
-        std::snprintf(text, sizeof text, "%.0f", ratio);
-    return std::string(text) + "x";
-}
-
-std::string interval_text(const std::optional<double>& low, const std::optional<double>& high) {
-    return low && high ? " [" + shown(*low) + ", " + shown(*high) + "]" : "";
-}
-
-std::string name_of(const AnswerPoint& p) {
-    if (!p.label.empty()) return p.label;
-    return p.point == "default" || p.point.empty() ? p.variant : p.variant + " " + p.point;
-}
-
 std::string with_value(const AnswerPoint& p) {
     return name_of(p) + " (" + shown(p.value) + interval_text(p.low, p.high) + ")";
 }
 
-std::string listed(const std::vector<AnswerPoint>& points, size_t most) {
+/// " Within 5 % of it for certain: B and C. Undecided beside it: D. The other 7 err more for certain."
+std::string others_text(const ShotAnswer& answer, const Headline& headline) {
+    constexpr size_t most_named = 3;
     std::string text;
-    for (size_t i = 0; i < std::min(points.size(), most); ++i)
-        text += (i == 0 ? "" : i + 1 == points.size() ? " and " : ", ") + name_of(points[i]);
-    if (points.size() > most) text += " and " + std::to_string(points.size() - most) + " more";
-    return text;
-}
-
-/// " Not distinguishable from it: B and C."; empty where there is none such. `most`: are named; `how`: by which test, if
-/// that is to be said.
-std::string tied_sentence(const std::vector<AnswerPoint>& tied, size_t most, const std::string& how = "") {
-    if (tied.empty()) return "";
-    return " Not distinguishable from it" + (how.empty() ? "" : " (" + how + ")") + ": " + listed(tied, most) + ".";
+    if (!answer.near.empty())
+        text += " Within " + percent_text(headline.margin) + " of it for certain: " + listed(answer.near, most_named) + ".";
+    if (!answer.tied.empty()) text += " Undecided beside it: " + listed(answer.tied, most_named) + ".";
+    if (text.empty() || answer.behind.empty()) return text;
+    return text + (answer.behind.size() == 1
+                       ? " " + name_of(answer.behind.front()) + " errs more for certain."
+                       : " The other " + std::to_string(answer.behind.size()) + " err more for certain.");
 }
 
 /// What one shot's points scored, and how long they took.
@@ -71,11 +44,6 @@ struct Scored {
 
 bool is_same(const AnswerPoint& a, const AnswerPoint& b) { return a.variant == b.variant && a.point == b.point; }
 
-/// A quotient with its 95 % interval.
-struct Ratio {
-    double value;
-    std::optional<double> low, high;
-};
 /// By the ends of both intervals: wider than one of pairs would be, and so on the safe side.
 Ratio ratio_of(const TimeSummary& a, const TimeSummary& b) {
     return {a.median / b.median, a.low / b.high, a.high / b.low};
@@ -91,14 +59,6 @@ Ratio inverse(const Ratio& r) {
     };
     return {1 / r.value, inverted(r.high), inverted(r.low)};
 }
-/// With a third digit where two would show an interval as a point.
-std::string shown(const Ratio& r) {
-    if (!r.low || !r.high) return shown_ratio(r.value);
-    const int digits = shown_ratio(*r.low) == shown_ratio(*r.high) ? 3 : 2;
-    return shown_ratio(r.value, digits) + " [" + shown_ratio(*r.low, digits) + ", " + shown_ratio(*r.high, digits) +
-           "]";
-}
-
 std::optional<AnswerPoint> limit_of(const json& manifest, const std::string& shot, const Headline& headline) {
     for (const json& entry : manifest.value("shots", json::array())) {
         if (!entry.is_object() || entry.value("shot", "") != shot) continue;
@@ -209,8 +169,9 @@ std::string sentence_of(const ShotAnswer& answer, const std::vector<Scored>& sco
     const std::string name = name_of(*answer.best);
     if (scored.size() == 1) return name + " is the only point" + value + "." + limit_sentence(answer);
     if (answer.unranked.size() + 1 == scored.size()) return text + name + " stands alone" + value + ".";
-    text += name + (answer.tied.empty() ? " has the least error" : " measures the least error") + value + ".";
-    return text + tied_sentence(answer.tied, 3) + cheaper_sentence(answer, scored, clock) + limit_sentence(answer);
+    const bool is_certain = find(scored, *answer.best).error->standing == standing::best;
+    text += name + (is_certain ? " has the least error" : " measures the least error") + value + ".";
+    return text + others_text(answer, headline) + cheaper_sentence(answer, scored, clock) + limit_sentence(answer);
 }
 
 /// By the standings of the perceptual error, which were decided as those of the physical one were.
@@ -228,21 +189,21 @@ std::string perceptual_sentence_of(const ShotAnswer& answer, const std::vector<S
     if (own->error->standing == standing::best) return by + "it is the best, too: " + own_value + ".";
     if (own == first)
         return by + "it measures best, too: " + own_value +
-               (own->error->standing.empty() ? "" : ", not distinguishable from others") + ".";
+               (own->error->standing.empty() ? "" : ", undecided beside others") + ".";
     if (own->error->standing == standing::behind)
         return by + with_value(first->point) + " is significantly better in paired differences; " +
                name_of(own->point) + " has " + own_value + ".";
     const bool are_ranked = !own->error->standing.empty() && !first->error->standing.empty();
     return by + with_value(first->point) + " measures better" +
-           (are_ranked ? ", but is not distinguishable" : ", but is not ranked") + "; " + name_of(own->point) +
-           " has " + own_value + ".";
+           (are_ranked ? ", but that is not decided" : ", but is not ranked") + "; " + name_of(own->point) + " has " +
+           own_value + ".";
 }
 
 }  // namespace
 
 Headline headline_of(const json& manifest, std::span<const MetricSummary> errors) {
-    const json primary = manifest.value("primary", json::object());
-    Headline headline{primary.value("metric", ""), primary.value("mask", ""), primary.value("target", ""), ""};
+    const PrimaryComparisons primary = primary_of(manifest);
+    Headline headline{primary.metric, primary.mask, primary.target, "", primary.margin};
     for (const char* name : {"flip", "ssim"})
         if (headline.perceptual_metric.empty() && name != headline.metric &&
             std::ranges::any_of(errors, [&](const MetricSummary& e) { return e.metric == name; }))
@@ -282,6 +243,10 @@ std::vector<ShotAnswer> shot_answers(const ReportTables& tables, const json& man
                 answer.unranked.push_back(s.point);
             else if (!answer.best)
                 answer.best = s.point;
+            else if (s.error->p_equivalent.value_or(1) < significance)
+                answer.near.push_back(s.point);
+            else if (s.error->standing == standing::behind)
+                answer.behind.push_back(s.point);
             else if (s.error->standing == standing::tied)
                 answer.tied.push_back(s.point);
         }
@@ -293,54 +258,6 @@ std::vector<ShotAnswer> shot_answers(const ReportTables& tables, const json& man
         answers.push_back(std::move(answer));
     }
     return answers;
-}
-
-std::string over_scenes_sentence(const ReportTables& tables, const json& manifest) {
-    const Headline headline = headline_of(manifest, tables.errors);
-    const auto is_of_headline = [&](const auto& row) {
-        return row.target == headline.target && row.metric == headline.metric && row.mask == headline.mask;
-    };
-    auto labels = point_labels(manifest);
-    std::vector<const OverScenesRow*> rows;
-    std::vector<AnswerPoint> tied, behind;
-    for (const OverScenesRow& row : tables.over_scenes) {
-        if (!is_of_headline(row)) continue;
-        rows.push_back(&row);
-        const AnswerPoint point{row.variant, row.point, row.ratio, row.low, row.high, labels[{row.variant, row.point}]};
-        if (row.rank && rows.size() > 1 && row.standing == standing::tied) tied.push_back(point);
-        if (row.standing == standing::behind) behind.push_back(point);
-    }
-    if (rows.empty()) return "";
-    const OverScenesRow& first = *rows.front();  // those that are ranked come first
-    if (!first.rank) return "Over scenes nothing is ranked: no shot has an error of every point.";
-    std::set<std::string> scenes;
-    for (const MetricSummary& e : tables.errors)
-        if (is_of_headline(e)) scenes.insert(asset_of(manifest, e.shot));
-    if (scenes.size() == 1) return "One scene is too few for a verdict over scenes, which takes four.";
-    const auto named = [&](const std::string& variant, const std::string& point) {
-        return name_of(AnswerPoint{.variant = variant, .point = point, .label = labels[{variant, point}]});
-    };
-    const std::string baseline =
-                          (first.baseline_variant == "none" ? "no reflections (none)"
-                                                            : named(first.baseline_variant, first.baseline_point)),
-                      name = named(first.variant, first.point);
-    const bool is_baseline = first.variant == first.baseline_variant && first.point == first.baseline_point;
-    const std::string over = "Over " + std::to_string(first.scenes) +
-                             (first.scenes < scenes.size() ? " of " + std::to_string(scenes.size()) : "") + " scenes ",
-                      error = ": " + shown(Ratio{first.ratio, first.low, first.high}) + " that of " + baseline,
-                      mean = " (geometric mean of " + headline.metric + ")",
-                      measured = (is_baseline ? "" : error) + mean + ".";
-    if (first.scenes < least_scenes)
-        return over + name + " measures the least error" + measured + " " + std::to_string(first.scenes) +
-               (first.scenes == 1 ? " scene is" : " scenes are") +
-               " too few for an interval and a verdict, which take four.";
-    std::string text = first.standing == standing::best
-                           ? over + name + " has the least error" + measured
-                           : over + "no technique is significantly the best. " + name + " measures the least error" +
-                                 measured + tied_sentence(tied, 2, "adjusted for all comparisons");
-    if (!behind.empty())
-        text += " It is significantly better than " + (tied.empty() ? "all others" : listed(behind, 3)) + ".";
-    return text;
 }
 
 json answers_json(const std::vector<ShotAnswer>& answers, const Headline& headline) {
@@ -367,7 +284,9 @@ json answers_json(const std::vector<ShotAnswer>& answers, const Headline& headli
                         {"target", headline.target},
                         {"perceptual_metric", headline.perceptual_metric},
                         {"best", optional_json(a.best)},
+                        {"near", points_json(a.near)},
                         {"tied", points_json(a.tied)},
+                        {"behind", points_json(a.behind)},
                         {"unranked", points_json(a.unranked)},
                         {"baseline", optional_json(a.baseline)},
                         {"limit", optional_json(a.limit)},

@@ -10,6 +10,7 @@
 /// to what people see (flip, else ssim; empty if it measures neither).
 struct Headline {
     std::string metric, mask, target, perceptual_metric;
+    double margin = PrimaryComparisons().margin;  ///< within which errors are equivalent
 };
 Headline headline_of(const nlohmann::json& manifest, std::span<const MetricSummary> errors);
 
@@ -26,7 +27,9 @@ struct AnswerPoint {
 struct ShotAnswer {
     std::string shot;
     std::optional<AnswerPoint> best;      ///< least error of those whose interval holds all noise
-    std::vector<AnswerPoint> tied;        ///< ranked ones that are not distinguishable from `best`
+    std::vector<AnswerPoint> near;        ///< certainly within the margin of `best`, significantly behind it or not
+    std::vector<AnswerPoint> tied;        ///< of which nothing is decided beside `best`
+    std::vector<AnswerPoint> behind;      ///< significantly worse than `best`, and not certainly within the margin
     std::vector<AnswerPoint> unranked;    ///< measured, without an interval that holds all noise; the least error first
     std::optional<AnswerPoint> baseline;  ///< `none`, where it was run: no reflections but the environment's
     std::optional<AnswerPoint>
@@ -35,18 +38,18 @@ struct ShotAnswer {
                                      ///< means and medians alone
     bool is_clock_proven = false;    ///< that timed the shot; false where nothing was timed
     std::string sentence, perceptual_sentence;  ///< the latter is empty where no perceptual error was measured
+
+    /// How many are ranked beside the best.
+    size_t others() const { return near.size() + tied.size() + behind.size(); }
 };
 
 /// One for each shot that has an error of the headline, in the order of the results.
 std::vector<ShotAnswer> shot_answers(const ReportTables& tables, const nlohmann::json& manifest);
 
-/// What the scenes say together of the error of the headline (over_scenes.csv), as a sentence; empty where no point has
-/// such an error beside the baseline's.
-std::string over_scenes_sentence(const ReportTables& tables, const nlohmann::json& manifest);
-
-/// What is said first, on the page and in the terminal.
+/// What is said first, on the page and in the terminal: what holds in the study's own scenes, and what may hold in
+/// others (scenes_answer.h).
 struct StudyAnswers {
-    std::string over_scenes;
+    std::string in_these_scenes, in_scenes_like_these;
     std::vector<ShotAnswer> shots;
 };
 

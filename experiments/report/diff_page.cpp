@@ -147,7 +147,8 @@ json verdict_counts(const std::vector<NumberChange>& errors) {
     json counts = json::array();
     for (const auto& [technique, own] : by_technique) {
         json row = {{"technique", technique}, {"numbers", own.size()}};
-        for (const char* verdict : {change::equal, change::not_distinguishable, change::changed, change::not_judged})
+        for (const char* verdict :
+             {change::equal, change::equivalent, change::undecided, change::changed, change::not_judged})
             row["verdicts"].push_back({{"verdict", verdict}, {"count", count_of(own, verdict)}});
         counts.push_back(row);
     }

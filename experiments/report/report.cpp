@@ -12,6 +12,7 @@
 #include "experiments/report/report_data.h"
 #include "experiments/report/report_images.h"
 #include "experiments/report/report_warnings.h"
+#include "experiments/report/scenes_answer.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -183,9 +184,13 @@ StudyAnswers write_report(const std::filesystem::path& folder, bool links_images
     data["headline"] = {{"metric", headline.metric},
                         {"mask", headline.mask},
                         {"target", headline.target},
-                        {"perceptual_metric", headline.perceptual_metric}};
-    StudyAnswers answers{over_scenes_sentence(tables, manifest), shot_answers(tables, manifest)};
-    data["over_scenes"] = answers.over_scenes;
+                        {"perceptual_metric", headline.perceptual_metric},
+                        {"margin", headline.margin}};
+    StudyAnswers answers{.shots = shot_answers(tables, manifest)};
+    answers.in_these_scenes = in_these_scenes(answers.shots, manifest, headline);
+    answers.in_scenes_like_these = in_scenes_like_these(tables, manifest);
+    data["in_these_scenes"] = answers.in_these_scenes;
+    data["in_scenes_like_these"] = answers.in_scenes_like_these;
     data["answers"] = answers_json(answers.shots, headline);
     data["manifest"] = manifest;
     data["manifest"].erase("images");  // the page has its own list

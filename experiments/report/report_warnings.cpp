@@ -1,5 +1,7 @@
 #include "experiments/report/report_warnings.h"
 
+#include "experiments/report/answer_text.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -25,12 +27,6 @@ bool is_true(const json& value) { return value.is_boolean() && value.get<bool>()
 std::string ended(std::string clause) {
     if (!clause.empty() && clause.back() != '.') clause += '.';
     return clause;
-}
-
-std::string percent(double share) {
-    char buffer[32];
-    std::snprintf(buffer, sizeof buffer, "%.3g %%", 100.0 * share);
-    return buffer;
 }
 
 /// Rounded towards zero: 99.96 % that falls short must not be read as 100 %.
@@ -149,7 +145,7 @@ void warn_of_load(std::vector<std::string>& warnings, std::span<const TimeSummar
     for (const TimeSummary& t : times) shares[t.shot] = std::max(shares[t.shot], t.disturbed_share);
     for (const auto& [shot, share] : shares)
         if (share > 0)
-            warnings.push_back(shot + ": other programs disturbed " + percent(share) +
+            warnings.push_back(shot + ": other programs disturbed " + percent_text(share) +
                                " of the timed frames: its times may be too long. A run on a quiet machine takes them "
                                "again.");
 }
@@ -162,8 +158,8 @@ void warn_of_shot(std::vector<std::string>& warnings, const json& shot) {
     const double target_error = number(member(reference, "target_relative_error"), 0.0);
     const double reached = number(member(reference, "reached_share"), 1.0);
     if (target_error > 0 && reached < 1.0)
-        warnings.push_back(name + "only " + percent(rounded_down(reached)) +
-                           " of the reference's pixels reached the relative error of " + percent(target_error) +
+        warnings.push_back(name + "only " + percent_text(rounded_down(reached)) +
+                           " of the reference's pixels reached the relative error of " + percent_text(target_error) +
                            " that was asked for; the intervals below account for the noise that is left.");
     for (const json& of_frame : member(shot, "references"))
         for (const json& warning : member(of_frame, "warnings"))
@@ -189,7 +185,7 @@ void warn_of_light(std::vector<std::string>& warnings, std::span<const MetricSum
     for (const auto& [shot, found] : worst)
         if (const MetricSummary* e = found.second)
             warnings.push_back(shot + ": the noise of the path-traced light that techniques read makes up to " +
-                               percent(found.first) + " of an error (" + e->variant + " " + e->point + ", " +
+                               percent_text(found.first) + " of an error (" + e->variant + " " + e->point + ", " +
                                e->metric + " of " + e->target +
                                "): intervals allow for it, more samples of the reference lower it.");
 }

@@ -95,6 +95,7 @@ Config study_of(const JudgeSettings& settings, const std::string& engine) {
                   {"metrics", {"mse", "flip", "relmse"}},
                   {"masks", {"all", "reflective", "edge", "roughness_0_0.1", "roughness_0.1_0.3", "roughness_0.3_0.6"}},
                   {"targets", {"specular", "image"}},
+                  {"primary", {{"margin", settings.margin}}},
                   {"timing", {{"frames", 0}}}};
     if (settings.capture.empty()) study["reference"] = {{"samples", settings.samples}};
     const fs::path file = settings.run.out / "judge.json";

@@ -10,12 +10,13 @@
 #include <vector>
 
 struct JudgeSettings {
-    std::filesystem::path frames;              ///< a folder of another program's images (ExternalImages)
-    std::filesystem::path against;             ///< another of the same views, by the same engine; "": none
-    std::string scene;                         ///< in place of the names of the views; "": these are found by them
-    std::filesystem::path capture, reference;  ///< in place of a scene; "": none
-    unsigned samples = 256;                    ///< of the references, per pixel
-    RunSettings run;                           ///< its folder gets the study and the page
+    std::filesystem::path frames;                 ///< a folder of another program's images (ExternalImages)
+    std::filesystem::path against;                ///< another of the same views, by the same engine; "": none
+    std::string scene;                            ///< in place of the names of the views; "": these are found by them
+    std::filesystem::path capture, reference;     ///< in place of a scene; "": none
+    unsigned samples = 256;                       ///< of the references, per pixel
+    double margin = PrimaryComparisons().margin;  ///< of equivalence
+    RunSettings run;                              ///< its folder gets the study and the page
 };
 
 /// A view's images in a folder of an engine's frames, by what the names say: SCENE.CAMERA.WIDTHxHEIGHT/fFRAME.s0.exr.

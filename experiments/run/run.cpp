@@ -44,7 +44,8 @@ nlohmann::json read_manifest_before(const std::filesystem::path& file) {
 /// What a reader wants to know first.
 std::vector<std::string> lines_of(const StudyAnswers& answers) {
     std::vector<std::string> lines;
-    if (!answers.over_scenes.empty()) lines.insert(lines.end(), {"", answers.over_scenes});
+    for (const std::string& sentence : {answers.in_these_scenes, answers.in_scenes_like_these})
+        if (!sentence.empty()) lines.insert(lines.end(), {"", sentence});
     for (const ShotAnswer& answer : answers.shots)
         lines.insert(lines.end(),
                      {"", answer.shot + ": " + answer.sentence +

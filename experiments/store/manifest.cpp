@@ -163,7 +163,10 @@ nlohmann::json study_entry(const Config& config) {
             {"shots", nlohmann::json::array()},
             {"variants", variant_entries(config)},
             {"primary",
-             {{"metric", config.primary.metric}, {"mask", config.primary.mask}, {"target", config.primary.target}}},
+             {{"metric", config.primary.metric},
+              {"mask", config.primary.mask},
+              {"target", config.primary.target},
+              {"margin", config.primary.margin}}},
             {"metrics", metric_descriptions()},
             {"parameter_docs", parameter_docs(config)},
             {"images", nlohmann::json::array()}};

@@ -9,7 +9,7 @@
 TEST(Quantiles, MatchTables) {
     // NIST/SEMATECH e-Handbook, section 1.3.6.7, to its three digits; the longer ones are closed forms.
     EXPECT_NEAR(normal_quantile(0.975), 1.959963984540054, 1e-12);
-    EXPECT_NEAR(chi_squared_quantile(0.3, 2), -2 * std::log(0.7), 1e-12);  // exponential
+    EXPECT_NEAR(chi_squared_quantile(0.3, 2), -2 * std::log(0.7), 1e-12);      // exponential
     EXPECT_NEAR(student_t_quantile(0.975, 1), std::tan(M_PI * 0.475), 1e-10);  // Cauchy
     EXPECT_NEAR(student_t_quantile(0.975, 2), 0.95 * std::sqrt(2 / (1 - 0.95 * 0.95)),
                 1e-10);  // closed form of two degrees
@@ -86,6 +86,23 @@ TEST(Statistics, RatioOfEqualValuesIsOne) {
     EXPECT_EQ(r.low, 1);
     EXPECT_EQ(r.high, 1);
     EXPECT_EQ(r.p_value, 1);
+}
+
+TEST(Statistics, EquivalenceIsTheLargerOfTwoOneSidedTests) {
+    RatioEstimate r{.value = 1.02, .standard_error = 0.01, .degrees = 7};
+    EXPECT_NEAR(r.p_beyond(0.05), student_t_cdf(-(std::log(1.05) - std::log(1.02)) / 0.01, 7), 1e-15);
+    r.value = 1 / 1.02;
+    EXPECT_NEAR(r.p_beyond(0.05), student_t_cdf(-(std::log(1.05) - std::log(1.02)) / 0.01, 7), 1e-12)
+        << "which side is the baseline does not matter";
+    r.value = 1.05;
+    EXPECT_NEAR(r.p_beyond(0.05), 0.5, 1e-12) << "at the margin";
+    r.value = 1.02, r.excess_of_b = 0.02;
+    EXPECT_NEAR(r.p_beyond(0.05), student_t_cdf(-(std::log(1.05) - std::log(1.02) - 0.02) / 0.01, 7), 1e-12)
+        << "a bias may reach further";
+    r.standard_error = 0;
+    EXPECT_EQ(r.p_beyond(0.05), 0);
+    r.value = 1.06;
+    EXPECT_EQ(r.p_beyond(0.05), 1);
 }
 
 TEST(Statistics, RatioIsNotMadeUp) {

@@ -216,16 +216,12 @@ std::vector<EffectRow> effects_of_splits(const SeedsOfPoint& point, const SeedsO
     return effects;
 }
 
-/// `count`: of its family, which no p is multiplied by more than.
-void judge(EffectRow& e, double p_holm, size_t count) {
-    e.p_holm = p_holm, e.verdict = verdict_of(p_holm, *e.ratio);
-    const double factor = adjustment_factor(*e.p, p_holm, count);
+/// `count`: of its family.
+void judge(EffectRow& e, const PairP& p, size_t count) {
+    e.p_holm = p.different, e.p_equivalent_holm = p.beyond, e.verdict = verdict_of(p, *e.ratio);
     const bool is_exact = e.estimate.standard_error == 0;
-    const auto ends = is_exact ? std::pair(*e.low, *e.high) : e.estimate.interval(significance / factor);
-    // A standing's verdict that the effect's own interval does not show stands without one.
-    const bool holds_1 = ends.first <= 1 && ends.second >= 1, is_significant = p_holm < significance;
-    if (p_holm < *e.p && holds_1 == is_significant) return;
-    set_adjusted_interval(e, ends);
+    const double level = significance / adjustment_factor(*e.p, p.different, count);
+    set_adjusted_interval(e, is_exact ? std::pair(*e.low, *e.high) : e.estimate.interval(level));
 }
 
 using Table = std::map<Quantity, std::map<Point, SeedsOfPoint>>;
@@ -304,24 +300,29 @@ std::vector<EffectRow> split_effects(std::span<const SplitRow> rows, const std::
     return effects_in(table, variants, not_repeatable, effects_of_splits);
 }
 
-void set_verdicts(std::span<EffectRow> effects, const PrimaryComparisons& primary, const DecidedP& decided) {
+void set_verdicts(std::span<EffectRow> effects, const PrimaryComparisons& primary, const DecidedPair& decided) {
     std::map<std::tuple<std::string, std::string, std::string>, std::vector<EffectRow*>> families;
     for (EffectRow& e : effects) {
         const bool is_primary = e.metric == primary.metric && e.mask == primary.mask && e.target == primary.target;
         e.family = is_primary ? "primary" : "exploratory", e.verdict.clear();
-        e.p_holm = e.low_holm = e.high_holm = std::nullopt;
+        e.p_holm = e.low_holm = e.high_holm = e.p_equivalent = e.p_equivalent_holm = std::nullopt;
         if (!e.p || !e.ratio) continue;
-        if (!e.holds_all_noise)
-            e.low_holm = e.low, e.high_holm = e.high;
-        else if (const auto p_holm = decided ? decided(e) : std::nullopt)
-            judge(e, *p_holm, 1);
-        else
+        if (e.holds_all_noise)
             families[{e.target, e.metric, e.mask}].push_back(&e);
+        else
+            e.low_holm = e.low, e.high_holm = e.high;
     }
     for (const auto& [error, family] : families) {
-        std::vector<double> p;
-        for (const EffectRow* e : family) p.push_back(*e->p);
-        const std::vector<double> adjusted = holm_adjusted(p);
-        for (size_t i = 0; i < family.size(); ++i) judge(*family[i], adjusted[i], family.size());
+        std::vector<double> different, beyond;
+        for (EffectRow* e : family) {
+            e->p_equivalent = e->estimate.p_beyond(primary.margin);
+            different.push_back(*e->p), beyond.push_back(*e->p_equivalent);
+        }
+        different = holm_adjusted(different), beyond = holm_adjusted(beyond);
+        for (size_t i = 0; i < family.size(); ++i) {
+            const PairP other = decided ? decided(*family[i]).value_or(PairP{0, 0}) : PairP{0, 0};
+            judge(*family[i], {std::max(different[i], other.different), std::max(beyond[i], other.beyond)},
+                  family.size());
+        }
     }
 }

@@ -21,6 +21,8 @@ struct EffectRow {
     std::string family;                  ///< "primary" or "exploratory", see set_verdicts()
     std::optional<double> p_holm;        ///< p adjusted for its family, see set_verdicts()
     std::optional<double> low_holm, high_holm;  ///< interval that leaves out 1 where p_holm is below 0.05
+    std::optional<double> p_equivalent;         ///< of "the ratio is not within the margin", RatioEstimate::p_beyond()
+    std::optional<double> p_equivalent_holm;    ///< adjusted for its family
     std::string verdict;                        ///< see set_verdicts(); empty without a p
     RatioEstimate estimate{};                   ///< what all of these are made of; no column
     bool holds_all_noise = true;                ///< false where the reference's noise is not in the interval; no column
@@ -36,7 +38,8 @@ struct EffectRow {
             Column{"low", &EffectRow::low}, Column{"high", &EffectRow::high}, Column{"interval", &EffectRow::interval},
             Column{"p", &EffectRow::p}, Column{"family", &EffectRow::family}, Column{"p_holm", &EffectRow::p_holm},
             Column{"low_holm", &EffectRow::low_holm}, Column{"high_holm", &EffectRow::high_holm},
-            Column{"verdict", &EffectRow::verdict});
+            Column{"p_equivalent", &EffectRow::p_equivalent},
+            Column{"p_equivalent_holm", &EffectRow::p_equivalent_holm}, Column{"verdict", &EffectRow::verdict});
     }
 };
 
@@ -73,24 +76,31 @@ std::vector<EffectRow> split_effects(std::span<const SplitRow> rows, const std::
 namespace verdict {
 inline constexpr const char* less = "less";
 inline constexpr const char* more = "more";
-inline constexpr const char* not_distinguishable = "not distinguishable";
-inline constexpr const char* equal = "equal";  ///< to the last digit, of pairs (pairs.h)
+inline constexpr const char* equivalent = "equivalent";  ///< neither, and certainly within the margin of each other
+inline constexpr const char* undecided = "undecided";    ///< chance may have made the difference, or hidden one
+inline constexpr const char* equal = "equal";            ///< to the last digit, of pairs (pairs.h)
 }  // namespace verdict
 
-/// By the adjusted p of "the ratio is 1".
-inline const char* verdict_of(double p_holm, double ratio) {
-    return !(p_holm < significance) ? verdict::not_distinguishable : ratio < 1 ? verdict::less : verdict::more;
+/// p-values of a pair: of "both are alike", and of "they are further apart than the margin".
+struct PairP {
+    double different = 1, beyond = 1;
+};
+
+/// By adjusted p-values.
+inline const char* verdict_of(const PairP& p, double ratio) {
+    return p.different < significance ? (ratio < 1 ? verdict::less : verdict::more)
+           : p.beyond < significance  ? verdict::equivalent
+                                      : verdict::undecided;
 }
 
-/// The adjusted p of a comparison that another family has decided; none of all others.
-using DecidedP = std::function<std::optional<double>(const EffectRow&)>;
+/// The adjusted p-values of a comparison that another family has decided; none of all others.
+using DecidedPair = std::function<std::optional<PairP>(const EffectRow&)>;
 
 /// Decides `verdict` of all effects that have a p and whose interval holds all that is random, at 0.05; others (where
-/// the reference's noise is not known) keep the interval of their seeds and have no verdict. The effects on one error
-/// (target, metric, mask), of all points and shots, are a family, whose p-values are adjusted together
-/// (holm_adjusted()): among many comparisons some come out small by chance. `low_holm` and `high_holm` are intervals at
-/// the level that each is judged at, so that they agree with the verdict: 0.05 over the factor by which p was adjusted.
-/// The `primary` family is what the study was made to compare; in `exploratory` ones what is significant is so among
-/// the effects on that error alone. A pair has one verdict: what `decided` knows (decided_by_standings()) is in no
-/// family here, and keeps its p.
-void set_verdicts(std::span<EffectRow> effects, const PrimaryComparisons& primary, const DecidedP& decided = {});
+/// the reference's noise is not known) have no verdict. The effects on one error (target, metric, mask), of all points
+/// and shots, are a family, whose p-values are adjusted together (holm_adjusted()): among many comparisons some come
+/// out small by chance. `low_holm` and `high_holm` are intervals at the level that each is judged at, so that they
+/// agree with the verdict: 0.05 over the factor by which p was adjusted. The `primary` family is what the study was
+/// made to compare; in `exploratory` ones what is significant is so among the effects on that error alone. A pair has
+/// one verdict: of what `decided` knows (decided_by_standings()), too, the larger p counts.
+void set_verdicts(std::span<EffectRow> effects, const PrimaryComparisons& primary, const DecidedPair& decided = {});

@@ -1,6 +1,7 @@
 #include "experiments/evaluation/effects/over_scenes.h"
 
 #include "core/error.h"
+#include "experiments/evaluation/family.h"
 #include "experiments/evaluation/standings.h"
 #include "experiments/evaluation/study_points.h"
 #include "metrics/quantiles.h"
@@ -34,30 +35,43 @@ std::vector<double> values_of(const std::map<std::string, double>& of_scene) {
     return values;
 }
 
-MeanOverScenes mean_of_scenes(std::span<const double> values) {
+MeanOverScenes mean_of_scenes(std::span<const double> values, const PooledScatter& pooled = {}) {
     MeanOverScenes mean{.value = mean_of(values), .low = {}, .high = {}, .p = {}, .scenes = values.size()};
     if (values.size() < least_scenes) return mean;
-    const double n = double(values.size()), degrees = n - 2;
+    const double n = double(values.size());
     double squares = 0;
     for (const double v : values) squares += (v - mean.value) * (v - mean.value);
-    const double error = std::sqrt(squares / (n - 1) / n), half_width = student_t_quantile(0.975, degrees) * error;
-    mean.standard_error = error, mean.low = mean.value - half_width, mean.high = mean.value + half_width;
-    if (error > 0) mean.p = 2 * student_t_cdf(-std::abs(mean.value) / error, degrees);
+    const auto [variance, degrees] = pooled.moderated(squares / (n - 1), values.size());
+    mean.degrees = degrees, mean.standard_error = std::sqrt(variance / n);
+    const double half_width = student_t_quantile(0.975, mean.degrees) * mean.standard_error;
+    mean.low = mean.value - half_width, mean.high = mean.value + half_width;
+    if (half_width > 0) mean.p = 2 * student_t_cdf(-std::abs(mean.value) / mean.standard_error, mean.degrees);
     return mean;
 }
 
-constexpr size_t laws = std::tuple_size_v<ScenesByLaw>;
+constexpr size_t laws = noise_laws;
+using PooledByLaw = std::array<PooledScatter, laws>;
 
 /// The mean of what was measured, with an interval and a p that hold by every law.
-MeanOverScenes mean_by_laws(const ScenesByLaw& values) {
-    MeanOverScenes found = mean_of_scenes(values.front());
+MeanOverScenes mean_by_laws(const ScenesByLaw& values, const PooledByLaw& pooled) {
+    MeanOverScenes found = mean_of_scenes(values.front(), pooled.front());
     for (size_t law = 1; law < laws; ++law) {
-        const MeanOverScenes other = mean_of_scenes(values[law]);
+        const MeanOverScenes other = mean_of_scenes(values[law], pooled[law]);
         if (other.low) found.low = std::min(*found.low, *other.low), found.high = std::max(*found.high, *other.high);
         if (other.p) found.p = std::max(found.p.value_or(0), *other.p);
         if (found.p && other.value * found.value < 0) found.p = 1;
     }
     return found;
+}
+
+/// By every law, of "the mean is not within the margin".
+double p_beyond_by_laws(const ScenesByLaw& values, const PooledByLaw& pooled, double margin) {
+    double p = 0;
+    for (size_t law = 0; law < laws; ++law) {
+        const MeanOverScenes mean = mean_of_scenes(values[law], pooled[law]);
+        p = std::max(p, p_beyond_limits(mean.value, std::log1p(margin), mean.standard_error, mean.degrees));
+    }
+    return p;
 }
 
 std::optional<double> exponential(const std::optional<double>& value) {
@@ -106,9 +120,10 @@ void set_ranks(const std::vector<OverScenes*>& points) {
 
 /// Compares all with the first rank over the shots that both have, and decides who may be the best.
 void set_standings(std::vector<OverScenes>& points, OverScenes& first, std::span<const ShotErrors> shots,
-                   const std::map<PointName, Logarithms>& logarithms) {
+                   const std::map<PointName, Logarithms>& logarithms, const PooledByLaw& pooled, double margin) {
     std::vector<OverScenes*> compared;
-    std::vector<double> p;
+    std::vector<AgainstBest> different;
+    std::vector<double> beyond;
     for (OverScenes& point : points) {
         if (&point == &first) continue;
         Logarithms over_first;
@@ -117,27 +132,32 @@ void set_standings(std::vector<OverScenes>& points, OverScenes& first, std::span
             if (const auto own = of_first.find(shot); own != of_first.end())
                 std::ranges::transform(of_laws, own->second, over_first[shot].begin(), std::minus());
         if (over_first.empty()) continue;
-        const MeanOverScenes mean = mean_by_laws(over_scenes(over_first, shots));
+        const ScenesByLaw values = over_scenes(over_first, shots);
+        const MeanOverScenes mean = mean_by_laws(values, pooled);
         point.over_best = std::exp(mean.value);
         point.over_best_low = exponential(mean.low), point.over_best_high = exponential(mean.high);
-        if (mean.p) compared.push_back(&point), p.push_back(*mean.p);
+        if (mean.p) {
+            compared.push_back(&point), different.push_back({0, *mean.p});
+            beyond.push_back(p_beyond_by_laws(values, pooled, margin));
+        }
         if (mean.scenes < least_scenes) continue;
-        const double degrees = double(mean.scenes) - 1,
-                     deviation = mean.standard_error * std::sqrt(double(mean.scenes));
+        const double degrees = mean.degrees, deviation = mean.standard_error * std::sqrt(double(mean.scenes));
         point.scenes_needed = scenes_needed(deviation);
         point.scenes_needed_low = scenes_needed(deviation * std::sqrt(degrees / chi_squared_quantile(0.975, degrees)));
         point.scenes_needed_high = scenes_needed(deviation * std::sqrt(degrees / chi_squared_quantile(0.025, degrees)));
     }
-    const std::vector<double> adjusted = holm_adjusted(p);
-    for (size_t i = 0; i < compared.size(); ++i) compared[i]->p_holm = adjusted[i];
+    const std::array<size_t, 1> sizes = {compared.size() + 1};
+    const std::vector<double> adjusted = adjusted_for_choice(different, sizes), equivalent = holm_adjusted(beyond);
+    for (size_t i = 0; i < compared.size(); ++i)
+        compared[i]->p_holm = adjusted[i], compared[i]->p_equivalent = equivalent[i];
     if (first.scenes < least_scenes || std::ranges::count_if(points, [](auto& o) { return o.rank.has_value(); }) < 2)
         return;
     first.standing = standing::best;
     for (OverScenes& point : points) {
         if (!point.rank || &point == &first) continue;
-        const bool is_behind = point.p_holm && *point.p_holm < significance;
-        point.standing = is_behind ? standing::behind : standing::tied;
-        if (!is_behind) first.standing = standing::tied;
+        // Without a p all scenes say the same.
+        point.standing = standing::of(point.p_holm.value_or(1), point.p_equivalent.value_or(1));
+        if (point.standing != standing::behind) first.standing = standing::tied;
     }
 }
 
@@ -222,7 +242,7 @@ double scenes_needed(double deviation) {
     return std::ceil(scenes);
 }
 
-std::vector<OverScenes> compare_over_scenes(std::span<const ShotErrors> shots, double lacking) {
+std::vector<OverScenes> compare_over_scenes(std::span<const ShotErrors> shots, double lacking, double margin) {
     std::map<PointName, Logarithms> logarithms;
     size_t counted = 0;
     for (size_t i = 0; i < shots.size(); ++i) {
@@ -248,18 +268,26 @@ std::vector<OverScenes> compare_over_scenes(std::span<const ShotErrors> shots, d
             std::erase_if(own, [&](const auto& entry) { return std::ranges::count(common, entry.first) == 0; });
         }
         OverScenes& point = points.emplace_back(OverScenes{.variant = name.first, .point = name.second});
-        point.logarithms = over_scenes(own, shots);
-        const MeanOverScenes mean = mean_by_laws(point.logarithms);
-        point.scenes = mean.scenes, point.shots = own.size(), point.ratio = std::exp(mean.value);
-        point.low = exponential(mean.low), point.high = exponential(mean.high);
+        point.logarithms = over_scenes(own, shots), point.shots = own.size();
     }
     std::vector<OverScenes*> of_ranked;
     for (OverScenes& point : points)
         if (std::ranges::count(ranked, PointName(point.variant, point.point)) > 0) of_ranked.push_back(&point);
+    PointsByLaw logarithms_of_ranked;
+    for (const OverScenes* point : of_ranked) logarithms_of_ranked.push_back(&point->logarithms);
+    const PooledByLaw pooled = pooled_scatter(logarithms_of_ranked);
+    for (OverScenes& point : points) {
+        const MeanOverScenes mean = mean_by_laws(point.logarithms, pooled);
+        point.scenes = mean.scenes, point.ratio = std::exp(mean.value);
+        point.low = exponential(mean.low), point.high = exponential(mean.high);
+    }
     if (of_ranked.empty()) return points;
     set_ranks(of_ranked);
+    const std::vector<ChanceOverScenes> chances = chances_over_scenes(logarithms_of_ranked, pooled);
+    for (size_t i = 0; i < chances.size(); ++i)
+        of_ranked[i]->chance_first = chances[i].first, of_ranked[i]->chance_near = chances[i].near;
     OverScenes& first = **std::ranges::min_element(of_ranked, {}, [](const OverScenes* o) { return *o->rank; });
-    set_standings(points, first, shots, logarithms);
+    set_standings(points, first, shots, logarithms, pooled, margin);
     std::ranges::stable_sort(
         points, {}, [](const OverScenes& o) { return std::tuple(!o.rank.has_value(), o.rank.value_or(0), o.ratio); });
     return points;
@@ -291,7 +319,7 @@ std::optional<Extrapolated> divisor_of(std::span<const MetricSummary* const> err
 }
 
 std::vector<OverScenesRow> errors_over_scenes(std::span<const MetricSummary> errors, const nlohmann::json& manifest,
-                                              const std::vector<VariantConfig>& variants) {
+                                              double margin, const std::vector<VariantConfig>& variants) {
     using ErrorName = std::tuple<std::string, std::string, std::string>;  // target, metric, mask
     std::vector<ErrorName> names;
     std::map<ErrorName, std::vector<std::pair<std::string, std::vector<const MetricSummary*>>>> of_error;  // by shot
@@ -324,7 +352,7 @@ std::vector<OverScenesRow> errors_over_scenes(std::span<const MetricSummary> err
             std::tie(row.target, row.metric, row.mask) = name;
             std::tie(row.baseline_variant, row.baseline_point) = divisor;
         };
-        for (OverScenes& o : compare_over_scenes(shots, most_lacking)) add(std::move(o), baseline);
+        for (OverScenes& o : compare_over_scenes(shots, most_lacking, margin)) add(std::move(o), baseline);
         for (const PointComparison& c : comparisons_of(variants)) {
             const PointName own(c.point->variant, c.point->point), other(c.baseline->variant, c.baseline->point);
             if (c.against == baseline_name) continue;
@@ -335,7 +363,7 @@ std::vector<OverScenesRow> errors_over_scenes(std::span<const MetricSummary> err
                     of_pair.push_back({.asset = shot.asset, .divisor = b->second, .errors = {*a}});
             }
             for (OverScenes& o : compare_over_scenes(of_pair)) {
-                o.rank = o.rank_low = o.rank_high = std::nullopt;
+                o.rank = o.rank_low = o.rank_high = o.chance_first = o.chance_near = std::nullopt;
                 add(std::move(o), other);
             }
         }

@@ -1,13 +1,11 @@
 #pragma once
 #include "experiments/config/comparisons.h"
+#include "experiments/evaluation/effects/scatter_over_scenes.h"
 #include "experiments/evaluation/summary.h"
 
 #include <nlohmann/json.hpp>
 
 // What holds over scenes: they are the sample. Shots of one scene, and scenes of one asset, are averaged first.
-
-/// Of fewer scenes nothing is known but their mean.
-inline constexpr size_t least_scenes = 4;
 
 /// What a shot's scene shows, as the manifest has it: scenes of one asset are no independent samples.
 std::string asset_of(const nlohmann::json& manifest, const std::string& shot);
@@ -18,15 +16,13 @@ struct ShotValue {
     double value = 0;
 };
 
-/// A mean with its 95 % interval over scenes like these: Student's t with n - 2 degrees of freedom, one fewer than of
-/// normal values. Logarithms of ratios are skewed: with n - 1 intervals of four to six scenes hold the truth in 92 %
-/// (experiments/tradeoff/README.md).
+/// A mean with its 95 % interval over scenes like these: Student's t, of a variance that PooledScatter moderates.
 struct MeanOverScenes {
     double value = 0;
     std::optional<double> low, high;  ///< none below least_scenes
     std::optional<double> p;          ///< two-sided, of "the mean is 0"; also none where all scenes say the same
     size_t scenes = 0;
-    double standard_error = 0;  ///< of `value`; 0 below least_scenes
+    double standard_error = 0, degrees = 0;  ///< of `value`; 0 below least_scenes
 };
 /// Fails with Error where there is no value.
 MeanOverScenes mean_over_scenes(std::span<const ShotValue> values);
@@ -46,12 +42,6 @@ struct ShotErrors {
     std::map<PointName, Extrapolated> errors;
 };
 
-/// A value of each scene, as measured, and without the reference's noise by either law of its growth (Extrapolated).
-/// Which law holds is not known, but it is the same for all points and scenes: an interval is the hull of the three
-/// that each has by itself, and p the largest. What either law says is thus no part of the scatter over scenes, and
-/// does not shrink with their number.
-using ScenesByLaw = std::array<std::vector<double>, 3>;
-
 /// How many scenes like these show a difference of `worth_deciding` in the mean of logarithms of ratios that scatter by
 /// `deviation` (a standard deviation over scenes), with 80 % power at a significance of 5 % (two-sided, Student's t of
 /// n - 2 degrees as above): at least least_scenes.
@@ -66,8 +56,10 @@ struct OverScenes {
     std::optional<double> low, high;                  ///< its MeanOverScenes, by all laws
     std::optional<double> rank, rank_low, rank_high;  ///< 1: the least; ends with any one scene left out
     std::optional<double> over_best, over_best_low, over_best_high;  ///< error / that of the first rank
-    std::optional<double> p_holm;  ///< of "over_best is 1", adjusted for all that is compared here
-    std::string standing;          ///< see standings.h; of what is ranked over least_scenes or more
+    std::optional<double> p_holm;        ///< of "over_best is 1", adjusted_for_choice() among all that is compared here
+    std::optional<double> p_equivalent;  ///< of "over_best is not within the margin", adjusted (Holm)
+    std::optional<double> chance_first, chance_near;  ///< ChanceOverScenes, among those that are ranked
+    std::string standing;                             ///< see standings.h; of what is ranked over least_scenes or more
     /// To tell it and the first rank apart where one errs worth_deciding more; ends by those of the deviation (95 %, of
     /// normal logarithms). None below least_scenes.
     std::optional<double> scenes_needed, scenes_needed_low, scenes_needed_high;
@@ -77,8 +69,9 @@ struct OverScenes {
 /// By ascending rank, those without one last. Ranked, over the shots that they have in common, is what lacks at most
 /// the share `lacking` of the shots that count. The first rank was chosen from the scenes that it is compared over:
 /// `standing` says which points may be the best (the confidence set of set_standings()), not how far the first is
-/// ahead.
-std::vector<OverScenes> compare_over_scenes(std::span<const ShotErrors> shots, double lacking = 0);
+/// ahead. `margin`: see PrimaryComparisons.
+std::vector<OverScenes> compare_over_scenes(std::span<const ShotErrors> shots, double lacking = 0,
+                                            double margin = PrimaryComparisons().margin);
 
 /// So many of the shots may a point lack an error above 0 in, and be ranked.
 inline constexpr double most_lacking = 0.1;
@@ -118,7 +111,8 @@ struct OverScenesRow : OverScenes {
             Column{"rank_high", &OverScenesRow::rank_high}, Column{"over_best", &OverScenesRow::over_best},
             Column{"over_best_low", &OverScenesRow::over_best_low},
             Column{"over_best_high", &OverScenesRow::over_best_high}, Column{"p_holm", &OverScenesRow::p_holm},
-            Column{"standing", &OverScenesRow::standing});
+            Column{"p_equivalent", &OverScenesRow::p_equivalent}, Column{"chance_first", &OverScenesRow::chance_first},
+            Column{"chance_near", &OverScenesRow::chance_near}, Column{"standing", &OverScenesRow::standing});
     }
 };
 
@@ -127,4 +121,5 @@ struct OverScenesRow : OverScenes {
 /// that the study compares with one that differs in a parameter (comparisons_of()), scene data or not, as multiples of
 /// that, over the shots that count for the former: without ranks.
 std::vector<OverScenesRow> errors_over_scenes(std::span<const MetricSummary> errors, const nlohmann::json& manifest,
+                                              double margin = PrimaryComparisons().margin,
                                               const std::vector<VariantConfig>& variants = {});

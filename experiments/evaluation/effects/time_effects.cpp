@@ -82,6 +82,6 @@ void set_time_verdicts(std::span<TimeEffectRow> effects, const nlohmann::json& m
         e.p = p[i], e.p_holm = adjusted[i];
         const double factor = adjustment_factor(p[i], adjusted[i], family.size());
         set_adjusted_interval(e, ratios[i].interval(significance / factor));
-        e.verdict = verdict_of(adjusted[i], e.ratio);
+        e.verdict = verdict_of({adjusted[i]}, e.ratio);
     }
 }

@@ -65,7 +65,7 @@ std::string cost_verdict(const OtherCost& a, const OtherCost& b) {
     const double decides_from = std::max(a.decides_from, b.decides_from);
     if (a.high < b.low && a.value * decides_from <= b.value) return verdict::less;
     if (b.high < a.low && b.value * decides_from <= a.value) return verdict::more;
-    return verdict::not_distinguishable;
+    return verdict::undecided;
 }
 
 std::vector<RefusedEstimate> refused_estimates(const StudyTables& tables, const std::set<std::string>& shots,

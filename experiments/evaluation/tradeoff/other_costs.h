@@ -32,7 +32,7 @@ constexpr double counts_decide_from(std::string_view quantity) { return 1 + 2 * 
 /// for a point whose estimate was refused.
 std::map<PointName, OtherCost> other_costs(const StudyTables& tables, const std::string& shot, const std::string& cost);
 
-/// Which costs less (verdict::less if `a` does, ...). Not distinguishable where the intervals meet, or the values
+/// Which costs less (verdict::less if `a` does, ...). Undecided where the intervals meet, or the values
 /// differ by less than either decides from; equal where all numbers are, as those of points with the same code and
 /// work.
 std::string cost_verdict(const OtherCost& a, const OtherCost& b);

@@ -68,10 +68,12 @@ Costs costs_of(const StudyTables& tables, const std::string& shot, const std::st
 struct OpenPair {
     PairRow row;
     const MetricSummary *a, *b;
-    double p = 1;                     ///< of the error, not adjusted
+    PairP p = {};                     ///< of the error, not adjusted
     MedianInterval cost = {1, 1, 1};  ///< of the costs' ratio
     double cost_p = 1;
     bool has_cost = false;
+    bool is_timed = false;
+    double floor = 0;  ///< see Costs
 };
 
 double error_of(const MetricSummary& e) { return shortfall(*direction_of(e.metric), *e.value); }
@@ -79,7 +81,7 @@ double error_of(const MetricSummary& e) { return shortfall(*direction_of(e.metri
 /// As a ratio that is below 1 where a errs less, also of metrics whose best value is not the least.
 double direction_between(const MetricSummary& a, const MetricSummary& b) { return error_of(a) < error_of(b) ? 0.5 : 2; }
 
-void compare_errors(OpenPair& pair, const Decided<EffectRow>& effects, const DecidedP& standings) {
+void compare_errors(OpenPair& pair, const Decided<EffectRow>& effects, const DecidedPair& standings, double margin) {
     const MetricSummary &a = *pair.a, &b = *pair.b;
     PairRow& row = pair.row;
     const auto same = [](const MetricSummary& x) { return std::tuple(x.value, x.low, x.high, x.seed_deviation); };
@@ -90,18 +92,19 @@ void compare_errors(OpenPair& pair, const Decided<EffectRow>& effects, const Dec
     EffectRow asked{.shot = a.shot, .variant = a.variant, .point = a.point};
     asked.against_variant = b.variant, asked.against_point = b.point;
     asked.target = a.target, asked.metric = a.metric, asked.mask = a.mask;
-    if (const auto p_holm = standings(asked)) {
-        row.error_p_holm = *p_holm, row.decided_by = "standings";
-        row.error_verdict = verdict_of(*p_holm, direction_between(a, b));
+    if (const auto p = standings(asked)) {
+        row.error_p_holm = p->different, row.decided_by = "standings";
+        row.error_verdict = verdict_of(*p, direction_between(a, b));
         return;
     }
     if (const auto [effect, is_reversed] = effects.find(a.shot, name_of(a), name_of(b));
         effect && !effect->verdict.empty()) {
         row.error_p_holm = effect->p_holm, row.decided_by = "effects";
-        row.error_verdict = verdict_of(*effect->p_holm, is_reversed ? 1 / *effect->ratio : *effect->ratio);
+        row.error_verdict = verdict_of({*effect->p_holm, effect->p_equivalent_holm.value_or(1)},
+                                       is_reversed ? 1 / *effect->ratio : *effect->ratio);
         return;
     }
-    row.decided_by = "pairs", pair.p = p_by_intervals(a, b);
+    row.decided_by = "pairs", pair.p = p_by_intervals(a, b, margin);
 }
 
 void compare_costs(OpenPair& pair, const Costs& costs, const Decided<TimeEffectRow>& effects) {
@@ -129,46 +132,62 @@ void compare_costs(OpenPair& pair, const Costs& costs, const Decided<TimeEffectR
     const auto [effect, is_reversed] = effects.find(pair.a->shot, a, b);
     if (effect && effect->p_holm) {
         row.cost_p_holm = *effect->p_holm;
-        row.cost_verdict = verdict_of(*effect->p_holm, is_reversed ? 1 / effect->ratio : effect->ratio);
+        row.cost_verdict = verdict_of({*effect->p_holm}, is_reversed ? 1 / effect->ratio : effect->ratio);
         return;
     }
     pair.cost_p = time_ratio(pair.cost, costs.floor, costs.aa_pairs).p_value();
 }
 
-/// Holm over the pairs that nobody has decided yet.
+bool is_undecided(const std::string& verdict) {
+    return verdict == verdict::undecided || verdict == verdict::equivalent;
+}
+
+/// Holm over the pairs of all shots that nobody has decided yet, in the family of all pairs: those that standings and
+/// effects leave undecided count, too.
 void decide(std::vector<OpenPair>& pairs) {
-    std::vector<double> errors, costs;
+    std::vector<double> different, beyond, costs;
+    size_t other_errors = 0, other_costs = 0;
     for (const OpenPair& pair : pairs) {
-        if (pair.row.error_verdict.empty()) errors.push_back(pair.p);
-        if (pair.has_cost && pair.row.cost_verdict.empty()) costs.push_back(pair.cost_p);
+        if (pair.row.error_verdict.empty())
+            different.push_back(pair.p.different), beyond.push_back(pair.p.beyond);
+        else
+            other_errors += is_undecided(pair.row.error_verdict);
+        if (!pair.has_cost) continue;
+        if (pair.row.cost_verdict.empty())
+            costs.push_back(pair.cost_p);
+        else
+            other_costs += is_undecided(pair.row.cost_verdict);
     }
-    const std::vector<double> adjusted_errors = holm_adjusted(errors), adjusted_costs = holm_adjusted(costs);
+    different = holm_adjusted(different, other_errors), beyond = holm_adjusted(beyond, other_errors);
+    costs = holm_adjusted(costs, other_costs);
     size_t error = 0, cost = 0;
     for (OpenPair& pair : pairs) {
         PairRow& row = pair.row;
         if (row.error_verdict.empty()) {
-            row.error_p_holm = adjusted_errors[error++];
-            row.error_verdict = verdict_of(*row.error_p_holm, direction_between(*pair.a, *pair.b));
+            const PairP p = {different[error], beyond[error]};
+            row.error_p_holm = p.different, row.error_verdict = verdict_of(p, direction_between(*pair.a, *pair.b));
+            ++error;
         }
         if (pair.has_cost && row.cost_verdict.empty()) {
-            row.cost_p_holm = adjusted_costs[cost++];
-            row.cost_verdict = verdict_of(*row.cost_p_holm, pair.cost.median);
+            row.cost_p_holm = costs[cost++];
+            row.cost_verdict = verdict_of({*row.cost_p_holm}, pair.cost.median);
         }
     }
 }
 
-void set_dominance(OpenPair& pair, const Costs& costs) {
+void set_dominance(OpenPair& pair) {
     if (!pair.has_cost) return;
+    const double floor = pair.floor;
     PairRow& row = pair.row;
     const bool is_same_error = row.error_verdict == verdict::equal;
     const bool errs_less = row.error_verdict == verdict::less, errs_more = row.error_verdict == verdict::more;
     const bool is_cheaper = row.cost_verdict == verdict::less, is_dearer = row.cost_verdict == verdict::more;
     // A difference that two copies of one point may have is none.
     const bool is_same_cost = row.cost_verdict == verdict::equal;
-    const bool costs_no_more = costs.is_timed ? pair.cost.median <= 1 && pair.cost.high <= 1 + costs.floor
-                                              : is_cheaper || is_same_cost,
-               costs_no_less = costs.is_timed ? pair.cost.median >= 1 && pair.cost.low * (1 + costs.floor) >= 1
-                                              : is_dearer || is_same_cost;
+    const bool costs_no_more =
+                   pair.is_timed ? pair.cost.median <= 1 && pair.cost.high <= 1 + floor : is_cheaper || is_same_cost,
+               costs_no_less = pair.is_timed ? pair.cost.median >= 1 && pair.cost.low * (1 + floor) >= 1
+                                             : is_dearer || is_same_cost;
     const auto says = [](bool is_certain, bool is_possible) {
         return is_certain ? "yes" : is_possible ? "maybe" : "no";
     };
@@ -197,12 +216,11 @@ std::vector<PairRow> pairs_of(const StudyTables& tables, const PrimaryComparison
     Decided<TimeEffectRow> time_effects;
     for (const TimeEffectRow& e : tables.time_effects)
         if (e.stage == "total") time_effects.add(e);
-    const DecidedP standings = decided_by_standings(tables.errors);
-    std::vector<PairRow> rows;
+    const DecidedPair standings = decided_by_standings(tables.errors);
+    std::vector<OpenPair> pairs;
     for (const std::string& shot : shots) {
         const Costs costs = costs_of(tables, shot, cost);
         const std::vector<const MetricSummary*>& points = ranked[shot];
-        std::vector<OpenPair> pairs;
         for (size_t i = 0; i < points.size(); ++i)
             for (size_t k = i + 1; k < points.size(); ++k) {
                 OpenPair& pair = pairs.emplace_back(OpenPair{.row = {.shot = shot,
@@ -212,14 +230,16 @@ std::vector<PairRow> pairs_of(const StudyTables& tables, const PrimaryComparison
                                                                      .other_point = points[k]->point},
                                                              .a = points[i],
                                                              .b = points[k]});
-                compare_errors(pair, effects, standings);
+                pair.is_timed = costs.is_timed, pair.floor = costs.floor;
+                compare_errors(pair, effects, standings, error.margin);
                 compare_costs(pair, costs, time_effects);
             }
-        decide(pairs);
-        for (OpenPair& pair : pairs) {
-            set_dominance(pair, costs);
-            rows.push_back(std::move(pair.row));
-        }
+    }
+    decide(pairs);
+    std::vector<PairRow> rows;
+    for (OpenPair& pair : pairs) {
+        set_dominance(pair);
+        rows.push_back(std::move(pair.row));
     }
     return rows;
 }

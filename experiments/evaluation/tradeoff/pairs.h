@@ -28,11 +28,11 @@ struct PairRow {
 /// a frame.
 ///
 /// A pair has one verdict. That of a point and the best measured one is its standing's; that of a comparison which the
-/// study was asked for is its effect's; all others of a shot are a family of their own (p_by_intervals(), which knows
-/// no pairs of seeds, and so is the wider one; Holm 1979). Times go likewise: what is in time_effects.csv is decided
-/// there, all others by the ratios of the frames that both were timed in, and by what copies of one point differ by
-/// (time_ratio()). Counted and estimated costs go by cost_verdict(), which decides no pair of
-/// estimates closer than model_decides_from, nor of one seed's counts closer than counts_decide_from().
+/// study was asked for is its effect's; all others are adjusted as members of the family of all pairs of all shots
+/// (p_by_intervals(), which knows no pairs of seeds, and so is the wider one; Holm 1979). Times go likewise: what is in
+/// time_effects.csv is decided there, all others by the ratios of the frames that both were timed in, and by what
+/// copies of one point differ by (time_ratio()). Counted and estimated costs go by cost_verdict(), which decides no
+/// pair of estimates closer than model_decides_from, nor of one seed's counts closer than counts_decide_from().
 ///
 /// A point dominates another that errs more and costs no less, or costs more and errs no less: each of them certain. It
 /// may dominate where neither its cost nor its error is certainly the larger one.

@@ -195,7 +195,7 @@ void count_wins(AcrossRow& row, const Contest& contest, const LessErrors& less) 
     }
 }
 
-std::vector<AcrossRow> across_of(const Contest& contest, double lacking, const LessErrors& less) {
+std::vector<AcrossRow> across_of(const Contest& contest, double lacking, double margin, const LessErrors& less) {
     std::vector<ShotErrors> errors;
     std::set<std::string> assets;
     for (size_t i = 0; i < contest.shots.size(); ++i) {
@@ -206,7 +206,7 @@ std::vector<AcrossRow> across_of(const Contest& contest, double lacking, const L
             own.errors[name] = shot.find(point)->error->extrapolated();
     }
     std::vector<AcrossRow> rows;
-    for (OverScenes& o : compare_over_scenes(errors, lacking)) {
+    for (OverScenes& o : compare_over_scenes(errors, lacking, margin)) {
         AcrossRow& row = rows.emplace_back();
         static_cast<OverScenes&>(row) = std::move(o);
         row.of_scenes = assets.size();
@@ -220,7 +220,7 @@ std::vector<AcrossRow> across_of(const Contest& contest, double lacking, const L
     return rows;
 }
 
-std::vector<AcrossRow> across_points(const std::vector<TradeoffShot>& shots, const LessErrors& less) {
+std::vector<AcrossRow> across_points(const std::vector<TradeoffShot>& shots, double margin, const LessErrors& less) {
     Contest contest;
     for (const TradeoffShot& shot : shots) {
         contest.shots.push_back(&shot);
@@ -228,11 +228,11 @@ std::vector<AcrossRow> across_points(const std::vector<TradeoffShot>& shots, con
         for (const TradeoffPoint& p : shot.points)
             if (!p.uses_scene_data && p.error->counts_over_scenes()) here[p.name()] = p.name();
     }
-    return across_of(contest, most_lacking, less);
+    return across_of(contest, most_lacking, margin, less);
 }
 
 std::vector<AcrossRow> across_at(const std::string& machine, double cost, const std::vector<TradeoffShot>& shots,
-                                 const std::vector<ChosenPoint>& chosen, const LessErrors& less) {
+                                 const std::vector<ChosenPoint>& chosen, double margin, const LessErrors& less) {
     Contest contest;
     std::map<std::string, std::set<std::string>> fitting;  // variant to assets
     bool is_timed = false;
@@ -249,7 +249,7 @@ std::vector<AcrossRow> across_at(const std::string& machine, double cost, const 
     }
     char cost_text[32];
     std::snprintf(cost_text, sizeof cost_text, "%.9g", cost);
-    std::vector<AcrossRow> rows = across_of(contest, 0, less);
+    std::vector<AcrossRow> rows = across_of(contest, 0, margin, less);
     for (AcrossRow& row : rows) {
         row.machine = machine, row.cost = cost_text, row.label = row.variant;
         if (is_timed) row.scenes_that_fit = double(fitting[row.variant].size());
@@ -336,11 +336,12 @@ Tradeoff tradeoff_of(const StudyTables& tables, const TradeoffQuestion& question
     for (const std::string& group : groups_of(shots)) {
         std::vector<TradeoffShot> of_group = shots;
         if (!group.empty()) std::erase_if(of_group, [&](const TradeoffShot& shot) { return shot.group != group; });
-        std::vector<AcrossRow> rows = across_points(of_group, less);
+        std::vector<AcrossRow> rows = across_points(of_group, question.error.margin, less);
         for (AcrossRow& row : rows) row.label = label_of(labels, {row.variant, row.point});
         for (const std::string& machine : machines)
             for (const double cost : question.costs)
-                std::ranges::move(across_at(machine, cost, of_group, found.chosen, less), std::back_inserter(rows));
+                std::ranges::move(across_at(machine, cost, of_group, found.chosen, question.error.margin, less),
+                                  std::back_inserter(rows));
         for (AcrossRow& row : rows) row.group = group;
         std::ranges::move(rows, std::back_inserter(found.across));
     }

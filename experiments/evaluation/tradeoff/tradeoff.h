@@ -49,7 +49,7 @@ struct AcrossRow : OverScenes {
     double median = 1;                                    ///< over the scenes of error / the baseline's
     std::optional<double> median_low, median_high;        ///< median_over_scenes()
     std::optional<double> scenes_that_fit;  ///< at a cost: in how many it surely fits, if times were taken
-    size_t wins = 0, shared = 0;  ///< shots with certainly the least error; with one not distinguishable from it
+    size_t wins = 0, shared = 0;  ///< shots with certainly the least error; with one that is not certainly more
 
     static constexpr auto columns() {
         return std::tuple(
@@ -66,7 +66,9 @@ struct AcrossRow : OverScenes {
             Column{"rank_low", &AcrossRow::rank_low}, Column{"rank_high", &AcrossRow::rank_high},
             Column{"against_best", &AcrossRow::over_best}, Column{"against_best_low", &AcrossRow::over_best_low},
             Column{"against_best_high", &AcrossRow::over_best_high}, Column{"p_holm", &AcrossRow::p_holm},
-            Column{"standing", &AcrossRow::standing}, Column{"scenes_needed", &AcrossRow::scenes_needed},
+            Column{"p_equivalent", &AcrossRow::p_equivalent}, Column{"chance_first", &AcrossRow::chance_first},
+            Column{"chance_near", &AcrossRow::chance_near}, Column{"standing", &AcrossRow::standing},
+            Column{"scenes_needed", &AcrossRow::scenes_needed},
             Column{"scenes_needed_low", &AcrossRow::scenes_needed_low},
             Column{"scenes_needed_high", &AcrossRow::scenes_needed_high});
     }

@@ -10,7 +10,7 @@ from paper_figures import numbers, style
 from paper_figures.crop_choice import AUTO, TONE_CURVES as CURVE_NAMES, Crop, check_box, is_box, is_exposure
 from ssrlab.csv_files import number
 from ssrlab.mistakes import ResultsError
-from ssrlab.results import BEST, TIED, label
+from ssrlab.results import BEST, LIKE_BEST, label
 
 REFERENCE = ("reference", "")
 MOST_POINTS = 6  # of those that nobody chose
@@ -204,7 +204,7 @@ def _title(results, key, error, chosen, marks, letters, cell):
     if error is None:
         return text
     value, _, interval = numbers.with_interval(error).partition(" ")
-    tie = " (tie)" if marks.get(key) == TIED else ""
+    tie = " (tie)" if marks.get(key) in LIKE_BEST else ""
     interval = "1 seed: no interval" if error.is_one_seed else interval
     if 1.15 * style.text_width(interval) > cell:  # 1.15: bold
         interval = interval.replace(" ", "\n", 1)

@@ -86,5 +86,5 @@ def draw(results, chosen):
     what = "time of a frame" if show == "time" else f"{chosen.metric} of {chosen.target}, {chosen.mask} pixels"
     bar.set_label("over the least")
     style.log_axis(bar.ax.yaxis)
-    style.note(figure, f"{family}: {what}, as a multiple of the panel's least; framed: not distinguishable from it (95 % intervals)")
+    style.note(figure, f"{family}: {what}, as a multiple of the panel's least; framed: its 95 % interval meets that of the least")
     return figure

@@ -28,7 +28,7 @@ class Cell:
     mean_of: int = None  # how many have a value and are in the mean; of how many, its table knows
     clock: str = None  # of times
     disturbed_share: float = None  # of the frames that a time is the median of, by other programs
-    standing: str = None  # in its shot: best or tied (summary.csv)
+    standing: str = None  # in its shot: best, tied or equivalent (summary.csv)
     is_share: bool = False  # in [0, 1], and so is its interval; not kept in summaries, whose cells are as they are
     may_be_zero: bool = False  # so that its mean is the arithmetic one; not kept either
 

@@ -8,7 +8,7 @@ import math
 from paper_figures import tradeoff
 from ssrlab.csv_files import number, whole
 from ssrlab.mistakes import ResultsError
-from ssrlab.results import BEST, TIED, representative_rows
+from ssrlab.results import BEST, LIKE_BEST, representative_rows
 from paper_tables import agreement, limits, variance_shares
 from paper_tables.cell import COUNTED, EXACT, Cell
 from paper_tables.means import ASSETS, SAMPLED, largest, mean
@@ -305,7 +305,7 @@ def _mark_best(selection, cells, rows_of):
     for c in cells:
         rows = rows_of[c.row, c.column]
         metrics_of.setdefault(getattr(c, axis), set()).update(row["metric"] for row in rows)
-        c.standing = rows[0]["standing"] if rows[0]["standing"] in (BEST, TIED) else None
+        c.standing = rows[0]["standing"] if rows[0]["standing"] in (BEST, *LIKE_BEST) else None
     for name, metrics in metrics_of.items():
         if len(metrics) > 1:
             raise ResultsError(f"table '{selection.table.name}': {axis} '{name}' has no best: its cells are of {', '.join(sorted(metrics))}")

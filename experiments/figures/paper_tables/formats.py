@@ -5,7 +5,7 @@ import io
 from paper_figures import numbers
 from ssrlab import statistics
 from ssrlab.csv_files import write_lines
-from ssrlab.results import BEST, TIED
+from ssrlab.results import BEST, LIKE_BEST
 from paper_tables.cell import BOTH, COUNTED, EXACT
 from paper_tables.means import ASSETS, SAMPLED
 
@@ -121,8 +121,8 @@ def other_notes(table, cells):
             found.append("bold: significantly different from 1, adjusted for all effects on the same error (Holm), which the intervals are not")
     if any(c.standing == BEST for c in cells):
         found.append("bold: significantly the best of all points of its shot")
-    if any(c.standing == TIED for c in cells):
-        found.append("italic: the best measured of its shot, or not distinguishable from it")
+    if any(c.standing in LIKE_BEST for c in cells):
+        found.append("italic: the best measured of its shot, or undecided beside it, or for certain within the margin of it")
     return found
 
 

@@ -4,7 +4,7 @@ import re
 import zlib
 
 from ssrlab.mistakes import shown
-from ssrlab.results import TIED
+from ssrlab.results import LIKE_BEST
 from paper_figures.texts import wrapped
 from paper_tables.formats import DISTURBED, NO_VALUE, cell_text, grid, is_bold, notes
 
@@ -104,7 +104,7 @@ def latex(table, cells, made_from):
         """What stands in the row's first line, and in its second."""
         cell = at.get((row, column))
         number, rest = (escaped(part) for part in _parts(table, cell))
-        style = None if cell is None else "textbf" if is_bold(cell) else "textit" if cell.standing == TIED else None
+        style = None if cell is None else "textbf" if is_bold(cell) else "textit" if cell.standing in LIKE_BEST else None
         number = f"\\{style}{{{number}}}" if style else number
         small = f"{{\\scriptsize {rest}}}" if rest else ""
         return (number, small) if is_stacked else (" ".join(part for part in (number, small) if part), "")

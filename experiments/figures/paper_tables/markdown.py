@@ -10,7 +10,7 @@ from paper_tables import formats, shot_names
 from paper_tables.formats import NO_VALUE
 from ssrlab.markdown_text import markdown_prose, markdown_text
 from ssrlab.mistakes import shown
-from ssrlab.results import TIED
+from ssrlab.results import LIKE_BEST
 
 MOST_ROWS, MOST_COLUMNS = 8, 5  # of a table that a reader surveys at a glance; a larger one is folded
 WIDE = 0.05  # of its value: an interval that reaches less far moves the last two of three digits only, and is left out
@@ -167,7 +167,7 @@ def markdown(table, cells, made_from):
         words += [f"{cell.mean_of} of {table['over_count']}"] if cell.value is not None and formats.is_part(table, cell) else []
         words += [markdown_text(cell.clock)] if cell.clock and len(table["clocks"]) > 1 else []
         text += marks.of(cell) + (f" ({'; '.join(words)})" if words else "")
-        style = "**" if formats.is_bold(cell) else "*" if cell.standing == TIED else ""
+        style = "**" if formats.is_bold(cell) else "*" if cell.standing in LIKE_BEST else ""
         return f"{style}{text}{style}"
 
     heads = [markdown_text(names[c]) + "".join(marks.heads[c]) for c in columns]

@@ -61,7 +61,8 @@ def read_schema(folder):
 
 
 ONE_SEED = "none: 1 seed"  # experiments/evaluation/interval.h
-BEST, TIED, BEHIND = "best", "tied", "behind"  # experiments/evaluation/standings.h
+BEST, TIED, EQUIVALENT, BEHIND = "best", "tied", "equivalent", "behind"  # experiments/evaluation/standings.h
+LIKE_BEST = (TIED, EQUIVALENT)  # neither better than all others nor behind
 # Which values of a metric are good, to how far a value is from the best one.
 DIRECTIONS = {"lower": lambda v: v, "higher": lambda v: -v, "near_zero": abs, "near_one": lambda v: abs(v - 1)}
 EVALUATED = {"summary.csv": ("represents_shot", "standing", "dominated"), "effects.csv": ("verdict",), "time_summary.csv": ("fits_from_ms",)}  # columns that decide; older versions wrote none
@@ -247,7 +248,7 @@ class Results:
         return {(r["variant"], r["point"]): r for r in self.errors if (r["shot"], r["target"], r["metric"], r["mask"]) == where}
 
     def standings_of(self, shot, target, metric, mask):
-        """(variant, point) to best, tied or behind, as ssrlab decided among the points of a shot."""
+        """(variant, point) to best, tied, equivalent or behind, as ssrlab decided among the points of a shot."""
         return {key: row["standing"] for key, row in self.error_rows(shot, target, metric, mask).items()}
 
     def shots(self):

@@ -41,7 +41,8 @@ function readData() {
         defaults: raw.defaults,          // variant to {parameter: value}, of those that this build knows
         headline: raw.headline ?? null,  // of studies, as their answers: experiments/report/answers.h
         answers: raw.answers ?? [],
-        overScenes: raw.over_scenes ?? "",
+        inTheseScenes: raw.in_these_scenes ?? "",
+        inScenesLikeThese: raw.in_scenes_like_these ?? "",
         warnings: raw.warnings,
         notes: raw.notes,
         images: raw.images,

@@ -2,7 +2,7 @@
 
 from analysis.rows import RUNGS
 from ssrlab.markdown_text import markdown_code, markdown_text
-from ssrlab.results import BEHIND
+from ssrlab.results import BEHIND, EQUIVALENT
 
 MOST_LISTED = 4
 
@@ -121,7 +121,7 @@ class Answers:
         lines = []
         for machine in self.analysis.machines():
             lines += [f"## Which technique at which {'time' if self.study.is_timed else 'cost'}", "", f"{where(machine)}, over scenes. {self._who_stands()}".rstrip(), ""]
-            lines += table((self.unit, "least error", f"error / {self.base}", "not distinguishable from it"), [self._short(machine, c) for c in self.analysis.costs])
+            lines += table((self.unit, "least error", f"error / {self.base}", "undecided beside it"), [self._short(machine, c) for c in self.analysis.costs])
             for cost in self.analysis.costs:
                 lines += self._at_cost(machine, cost)
         return lines
@@ -146,11 +146,11 @@ class Answers:
         for variant in dict.fromkeys(r["variant"] for r in self._rows_at(machine, cost)):
             own = [next((r for r in of_group[g] if r["variant"] == variant), None) for g in groups]
             cells.append((variant, *(r and f"{self._place(r)}{measured(r['ratio'], r['low'], r['high'])}; {number(r['median'])}" or "" for r in own)))
-        return ["", f"In each group (scenes): error / {self.base}, geometric mean with its interval, then the median. Best or tied: not distinguishable from the least.", "", *table(head, cells)]
+        return ["", f"In each group (scenes): error / {self.base}, geometric mean with its interval, then the median. Not behind: best, undecided beside the least, or within the margin of it.", "", *table(head, cells)]
 
     @staticmethod
     def _place(row):
-        return "best or tied: " if row["standing"] in ("best", "tied") else ""
+        return "not behind: " if row["standing"] and row["standing"] != BEHIND else ""
 
     def _short(self, machine, cost):
         rows = self._rows_at(machine, cost)
@@ -191,6 +191,8 @@ class Answers:
                 measured(r["median"], r["median_low"], r["median_high"]),
                 measured(r["against_best"], r["against_best_low"], r["against_best_high"]),
                 number(r["p_holm"]),
+                "" if r["chance_first"] is None else f"{r['chance_first']:.2f}",
+                "" if r["chance_near"] is None else f"{r['chance_near']:.2f}",
                 measured(r["scenes_needed"], r["scenes_needed_low"], r["scenes_needed_high"]),
                 r["wins"],
                 r["shared"],
@@ -198,7 +200,7 @@ class Answers:
             )
             for r, own in zip(rows, of_last)
         ]
-        head = (what, "rank (without any one scene)", f"error / {self.base}", "median of it", "error / first's", "p (Holm)", "scenes that 10 % need", "shots won", "shots shared", last)
+        head = (what, "rank (without any one scene)", f"error / {self.base}", "median of it", "error / first's", "p (adjusted)", "probability to be first", "within 10 %", "scenes that 10 % need", "shots won", "shots shared", last)
         return table(head, cells)
 
     def _first_sentence(self, first, rows, of_scenes):
@@ -206,17 +208,30 @@ class Answers:
             return f"No technique fits in all {of_scenes} scenes" + (f" with less error than {self.base}." if first else ".")
         others = [r for r in rows if r["rank"] and r is not first]
         beaten = [r for r in others if r["standing"] == BEHIND]
-        near = [r for r in others if r not in beaten]
+        near = [r for r in others if r["standing"] == EQUIVALENT]
+        open_ones = [r for r in others if r not in beaten and r not in near]
         text = f"**{markdown_text(first['label'])}** has the least error, {measured(first['ratio'], first['low'], first['high'])} of that of {self.base} (geometric mean, {first['scenes']} scenes)"
         if not others:
             return text + "; nothing else fits in all of them."
-        if near:
-            text += f"; over these scenes it is not distinguishable from {markdown_text(listed(r['label'] for r in near))}"
-        if beaten:
-            text += f"; it errs less than {markdown_text(listed(r['label'] for r in beaten))} (Holm's test at 0.05)"
+        text += ". "
         if first["low"] is None:
-            text += f"; {first['scenes']} scenes are too few for an interval"
-        return text + "."
+            return text + f"Of other scenes {first['scenes']} scenes say nothing."
+        if first["standing"] == "best":
+            return text + "In scenes like these the rest is behind for certain (adjusted for all comparisons, 0.05)."
+        text += f"In scenes like these the least on average is {self._chances(rows, 'chance_first')} (probability); within 10 % of the least {self._chances(rows, 'chance_near')}."
+        if near:
+            text += f" Within the margin of the first for certain: {markdown_text(listed(r['label'] for r in near))}."
+        if open_ones:
+            text += f" Undecided beside the first: {markdown_text(listed(r['label'] for r in open_ones))}."
+        if beaten:
+            text += f" Behind for certain: {markdown_text(listed(r['label'] for r in beaten))}."
+        return text
+
+    @staticmethod
+    def _chances(rows, name):
+        likely = sorted((r for r in rows if r[name] is not None), key=lambda r: -r[name])
+        named = [r for i, r in enumerate(likely) if i == 0 or (i < 3 and r[name] >= 0.02)]
+        return listed(f"{markdown_text(r['label'])} with {r[name]:.2f}" for r in named)
 
     def _whole(self):
         rows = [r for r in self.study.across if r.get("cost") is None and not r["group"]]

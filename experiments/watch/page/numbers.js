@@ -17,7 +17,7 @@ function verdictText({verdict, why, views}) {
     if (!verdict) return why;
     return views
         .map(v => `${views.length > 1 ? v.shot + ": " : ""}${fourDigits(v.ratio)}${ends(v)} times its error${
-                 v.verdict === "not distinguishable" ? `; ${fourDigits(v.detectable)} times would be seen` : ""}`)
+                 v.verdict === "undecided" ? `; ${fourDigits(v.detectable)} times would be seen` : ""}`)
         .join("; ");
 }
 

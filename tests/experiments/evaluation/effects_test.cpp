@@ -163,7 +163,7 @@ TEST(Effects, OnOneErrorAreOneFamily) {
         EXPECT_EQ(e.p_holm.has_value(), e.p.has_value());
         EXPECT_EQ(e.verdict.empty(), !e.p);
         if (!e.p) continue;
-        EXPECT_EQ(e.verdict != verdict::not_distinguishable, *e.p_holm < 0.05);
+        EXPECT_EQ(e.verdict != verdict::undecided, *e.p_holm < 0.05);
         EXPECT_EQ(*e.low_holm > 1 || *e.high_holm < 1, *e.p_holm < 0.05)
             << "the interval beside a verdict agrees with it";
         EXPECT_LE(*e.low_holm, *e.low * (1 + 1e-12));
@@ -296,7 +296,7 @@ TEST(Effects, HaveNoEndsBeyondAllNumbers) {
             EXPECT_EQ(e.high.has_value(), half_width < 700);
             if (e.high) {
                 EXPECT_NEAR(std::log(*e.high), half_width, 0.01 * half_width) << "the 1.96 of the one and the other";
-                EXPECT_EQ(e.verdict, verdict::not_distinguishable);
+                EXPECT_EQ(e.verdict, verdict::undecided);
             }
         }
     }

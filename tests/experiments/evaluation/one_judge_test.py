@@ -22,8 +22,9 @@ import numpy as np
 from scipy import stats
 
 REPORT_PAGE, SSRLAB, *FOLDERS = sys.argv[1:]
-SAME, LESS, MORE = "not distinguishable", "less", "more"
-OPPOSITE = {SAME: SAME, LESS: MORE, MORE: LESS, "equal": "equal"}
+SAME, NEAR, LESS, MORE = "undecided", "equivalent", "less", "more"
+OPPOSITE = {SAME: SAME, NEAR: NEAR, LESS: MORE, MORE: LESS, "equal": "equal"}
+OF_STANDING = {"tied": SAME, "equivalent": NEAR, "behind": MORE}
 
 
 def read(folder, name):
@@ -49,15 +50,15 @@ class Witnesses:
         self.said.setdefault((shot, a, b), {})[witness] = verdict
 
     def contradictions(self):
-        """Pairs of which two witnesses say other things; numbers that are equal are not distinguishable."""
-        return {pair: said for pair, said in self.said.items() if len({SAME if v == "equal" else v for v in said.values()}) > 1}
+        """Pairs of which two witnesses say other things; numbers that are equal are within any margin."""
+        return {pair: said for pair, said in self.said.items() if len({NEAR if v == "equal" else v for v in said.values()}) > 1}
 
 
 def of_standings(witnesses, name, shot, standing_of):
     """`standing_of`: point to standing, of those that are ranked; none is compared but with the best measured, which comes first."""
     best, *others = standing_of
     for point in others:
-        witnesses.add(name, shot, point, best, SAME if standing_of[point] == "tied" else MORE)
+        witnesses.add(name, shot, point, best, OF_STANDING[standing_of[point]])
 
 
 def judge(folder):
@@ -84,7 +85,7 @@ def judge(folder):
     page = report(witnesses, folder, errors)
     tables(witnesses, folder, errors, rows("effects.csv"))
     tradeoff(witnesses, folder)
-    over_scenes(folder, manifest, rows("over_scenes.csv"), rows("summary.csv"), page["over_scenes"])
+    over_scenes(folder, manifest, rows("over_scenes.csv"), rows("summary.csv"), page)
     contradictions = witnesses.contradictions()
     assert not contradictions, contradictions
     run(SSRLAB, "diff", folder, folder)  # exit code 0: no number of a study differs from itself
@@ -92,7 +93,7 @@ def judge(folder):
 
 
 def report(witnesses, folder, errors):
-    """The page's answers: the best, and those that are tied with it."""
+    """The page's answers: the best, those of which nothing is decided beside it, and those within the margin of it."""
     run(SSRLAB, "report", folder)
     with open(os.path.join(folder, "report.html"), encoding="utf-8") as stream:
         page = json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', stream.read(), re.S)[1])
@@ -101,11 +102,14 @@ def report(witnesses, folder, errors):
         if not answer["best"]:
             continue
         best = (answer["best"]["variant"], answer["best"]["point"])
-        tied = {(t["variant"], t["point"]) for t in answer["tied"]}
-        for point in errors.get(answer["shot"], ()):
-            if point != best:
-                witnesses.add("report", answer["shot"], point, best, SAME if point in tied else MORE)
-                found += 1
+        of = {kind: {(t["variant"], t["point"]) for t in answer[kind]} for kind in ("near", "tied", "behind")}
+        for point, row in errors.get(answer["shot"], {}).items():
+            if point == best:
+                continue
+            assert (point in of["near"]) == (float(row["p_equivalent"]) < 0.05), (point, row)
+            near = NEAR if row["standing"] == "equivalent" else MORE  # both are certain: behind by less than the margin
+            witnesses.add("report", answer["shot"], point, best, SAME if point in of["tied"] else near if point in of["near"] else MORE)
+            found += 1
     assert found, "the report says nothing of any pair"
     return page
 
@@ -140,7 +144,7 @@ def tables(witnesses, folder, errors, effects):
         assert marked[best] in ("best", "tied"), (shot, best, marked)
         for point, standing in marked.items():
             if point != best:
-                witnesses.add("tables", shot, point, best, SAME if standing == "tied" else MORE)
+                witnesses.add("tables", shot, point, best, OF_STANDING[standing or "behind"])
     with open(os.path.join(folder, "tables", "changes.md"), encoding="utf-8") as stream:
         lines = [[c.strip() for c in line.strip("| \n").split("|")] for line in stream if line.startswith("|")]
     with open(os.path.join(folder, "tables", "changes.csv"), newline="", encoding="utf-8") as stream:
@@ -152,7 +156,8 @@ def tables(witnesses, folder, errors, effects):
         name = ", ".join(r[k] for k in ("variant", "point", "against_variant", "against_point", "against"))
         if r["verdict"] and name in rows and r["shot"] in head:
             cell = rows[name][head.index(r["shot"])]
-            verdict = SAME if "**" not in cell else LESS if float(r["ratio"]) < 1 else MORE
+            assert ("**" in cell) == (r["verdict"] in (LESS, MORE)), (cell, r)
+            verdict = r["verdict"] if "**" not in cell else LESS if float(r["ratio"]) < 1 else MORE
             witnesses.add("table of effects", r["shot"], (r["variant"], r["point"]), (r["against_variant"], r["against_point"]), verdict)
 
 
@@ -177,26 +182,50 @@ def close(text, number):
     return (text == "") == (number is None) and (number is None or math.isclose(float(text), number, rel_tol=1e-6))
 
 
-def closed_p(p, own):
-    """Closed testing with Bonferroni's test, which Holm's is a shortcut of."""
-    others = [i for i in range(len(p)) if i != own]
-    sets = (s for n in range(len(p)) for s in itertools.combinations(others, n))
-    return max(min(1.0, (len(s) + 1) * min([p[own], *(p[i] for i in s)])) for s in sets)
+def adjusted_for_choice(p):
+    """Each p times the pairs of the points that remain when those of smaller p have left, and no less than theirs."""
+    found, most = {}, 0
+    for rank, key in enumerate(sorted(p, key=p.get)):
+        remaining = len(p) + 1 - rank
+        most = found[key] = min(1.0, max(most, p[key] * math.comb(remaining, 2)))
+    return found
 
 
-def of_scenes(logs, asset_of):
+def over_assets(logs, asset_of):
+    return np.array([np.mean([v for s, v in logs.items() if asset_of[s] == asset]) for asset in sorted({asset_of[s] for s in logs})])
+
+
+def pooled_pairs(logs, ranked, asset_of):
+    """By law: the mean variance of all pairs of ranked points over assets, and for how many degrees of freedom it counts."""
+    pooled = []
+    for law in range(3):
+        values = [over_assets({s: v[law] for s, v in logs[k].items()}, asset_of) for k in ranked]
+        n = len(values[0]) if values else 0
+        variances = [np.var(a - b, ddof=1) for a, b in itertools.combinations(values, 2)] if n > 3 and len(values) > 2 else []
+        mean = float(np.mean(variances)) if variances else 0.0
+        pooled.append((mean, min(3, (len(values) - 2) * (n - 1)) if mean > 0 else 0))
+    return pooled
+
+
+def of_scenes(logs, asset_of, pooled):
     """(mean, low, high, p) of {shot: value} by scipy; assets count once."""
-    values = np.array([np.mean([v for s, v in logs.items() if asset_of[s] == asset]) for asset in sorted({asset_of[s] for s in logs})])
-    if len(values) < 4:
+    values = over_assets(logs, asset_of)
+    n, (variance, prior) = len(values), pooled
+    if n < 4:
         return values.mean(), None, None, None
-    half, degrees = stats.t.ppf(0.975, len(values) - 2) * stats.sem(values), len(values) - 2
-    p = float(2 * stats.t.sf(abs(values.mean()) / stats.sem(values), degrees)) if values.std() > 0 else None
+    degrees = n - 1 + prior if prior else n - 2
+    error = math.sqrt((prior * variance + (n - 1) * values.var(ddof=1)) / (n - 1 + prior) / n)
+    half = stats.t.ppf(0.975, degrees) * error
+    p = float(2 * stats.t.sf(abs(values.mean()) / error, degrees)) if error > 0 else None
     return values.mean(), values.mean() - half, values.mean() + half, p
 
 
-def by_laws(values, asset_of):
+NOT_POOLED = [(0, 0)] * 3
+
+
+def by_laws(values, asset_of, pooled):
     """of_scenes() of errors as measured, and without the reference's noise by two laws: the hull of the intervals, and the largest p."""
-    laws = [of_scenes({s: v[law] for s, v in values.items()}, asset_of) for law in range(3)]
+    laws = [of_scenes({s: v[law] for s, v in values.items()}, asset_of, pooled[law]) for law in range(3)]
     mean, lows, highs, p = laws[0][0], *([law[i] for law in laws if law[i] is not None] for i in (1, 2, 3))
     is_disputed = p and any(law[0] * mean < 0 for law in laws)
     return mean, min(lows, default=None), max(highs, default=None), 1.0 if is_disputed else max(p, default=None)
@@ -206,7 +235,7 @@ def errors_by_law(r):
     return np.array([float(r[c] or r["value"]) for c in ("value", "value_of_power", "value_of_bounded")])
 
 
-def over_scenes(folder, manifest, found, summary, sentence):
+def over_scenes(folder, manifest, found, summary, page):
     """over_scenes.csv against its rules; what the report and tradeoff say is what stands there."""
     baseline = lambda r: (r["baseline_variant"], r["baseline_point"])  # noqa: E731
     of_pairs = [r for r in found if not r["rank"] and baseline(r) != baseline(found[0])]
@@ -233,37 +262,43 @@ def over_scenes(folder, manifest, found, summary, sentence):
     logs |= {k: {s: logs[k][s] for s in common} for k in ranked}
     rows = {(r["variant"], r["point"]): r for r in found}
     assert rows.keys() == logs.keys(), (rows.keys(), logs.keys())
-    means = {k: by_laws(v, asset_of) for k, v in logs.items()}
+    pooled = pooled_pairs(logs, ranked, asset_of)
+    means = {k: by_laws(v, asset_of, pooled) for k, v in logs.items()}
     first = next(k for k, r in rows.items() if r["rank"] == "1")
     assert first == min(ranked, key=lambda k: (means[k][0], k)), first
-    against = {k: by_laws({s: v - logs[first][s] for s, v in of.items() if s in logs[first]}, asset_of) for k, of in logs.items() if k != first}
-    tested = [k for k, v in against.items() if v[3] is not None]
-    adjusted = {k: closed_p([against[o][3] for o in tested], i) for i, k in enumerate(tested)}
+    against = {k: by_laws({s: v - logs[first][s] for s, v in of.items() if s in logs[first]}, asset_of, pooled) for k, of in logs.items() if k != first}
+    adjusted = adjusted_for_choice({k: v[3] for k, v in against.items() if v[3] is not None})
     exponential = lambda v: None if v is None else math.exp(v)  # noqa: E731
     for r in of_pairs:
         own, other = all_logs[r["variant"], r["point"]], all_logs[baseline(r)]
-        mean = by_laws({s: own[s] - other[s] for s in own if s in other}, asset_of)
+        mean = by_laws({s: own[s] - other[s] for s in own if s in other}, asset_of, NOT_POOLED)
         assert all(close(r[c], exponential(v)) for c, v in zip(("ratio", "low", "high"), mean)), (r, mean)
     for key, r in rows.items():
         assert all(close(r[c], exponential(v)) for c, v in zip(("ratio", "low", "high"), means[key])), (key, r, means[key])
         assert all(close(r["over_best" + c], exponential(v)) for c, v in zip(("", "_low", "_high"), against.get(key, (None,) * 3))), (key, r)
         assert close(r["p_holm"], adjusted.get(key)), (key, r, adjusted.get(key))
         if len({asset_of[s] for s in common}) >= 4 and key in ranked and key != first:
-            assert r["standing"] == ("behind" if adjusted.get(key, 1) < 0.05 else "tied"), (key, r)
+            near = "equivalent" if r["p_equivalent"] and float(r["p_equivalent"]) < 0.05 else "tied"
+            assert r["standing"] == ("behind" if adjusted.get(key, 1) < 0.05 else near), (key, r)
+    chances = {k: float(r["chance_first"]) for k, r in rows.items() if r["chance_first"]}
+    assert not chances or math.isclose(sum(chances.values()), 1, abs_tol=1e-6) and set(chances) == set(ranked), chances
 
     name = lambda key: key[0] if key[1] == "default" else " ".join(key)  # noqa: E731
     tied = [name(k) for k, r in rows.items() if r["standing"] == "tied" and k != first]
     behind = [name(k) for k, r in rows.items() if r["standing"] == "behind"]
-    said = re.fullmatch(r"Over \d+ (?:of \d+ )?scenes (?:no technique is significantly the best\. )?(.*?) (?:has|measures) the least error.*?(?: Not distinguishable from it \(.*?\): (.*?)\.)?(?: It is significantly better than (.*?)\.)?", sentence)
-    assert said and said[1] == name(first) and ("no technique is" in sentence) == bool(tied), sentence
+    sentence = page["in_scenes_like_these"]
+    said = re.fullmatch(r"In scenes like these (.*?) (errs least on average for certain|measures least).*?(?: Behind for certain: (.*?)\.| Nothing is ruled out\.)?", sentence)
+    assert said and said[1] == name(first) and (said[2] == "measures least") == bool(tied), sentence
     listed = lambda text: re.split(r", | and ", re.sub(r" and \d+ more$", "", text)) if text else []  # noqa: E731
-    assert listed(said[2]) == tied[:2], (sentence, tied)
-    assert listed(said[3]) == (behind[:3] if tied else ["all others"]), (sentence, behind)
+    assert not tied or listed(said[3]) == behind[:3], (sentence, behind)
+    if chances:
+        likely = max(chances, key=chances.get)
+        assert not tied or f"Least on average is {name(likely)} with {chances[likely]:.2f}" in sentence, (sentence, chances)
 
     across = {(r["variant"], r["point"]): r for r in read(os.path.join(folder, "tradeoff"), "across.csv") if not r["cost"] and not r["group"]}
     assert across.keys() == rows.keys(), across.keys() ^ rows.keys()
     for key, r in rows.items():
-        for column in ("scenes", "shots", "ratio", "low", "high", "rank", "rank_low", "rank_high", "p_holm", "standing"):
+        for column in ("scenes", "shots", "ratio", "low", "high", "rank", "rank_low", "rank_high", "p_holm", "p_equivalent", "chance_first", "chance_near", "standing"):
             assert r[column] == across[key][column], (key, column, r, across[key])
         for end in ("", "_low", "_high"):
             assert r["over_best" + end] == across[key]["against_best" + end], (key, r, across[key])
@@ -271,7 +306,7 @@ def over_scenes(folder, manifest, found, summary, sentence):
         whole = stream.read().split("## Least error at any cost")[1]
     answer = re.search(r"^\*\*(.*?)\*\* has the least error.*$", whole, re.M)
     assert answer[1] == name(first), answer[0]
-    assert ("not distinguishable" in answer[0], "errs less than" in answer[0]) == (bool(tied), bool(behind)), answer[0]
+    assert not tied or ("Undecided" in answer[0], "Behind for certain" in answer[0]) == (bool(tied), bool(behind)), answer[0]
     print(f"{os.path.basename(folder)}: over {rows[first]['scenes']} scenes {len(tied)} tied, {len(behind)} behind: {sentence}")
 
 

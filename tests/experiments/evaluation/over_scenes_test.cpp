@@ -5,6 +5,8 @@
 #include "experiments/evaluation/interval.h"
 #include "experiments/evaluation/standings.h"
 
+#include "metrics/quantiles.h"
+
 #include <gtest/gtest.h>
 #include <cmath>
 #include <random>
@@ -31,18 +33,17 @@ std::map<std::string, OverScenes> by_name(const std::vector<OverScenes>& rows) {
     return found;
 }
 
-/// Closed testing with Bonferroni's test, whose adjusted p is the largest of all hypotheses that hold it.
-double closed_p(const std::vector<double>& p, size_t own) {
-    double largest = 0;
-    for (unsigned set = 1; set < 1u << p.size(); ++set) {
-        if (!(set >> own & 1)) continue;
-        double least = 1;
-        unsigned size = 0;
-        for (size_t i = 0; i < p.size(); ++i)
-            if (set >> i & 1) least = std::min(least, p[i]), ++size;
-        largest = std::max(largest, std::min(1.0, size * least));
-    }
-    return largest;
+double variance_of(const std::vector<double>& values) {
+    double mean = 0, squares = 0;
+    for (const double v : values) mean += v / double(values.size());
+    for (const double v : values) squares += (v - mean) * (v - mean);
+    return squares / double(values.size() - 1);
+}
+
+std::vector<double> difference(const std::vector<double>& a, const std::vector<double>& b) {
+    std::vector<double> values;
+    for (size_t i = 0; i < a.size(); ++i) values.push_back(a[i] - b[i]);
+    return values;
 }
 
 }  // namespace
@@ -151,37 +152,61 @@ TEST(OverScenes, ShotsWithoutADivisorCountForNone) {
     EXPECT_NEAR(found.at("a").ratio, std::exp(1), 1e-12);
 }
 
-TEST(OverScenes, VerdictsAreThoseOfClosedTesting) {
+/// The p of each ratio is Student's of a variance that the mean variance of all pairs moderates with three degrees of
+/// freedom; adjusted for the pairs of what remains.
+TEST(OverScenes, VerdictsModerateTheScatterOfEachRatio) {
     std::mt19937 random(3);
     std::normal_distribution<double> normal;
+    constexpr size_t count = 4, scenes = 6;
     unsigned decided = 0;
     for (unsigned trial = 0; trial < 50; ++trial) {
-        std::vector<std::vector<double>> of_points(4, std::vector<double>(6));
-        for (size_t p = 0; p < of_points.size(); ++p)
-            for (double& v : of_points[p]) v = 0.5 * double(p) + 0.4 * normal(random);
+        std::vector<std::vector<double>> of_points(count, std::vector<double>(scenes));
+        for (size_t p = 0; p < count; ++p)
+            for (double& v : of_points[p]) v = 0.7 * double(p) + 0.4 * normal(random);
         const std::vector<OverScenes> rows = compare_over_scenes(shots_of(of_points));
-        std::vector<double> p;
+        double pooled = 0;
+        for (size_t i = 0; i < count; ++i)
+            for (size_t k = 0; k < i; ++k) pooled += variance_of(difference(of_points[i], of_points[k])) / 6;
+        std::vector<std::pair<double, size_t>> p;
         for (size_t i = 1; i < rows.size(); ++i) {
-            std::vector<ShotValue> differences;
-            for (size_t scene = 0; scene < 6; ++scene)
-                differences.push_back(
-                    {std::to_string(scene), rows[i].logarithms[0][scene] - rows[0].logarithms[0][scene]});
-            p.push_back(*mean_over_scenes(differences).p);
+            const double own = variance_of(difference(rows[i].logarithms[0], rows[0].logarithms[0]));
+            const double error = std::sqrt((3 * pooled + 5 * own) / 8 / scenes), value = std::log(*rows[i].over_best);
+            p.push_back({2 * student_t_cdf(-std::abs(value) / error, 8), i});
             EXPECT_NEAR(*rows[i].over_best, rows[i].ratio / rows[0].ratio, 1e-12 * *rows[i].over_best);
+            EXPECT_NEAR(std::log(*rows[i].over_best_high), value + student_t_quantile(0.975, 8) * error, 1e-9);
         }
+        std::ranges::sort(p);
+        double adjusted = 0;
+        const double pairs[] = {6, 3, 1};
         bool is_alone = true;
-        for (size_t i = 1; i < rows.size(); ++i) {
-            const double adjusted = closed_p(p, i - 1);
-            EXPECT_NEAR(*rows[i].p_holm, adjusted, 1e-12);
-            EXPECT_EQ(rows[i].standing, adjusted < 0.05 ? standing::behind : standing::tied);
+        for (size_t step = 0; step < p.size(); ++step) {
+            const OverScenes& row = rows[p[step].second];
+            adjusted = std::min(1.0, std::max(adjusted, pairs[step] * p[step].first));
+            EXPECT_NEAR(*row.p_holm, adjusted, 1e-12);
+            EXPECT_EQ(row.standing, adjusted < 0.05 ? standing::behind : standing::tied);
             is_alone = is_alone && adjusted < 0.05;
             decided += adjusted < 0.05;
         }
         EXPECT_EQ(rows[0].standing, is_alone ? standing::best : standing::tied);
         EXPECT_FALSE(rows[0].p_holm);
+        double sum = 0;
+        for (const OverScenes& row : rows) sum += row.chance_first.value();
+        EXPECT_NEAR(sum, 1, 1e-12);
+        EXPECT_GE(*rows[0].chance_near, *rows[0].chance_first);
     }
     EXPECT_GT(decided, 20u);  // the test sees both verdicts
     EXPECT_LT(decided, 130u);
+}
+
+/// Two points that differ by a normal deviate: the posterior is Student's t of n - 2 degrees about the mean difference.
+TEST(OverScenes, ChancesOfTwoPointsAreStudents) {
+    const std::vector<double> a = {0.1, 0.3, -0.1, 0.5}, b = {0.2, 0.2, 0.3, 0.1};
+    const auto found = by_name(compare_over_scenes(shots_of({a, b})));
+    const double mean = 0.0, error = std::sqrt(variance_of(difference(a, b)) / 4);
+    EXPECT_NEAR(*found.at("a").chance_first, 0.5, 0.02) << "equal means; 6000 draws know 0.5 to 0.0065";
+    const double near = student_t_cdf((std::log(1.1) - mean) / error, 2);
+    EXPECT_NEAR(*found.at("a").chance_near, near, 0.02);
+    EXPECT_FALSE(by_name(compare_over_scenes(shots_of({{1, 2, 3}, {2, 3, 4}}))).at("a").chance_first) << "three scenes";
 }
 
 TEST(OverScenes, WhatIsTrulyTheBestIsHardlyEverBehind) {
@@ -268,7 +293,7 @@ TEST(OverScenes, EveryErrorHasItsRows) {
         if (e.variant == "exact") e.variant = "half", e.point = "exact";
     nlohmann::json of_exact = manifest;
     of_exact["variants"][1]["variant"] = "half", of_exact["variants"][1]["point"] = "exact";
-    const std::vector<OverScenesRow> with_pair = errors_over_scenes(of_pair, of_exact, variants);
+    const std::vector<OverScenesRow> with_pair = errors_over_scenes(of_pair, of_exact, 0.05, variants);
     ASSERT_EQ(with_pair.size(), 3u);
     EXPECT_EQ(with_pair[2].point, "exact");
     EXPECT_EQ(with_pair[2].baseline_point, "default");

@@ -106,9 +106,9 @@ TEST(Pairs, DecideCountsOfOneSeedBeyondTheSpreadOfSeeds) {
     const size_t near = size_t(1000 * counts_decide_from("fetches")) - 1, apart = near + 2;
     EXPECT_EQ(verdict_of(1000, 1001, false), "less, yes");
     EXPECT_EQ(verdict_of(1000, 1000, false), "equal, yes");
-    EXPECT_EQ(verdict_of(1000, near, true), "not distinguishable, maybe");
-    EXPECT_EQ(verdict_of(near, 1000, true), "not distinguishable, maybe");
-    EXPECT_EQ(verdict_of(1000, 1000, true), "not distinguishable, maybe") << "by chance";
+    EXPECT_EQ(verdict_of(1000, near, true), "undecided, maybe");
+    EXPECT_EQ(verdict_of(near, 1000, true), "undecided, maybe");
+    EXPECT_EQ(verdict_of(1000, 1000, true), "undecided, maybe") << "by chance";
     EXPECT_EQ(verdict_of(1000, apart, true), "less, yes");
     EXPECT_EQ(verdict_of(apart, 1000, true), "more, no");
 }
@@ -136,12 +136,12 @@ TEST(Pairs, DecideEstimatesBeyondWhatTheModelLeavesOpen) {
                 return pair.cost_verdict + ", " + pair.dominates + ", " + pair.is_dominated;
         return std::string("no such pair");
     };
-    EXPECT_EQ(verdict_of("a", "b"), "not distinguishable, maybe, no") << "1.49 times";
+    EXPECT_EQ(verdict_of("a", "b"), "undecided, maybe, no") << "1.49 times";
     EXPECT_EQ(verdict_of("a", "d"), "less, yes, no") << "1.51 times";
     EXPECT_EQ(verdict_of("a", "e"), "more, no, no") << "1.52 times";
     EXPECT_EQ(verdict_of("d", "e"), "more, no, no");
     EXPECT_EQ(verdict_of("b", "c"), "equal, yes, no");
-    EXPECT_EQ(verdict_of("a", "f"), "not distinguishable, maybe, no") << "intervals that meet";
+    EXPECT_EQ(verdict_of("a", "f"), "undecided, maybe, no") << "intervals that meet";
     for (EstimateRow& row : shot.tables.estimates)
         if (row.variant == "b") row.microseconds = row.low = row.high = std::nullopt, row.refusal = "no radv";
     EXPECT_EQ(verdict_of("a", "b"), ", , ") << "without an estimate there is no cost";
@@ -157,7 +157,7 @@ TEST(Pairs, AreDecidedWhereTheStudyAskedForThem) {
         if (is_asked) shot.tables.effects = {effect};
         const PairRow pair = shot.pairs().at(2);
         EXPECT_EQ(pair.decided_by, is_asked ? "effects" : "pairs");
-        EXPECT_EQ(pair.error_verdict, is_asked ? verdict::more : verdict::not_distinguishable);
+        EXPECT_EQ(pair.error_verdict, is_asked ? verdict::more : verdict::undecided);
         EXPECT_EQ(pair.is_dominated, is_asked ? "yes" : "maybe");
     }
     EXPECT_EQ(shot.pairs().at(0).decided_by, "standings");

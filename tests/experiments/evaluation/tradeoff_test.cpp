@@ -181,10 +181,10 @@ TEST(Tradeoff, ChangesOfOneParameterHaveTheirVerdicts) {
                           {verdict::more, verdict::less, "saves cost"},
                           {verdict::less, verdict::less, "better in both"},
                           {verdict::more, verdict::more, "worse in both"},
-                          {verdict::not_distinguishable, verdict::more, "dearer, error not significant"},
-                          {verdict::not_distinguishable, verdict::less, "cheaper, error not significant"},
-                          {verdict::less, verdict::not_distinguishable, "less error, cost not significant"},
-                          {verdict::not_distinguishable, verdict::not_distinguishable, "not significant"}};
+                          {verdict::undecided, verdict::more, "dearer, error not significant"},
+                          {verdict::undecided, verdict::less, "cheaper, error not significant"},
+                          {verdict::less, verdict::undecided, "less error, cost not significant"},
+                          {verdict::undecided, verdict::undecided, "not significant"}};
     for (const Case& c : cases) {
         MadeStudy made;
         made.add_point("v", "a", {{"rays", 1}, {"wide", false}}),

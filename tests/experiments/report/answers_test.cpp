@@ -3,6 +3,7 @@
 
 #include "experiments/evaluation/interval.h"
 #include "experiments/evaluation/standings.h"
+#include "experiments/report/scenes_answer.h"
 
 #include <gtest/gtest.h>
 
@@ -105,8 +106,10 @@ TEST(Answers, RankNothingThatIntervalsCannotTellApart) {
     const ShotAnswer a = made.answer();
     ASSERT_EQ(a.tied.size(), 1u);
     EXPECT_EQ(a.tied[0].variant, "b");
-    EXPECT_NE(a.sentence.find("a measures the least error: mse 0.06 [0.058, 0.062]. Not distinguishable from it: b."),
-              std::string::npos)
+    EXPECT_NE(
+        a.sentence.find(
+            "a measures the least error: mse 0.06 [0.058, 0.062]. Undecided beside it: b. c errs more for certain."),
+        std::string::npos)
         << a.sentence;
 }
 
@@ -177,8 +180,8 @@ TEST(Answers, SayWhereTheEyeDisagrees) {
               std::string::npos)
         << made.answer().perceptual_sentence;
     made.tables.errors[3].value = 0.195, made.tables.errors[3].low = 0.185, made.tables.errors[3].high = 0.205;
-    EXPECT_NE(made.answer().perceptual_sentence.find("b (0.195 [0.185, 0.205]) measures better, but is not "
-                                                     "distinguishable; a has 0.2"),
+    EXPECT_NE(made.answer().perceptual_sentence.find("b (0.195 [0.185, 0.205]) measures better, but that is not "
+                                                     "decided; a has 0.2"),
               std::string::npos);
     made.tables.errors[3].holds_all_noise = false;
     EXPECT_NE(made.answer().perceptual_sentence.find("measures better, but is not ranked"), std::string::npos)
@@ -188,7 +191,7 @@ TEST(Answers, SayWhereTheEyeDisagrees) {
     EXPECT_NE(made.answer().perceptual_sentence.find("it is the best, too"), std::string::npos);
 }
 
-TEST(Answers, SayFirstWhatHoldsOverScenes) {
+TEST(Answers, SayFirstWhatMayHoldInOtherScenes) {
     Made made;
     made.add("none", 1, 0.1);
     json study = manifest;
@@ -198,29 +201,57 @@ TEST(Answers, SayFirstWhatHoldsOverScenes) {
         row.variant = variant, row.point = row.baseline_point = "default", row.baseline_variant = "none";
         row.target = "specular", row.metric = "mse", row.mask = "reflective";
         row.ratio = 0.1 * rank, row.rank = rank, row.standing = standing, row.scenes = scenes;
-        if (scenes >= least_scenes) row.low = 0.05 * rank, row.high = 0.2 * rank;
+        if (scenes < least_scenes) return;
+        row.low = 0.05 * rank, row.high = 0.2 * rank;
+        row.chance_first = std::vector{0.683, 0.301, 0.016}[size_t(rank) - 1];
+        row.chance_near = std::vector{0.999, 0.5, 0.25}[size_t(rank) - 1];
     };
     const auto sentence = [&](std::vector<std::string> standings, size_t scenes) {
         made.tables.over_scenes.clear();
         for (size_t i = 0; i < standings.size(); ++i)
             add(std::string(1, char('a' + i)), double(i + 1), standings[i], scenes);
-        return over_scenes_sentence(made.tables, study);
+        return in_scenes_like_these(made.tables, study);
     };
     EXPECT_EQ(sentence({}, 5), "");
-    EXPECT_EQ(sentence({"best", "behind"}, 5), "One scene is too few for a verdict over scenes, which takes four.");
+    EXPECT_EQ(sentence({"best", "behind"}, 5),
+              "Of other scenes one scene says nothing: a verdict over scenes takes 4.");
     for (const char* shot : {"t", "u", "v", "w", "x"})
         made.tables.errors.push_back(made.tables.errors.front()), made.tables.errors.back().shot = shot;
     EXPECT_EQ(sentence({"best", "behind", "behind"}, 6),
-              "Over 6 scenes A, labelled has the least error: 0.1x [0.05x, 0.2x] that of no reflections (none) "
-              "(geometric mean of mse). It "
-              "is significantly better than all others.");
+              "In scenes like these A, labelled errs least on average for certain: 0.1x [0.05x, 0.2x] the mse of no "
+              "reflections (none), geometric mean over 6 scenes.");
     EXPECT_EQ(
         sentence({"tied", "tied", "behind"}, 5),
-        "Over 5 of 6 scenes no technique is significantly the best. A, labelled measures the least error: 0.1x "
-        "[0.05x, 0.2x] that of no reflections (none) (geometric mean of mse). Not distinguishable from it (adjusted "
-        "for all comparisons): b. It is significantly better than c.");
+        "In scenes like these A, labelled measures least: 0.1x [0.05x, 0.2x] the mse of no reflections (none), "
+        "geometric mean over 5 of 6 scenes. Least on average is A, labelled with 0.68 and b with 0.30 "
+        "(probability); within 10 % of the least A, labelled with above 0.99, b with 0.50 and c with 0.25. Behind "
+        "for certain: c.");
     EXPECT_EQ(sentence({"", ""}, 3),
-              "Over 3 of 6 scenes A, labelled measures the least error: 0.1x that of no reflections (none) (geometric "
-              "mean of mse). 3 "
-              "scenes are too few for an interval and a verdict, which take four.");
+              "Of other scenes 3 scenes say nothing: a verdict over scenes takes 4. Here A, labelled errs least on "
+              "average.");
+}
+
+TEST(Answers, SayWhatIsCertainInTheseScenes) {
+    const Headline headline{"mse", "reflective", "specular", ""};
+    const auto point = [](const std::string& name) { return AnswerPoint{name, "default", 1, {}, {}}; };
+    std::vector<ShotAnswer> answers(3);
+    for (size_t i = 0; i < answers.size(); ++i) {
+        answers[i].shot = std::string(1, char('p' + i));
+        answers[i].best = point(i == 2 ? "b" : "a");
+        answers[i].behind = {point("none"), point("c")};
+        (i == 1 ? answers[i].near : answers[i].tied).push_back(point(i == 2 ? "a" : "b"));
+    }
+    EXPECT_EQ(in_these_scenes({answers.front()}, json::object(), headline), "") << "one shot speaks for itself";
+    EXPECT_EQ(
+        in_these_scenes(answers, json::object(), headline),
+        "In these 3 shots the least mse has a in p and q and b in r. Within 5 % of it for certain: b in q. In each "
+        "of them behind for certain: none and c.");
+    const json scenes = {{"shots", {{{"shot", "p"}, {"scene", "hall"}}, {{"shot", "q"}, {"scene", "yard"}}}}};
+    answers[2].best = {};
+    EXPECT_EQ(
+        in_these_scenes(answers, scenes, headline),
+        "In 2 of these 3 shots the least mse has a in hall and yard. Within 5 % of it for certain: b in yard. In each "
+        "of them behind for certain: none and c.");
+    for (ShotAnswer& a : answers) a.best = {};
+    EXPECT_EQ(in_these_scenes(answers, json::object(), headline), "In these 3 shots nothing is ranked by mse.");
 }

@@ -29,7 +29,8 @@ def answered(data):
     def point(name):
         return {"variant": name[0], "point": name[1], "value": 0.125, "low": 0.12, "high": 0.13}
 
-    data["over_scenes"] = "Over 2 scenes one errs least."
+    data["in_these_scenes"] = "In these 2 shots one errs least."
+    data["in_scenes_like_these"] = "In scenes like these nobody knows."
     data["answers"] = [
         {
             "shot": shot["shot"],
@@ -115,7 +116,7 @@ def texts(page, selector):
 
 def test_answers(page, shots):
     """All of the first screen, at the size that it is made for."""
-    equal(texts(page, "#over-scenes"), ["Over 2 scenes one errs least."], "what is said first")
+    equal(texts(page, "#over-scenes p"), ["In these 2 shots one errs least.", "In scenes like these nobody knows."], "what is said first")
     first = page.execute_script("return [...document.querySelectorAll('#answers p, #answers button')].find(e => e.innerText).id")
     equal(first, "over-scenes", "the first text of the first screen")
     equal(len(page.find_elements(By.CSS_SELECTOR, "#answer-charts .chart")), 2, "charts of both errors")

@@ -59,7 +59,7 @@ EffectRow effect(const std::string& shot, double ratio, double p, const std::str
     EffectRow row{.shot = shot, .frame = frame, .variant = "v", .point = "frames"};
     row.against_variant = "v", row.against_point = "before", row.target = "specular", row.metric = "mse";
     row.mask = "reflective", row.ratio = ratio, row.low = 0.9 * ratio, row.high = 1.1 * ratio, row.p = p;
-    row.verdict = verdict::not_distinguishable;
+    row.verdict = verdict::undecided;
     return row;
 }
 
@@ -71,20 +71,19 @@ Judgement judged(const std::vector<EffectRow>& effects) {
 
 TEST(Judgement, IsWorseIfAViewIsAndAdjustsForTheirNumber) {
     EXPECT_EQ(judged({effect("a", 1.1, 0.009)}).verdict, judgement::worse);
-    EXPECT_EQ(judged({effect("a", 1.1, 0.011)}).verdict, judgement::not_distinguishable);
+    EXPECT_EQ(judged({effect("a", 1.1, 0.011)}).verdict, judgement::undecided);
     EXPECT_EQ(judged({effect("a", 0.9, 0.009)}).verdict, judgement::better);
-    EXPECT_EQ(judged({effect("a", 1.1, 0.009), effect("b", 1, 0.8)}).verdict, judgement::not_distinguishable);
+    EXPECT_EQ(judged({effect("a", 1.1, 0.009), effect("b", 1, 0.8)}).verdict, judgement::undecided);
     const Judgement mixed = judged({effect("a", 0.5, 1e-6), effect("b", 1.1, 1e-6), effect("c", 1, 0.9)});
     EXPECT_EQ(mixed.verdict, judgement::worse);
     ASSERT_EQ(mixed.views.size(), 3u);
     EXPECT_EQ(mixed.views[0].verdict, judgement::better);
-    EXPECT_EQ(mixed.views[2].verdict, judgement::not_distinguishable);
+    EXPECT_EQ(mixed.views[2].verdict, judgement::undecided);
     // Of a sequence the mean over its frames, and of all rows those of its error alone.
-    EXPECT_EQ(judged({effect("a", 1.1, 1e-6), effect("a", 1, 0.5, over_frames)}).verdict,
-              judgement::not_distinguishable);
+    EXPECT_EQ(judged({effect("a", 1.1, 1e-6), effect("a", 1, 0.5, over_frames)}).verdict, judgement::undecided);
     EffectRow of_none = effect("a", 9, 1e-9);
     of_none.variant = "none";
-    EXPECT_EQ(judged({effect("a", 1, 0.5), of_none}).verdict, judgement::not_distinguishable);
+    EXPECT_EQ(judged({effect("a", 1, 0.5), of_none}).verdict, judgement::undecided);
 }
 
 TEST(Judgement, SaysWhichChangeItWouldSee) {
@@ -117,7 +116,7 @@ TEST_F(JudgeTest, PassesNoiseAndFailsWhatErrsMore) {
     EXPECT_TRUE(fs::exists(folder / "judged/report.html"));
 
     const Judgement same = judge("week2", "week1").against.value();
-    EXPECT_EQ(same.verdict, judgement::not_distinguishable);
+    EXPECT_EQ(same.verdict, judgement::undecided);
     const Judgement worse = judge("darker", "week1").against.value();
     EXPECT_EQ(worse.verdict, judgement::worse);
     EXPECT_GT(worse.views.at(0).low, 1);

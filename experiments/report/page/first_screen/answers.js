@@ -32,11 +32,13 @@ function openPoint(row) {
 function showAnswers() {
     const shots = unique((report.errors.length ? report.errors : manifestShots()).map(r => r.shot));
     answerChoice.shot = preferred(shots, addressedView()?.get("shot"));
-    const text = report.errors.length ?
-        report.overScenes :
-        "This study has no errors: it ran without truth. What else it has stands below and in the tables beside this page.";
-    const [, verdict, rest] = text.match(/^(.*?\.)( .*)?$/) ?? [, text, ""];
-    at("over-scenes").replaceChildren(h("b", {}, verdict), rest ?? "");
+    const said = report.errors.length ?
+        [report.inTheseScenes, report.inScenesLikeThese] :
+        ["This study has no errors: it ran without truth. What else it has stands below and in the tables beside this page."];
+    at("over-scenes").replaceChildren(...said.filter(Boolean).map(text => {
+        const [, lead, rest] = text.match(/^(In these \d+ shots|In scenes like these|)(.*)$/s);
+        return h("p", {}, lead ? h("b", {}, lead) : "", rest);
+    }));
     pointListeners.push(drawAnswerCharts);
     showBudget();
     return drawAnswers(shots);
@@ -77,13 +79,13 @@ function answerText(shot) {
         (times.length ? `, ${number(Math.min(...times), 3)} to ${number(Math.max(...times), 3)} ms a frame` : "");
 }
 
-/// The columns of the answer, where there is no room for its sentence.
+/// Where there is no room for its sentence.
 function answerInShort(shot) {
     const answer = answerOf(shot), best = answer?.best;
     if (!best) return answer ? "Nothing is ranked." : answerText(shot);
-    const tied = answer.tied?.length ?? 0;
+    const count = (points, text) => points?.length ? `, ${points.length} ${text}` : "";
     return `${pointLabel(best)}, ${headline.metric} ${number(best.value, 3)} ${interval(best, 3)}` +
-        (tied ? `, not distinguishable from ${tied} ${tied === 1 ? "other" : "others"}` : "");
+        count(answer.near, `within ${number(100 * headline.margin, 3)} %`) + count(answer.tied, "undecided beside it");
 }
 
 /// Total times of the points in a shot, by ascending time.

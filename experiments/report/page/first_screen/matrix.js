@@ -118,7 +118,8 @@ function matrixButton(row, ratio, {reference}) {
 
 const standingText = row => ({
     best: "significantly the best of its shot",
-    tied: "not distinguishable from the best of its shot",
+    tied: "undecided beside the best of its shot",
+    equivalent: "for certain within the margin of the best of its shot",
     behind: "significantly worse than the best of its shot"
 })[row.standing] ?? "not ranked";
 

@@ -233,7 +233,8 @@ function effectCells(e, others) {
     const result = e.value === null                              ? whyNoRatio(e) :
         whyNotRepeatable(e)                                      ? "not repeatable: no interval" :
         e.low === e.value && e.high === e.value && e.value === 1 ? "changes nothing" :
-        !isSignificant(e)                                        ? "not distinguishable from 1" :
+        e.verdict === "equivalent"                               ? "equivalent" :
+        !isSignificant(e)                                        ? "undecided" :
         e.verdict === "less"                                     ? `${number(100 * (1 - e.value), 2)} % less error` :
                                                                    `${number(100 * (e.value - 1), 2)} % more error`;
     const ratioCell = r => cell(r.value, number(r.value), " ", h("small", {}, interval(r)));

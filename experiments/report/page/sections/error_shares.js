@@ -74,7 +74,8 @@ function comparisonText({row, by, error}) {
     const own = `Its ${metric}, ${number(error.value, 3)},`,
           best = `the least (${pointLabel(least.row)}, ${number(least.error.value, 3)})`;
     if (least.row === row) return `${own} is the least here. `;
-    if (error.standing !== "behind") return `${own} is not distinguishable from ${best}. `;
+    if (error.standing === "equivalent") return `${own} is for certain within the margin of ${best}. `;
+    if (error.standing !== "behind") return `${own} is undecided beside ${best}. `;
     const part = (g, key) => (g.by.get(key)?.value ?? 0) * g.error.value;
     const [{key}] = rankedCauses(key => part({by, error}, key) - part(least, key));
     return `${own} is ${number(error.value / least.error.value, 3)} times ${best}; it errs more above all ${
