@@ -162,7 +162,7 @@ TEST(OverScenes, VerdictsModerateTheScatterOfEachRatio) {
     for (unsigned trial = 0; trial < 50; ++trial) {
         std::vector<std::vector<double>> of_points(count, std::vector<double>(scenes));
         for (size_t p = 0; p < count; ++p)
-            for (double& v : of_points[p]) v = 0.7 * double(p) + 0.4 * normal(random);
+            for (double& v : of_points[p]) v = 0.5 * double(p) + 0.4 * normal(random);
         const std::vector<OverScenes> rows = compare_over_scenes(shots_of(of_points));
         double pooled = 0;
         for (size_t i = 0; i < count; ++i)
