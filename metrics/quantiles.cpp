@@ -5,6 +5,9 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+#include <numbers>
 
 namespace {
 
@@ -15,6 +18,18 @@ void check_probability(double probability) {
 boost::math::students_t student_t(double degrees) {
     if (!(degrees > 0)) fail("degrees of freedom must be above 0, not ", degrees);
     return boost::math::students_t(degrees);
+}
+
+/// Probability that the range of `count` standard normal values exceeds `range`: the least of them is at z, and not all
+/// others lie within `range` above it.
+double normal_range_tail(double range, double count) {
+    const auto cdf = [](double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); };
+    const auto at = [&](double z) {
+        const double density = std::exp(-0.5 * z * z) * std::numbers::inv_sqrtpi / std::numbers::sqrt2;
+        const double above = cdf(-z);
+        return count * density * (std::pow(above, count - 1) - std::pow(cdf(z + range) - cdf(z), count - 1));
+    };
+    return boost::math::quadrature::gauss<double, 60>::integrate(at, -8.0, 8.0);
 }
 
 }  // namespace
@@ -35,4 +50,16 @@ double chi_squared_quantile(double probability, double degrees) {
     check_probability(probability);
     if (!(degrees > 0)) fail("degrees of freedom must be above 0, not ", degrees);
     return boost::math::quantile(boost::math::chi_squared(degrees), probability);
+}
+
+double studentised_range_tail(double range, size_t count, double degrees) {
+    if (count < 2 || !(degrees > 0)) fail("a studentised range needs two values and degrees of freedom above 0");
+    if (!(range > 0)) return 1;
+    // Over the estimate s of the standard deviation, whose square is chi-squared / degrees.
+    const double constant = degrees / 2 * std::log(degrees / 2) - std::lgamma(degrees / 2) + std::log(2.0);
+    const auto at = [&](double s) {
+        return std::exp(constant + (degrees - 1) * std::log(s) - degrees * s * s / 2) *
+               normal_range_tail(range * s, double(count));
+    };
+    return boost::math::quadrature::gauss<double, 60>::integrate(at, 0.0, 1 + 6 / std::sqrt(degrees));
 }

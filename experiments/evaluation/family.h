@@ -7,6 +7,8 @@
 struct AgainstBest {
     size_t contest = 0;
     double p = 1;  ///< two-sided, of "both are alike"
+    /// Of Student's t that p is of, where all pairs of the contest nearly share the variance; 0: each has its own.
+    double degrees = 0;
 };
 
 /// p-values of "this point is no worse than the truly best", adjusted for all points of all contests, in the order
@@ -19,5 +21,7 @@ struct AgainstBest {
 /// by Bonferroni's inequality; where some are worse, those leave first, and the rest is judged among fewer. It is
 /// Holm's procedure (1979) with the logical relations of pairs (Shaffer 1986, "Modified Sequentially Rejective Multiple
 /// Test Procedures"), stepping as a model confidence set does (Hansen, Lunde, Nason 2011, "The Model Confidence Set"),
-/// whose members at the end may all be the best. Simulated in tests/experiments/evaluation.
+/// whose members at the end may all be the best. Where the variance is shared, pairs depend on each
+/// other: the tail of the studentised range (Tukey) takes the place of C(r, 2) p where it is less. Simulated in
+/// tests/experiments/evaluation.
 std::vector<double> adjusted_for_choice(std::span<const AgainstBest> comparisons, std::span<const size_t> points);

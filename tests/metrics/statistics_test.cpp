@@ -105,6 +105,18 @@ TEST(Statistics, EquivalenceIsTheLargerOfTwoOneSidedTests) {
     EXPECT_EQ(r.p_beyond(0.05), 1);
 }
 
+/// Of two values it is Student's t times sqrt(2); of more as tables have its 5 % and 1 % points (Harter 1960, "Tables
+/// of Range and Studentized Range", to 0.001).
+TEST(Statistics, StudentisedRangeHasTheTailOfTables) {
+    for (const double t : {0.5, 2.0, 6.0})
+        EXPECT_NEAR(studentised_range_tail(t * std::sqrt(2.0), 2, 6), 2 * student_t_cdf(-t, 6), 1e-6) << t;
+    EXPECT_NEAR(studentised_range_tail(3.877, 3, 10), 0.05, 3e-5);
+    EXPECT_NEAR(studentised_range_tail(5.008, 10, 20), 0.05, 3e-5);
+    EXPECT_NEAR(studentised_range_tail(4.818, 5, 60), 0.01, 2e-5);
+    EXPECT_EQ(studentised_range_tail(0, 5, 6), 1);
+    EXPECT_LT(studentised_range_tail(1000, 5, 6), 1e-6);
+}
+
 TEST(Statistics, RatioIsNotMadeUp) {
     EXPECT_FALSE(ratio_of({2}, {1}).low || ratio_of({2}, {1}).p_value) << "a single seed";
     // The correction for noise may leave seeds below 0: an interval only where no single seed lifts the mean above 0.

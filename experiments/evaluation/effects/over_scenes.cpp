@@ -41,7 +41,9 @@ MeanOverScenes mean_of_scenes(std::span<const double> values, const PooledScatte
     const double n = double(values.size());
     double squares = 0;
     for (const double v : values) squares += (v - mean.value) * (v - mean.value);
-    const auto [variance, degrees] = pooled.moderated(squares / (n - 1), values.size());
+    // What is the same in all scenes, as the baseline beside itself, is known.
+    const auto [variance, degrees] =
+        (squares > 0 ? pooled : PooledScatter()).moderated(squares / (n - 1), values.size());
     mean.degrees = degrees, mean.standard_error = std::sqrt(variance / n);
     const double half_width = student_t_quantile(0.975, mean.degrees) * mean.standard_error;
     mean.low = mean.value - half_width, mean.high = mean.value + half_width;
@@ -137,7 +139,8 @@ void set_standings(std::vector<OverScenes>& points, OverScenes& first, std::span
         point.over_best = std::exp(mean.value);
         point.over_best_low = exponential(mean.low), point.over_best_high = exponential(mean.high);
         if (mean.p) {
-            compared.push_back(&point), different.push_back({0, *mean.p});
+            compared.push_back(&point),
+                different.push_back({0, *mean.p, pooled.front().degrees > 0 ? mean.degrees : 0});
             beyond.push_back(p_beyond_by_laws(values, pooled, margin));
         }
         if (mean.scenes < least_scenes) continue;
