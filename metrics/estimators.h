@@ -7,6 +7,7 @@
 /// 3: intervals of rungs by the variance of their difference from the truth; of frame differences and ghosts by the
 ///    variances of both references and their squares; the noise of the lit colour in effects and splits
 ///
-/// Not raised where an interval holds noise that it did not before, and says so by another word in its column
-/// `interval` (those of FLIP and SSIM, and of effects on FLIP: metrics/extrapolation.h).
+/// Not raised where an interval holds noise that it did not before, or is given or withheld where it was not, and says
+/// so by another word in its column `interval` (those of FLIP, and of effects on FLIP: metrics/extrapolation.h; those
+/// that few paths decide: metrics/noise.h; those of SSIM and of absolute differences).
 inline constexpr int estimator_version = 3;

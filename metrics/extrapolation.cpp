@@ -39,6 +39,12 @@ double occupied(const std::vector<double>& shares) {
     return double(std::ranges::count_if(shares, [](double share) { return share > 0; }));
 }
 
+/// Of the interval, by the change when half A is believed in place of half B alone.
+double half_width_of(const NoiseGrowth& growth) {
+    const SharedScatter noise = scatter_of(column(growth, swapped), occupied(column(growth, share)));
+    return noise.variance > 0 ? student_t_quantile(0.975, noise.degrees) * std::sqrt(noise.variance) : 0.0;
+}
+
 /// `sums` as mean_columns(), in total.
 Extrapolated extrapolated(std::span<const double> sums) {
     return without_noise(sums[1] / sums[0], sums[2] / sums[0], sums[3] / sums[0]);
@@ -92,15 +98,21 @@ std::optional<Extrapolated> extrapolated_mean(const NoiseGrowth& growth) {
     return extrapolated(totals(mean_columns(growth)));
 }
 
+bool follows_a_law(const NoiseGrowth& growth) {
+    if (growth.empty()) return false;
+    const std::vector<double> sums = totals(mean_columns(growth));
+    const double first = sums[2] - sums[1], second = sums[3] - sums[2];
+    if (std::abs(first + second) <= half_width_of(growth)) return true;
+    return second >= std::min(0.6 * first, 2.5 * first) && second <= std::max(0.6 * first, 2.5 * first);
+}
+
 MapInterval extrapolated_interval(const NoiseGrowth& growth) {
     if (growth.empty()) return {};
     const std::vector<std::vector<double>> columns = mean_columns(growth);
     const double groups = occupied(columns[0]);
     const std::optional<double> of_correction = jackknife_variance(columns, correction);
     if (!of_correction) return {};
-    const SharedScatter noise = scatter_of(column(growth, swapped), groups);
-    const double t = noise.variance > 0 ? student_t_quantile(0.975, noise.degrees) : 0.0;
-    const double half_width = t * std::sqrt(noise.variance),
+    const double half_width = half_width_of(growth),
                  correction_half_width = student_t_quantile(0.975, groups - 1) * std::sqrt(*of_correction);
     const Extrapolated found = extrapolated(totals(columns));
     const auto widened = [&](double end) {

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-// Intervals of metrics that are no means of squares (FLIP, SSIM, absolute differences), extrapolated to a reference
-// without noise: metrics/README.md, "Intervals of FLIP, SSIM and absolute differences".
+// Intervals of metrics that are no means of squares (FLIP, absolute differences), extrapolated to a reference
+// without noise: metrics/README.md, "Intervals of FLIP and absolute differences".
 
 /// The reference R moved by so many times (A - B) / 2 has 4 times the variance of its noise.
 inline constexpr double extrapolation_step = 1.7320508075688772;  // sqrt(3)
@@ -48,6 +48,12 @@ NoiseGrowth noise_growth(const NoisierMaps& maps, const Mask& mask);
 
 /// The mean with and without the noise; none of an empty growth.
 std::optional<Extrapolated> extrapolated_mean(const NoiseGrowth& growth);
+
+/// Whether the mean grows as the laws say that it may: from twice to four times the variance by 0.6 to 2.5 times what
+/// it grew by before, or in all by less than half the width that the noise gives its interval. The laws allow 0.6 to 2,
+/// and estimates scatter. Rare bright paths, of which a half shows either none or twice too much, make it grow
+/// otherwise. False of an empty one.
+bool follows_a_law(const NoiseGrowth& growth);
 
 struct MapInterval {
     std::optional<double> low, high;

@@ -62,9 +62,11 @@ NoiseTerms mean_noise(const ReferenceHalves& halves);
 /// Approximate Distribution of Estimates of Variance Components"); of differences the smaller of this and the same of
 /// swapped^2.
 ///
-/// None below nu = 2 (of differences 8), where few pixels carry nearly all noise, or below least_noise_samples under
-/// the mask; 0 without noise. metrics/README.md explains why and has the measured coverage.
+/// None where one pixel carries nearly all noise (nu below 1.25; of differences below 8), and below
+/// least_noise_samples under the mask, which miss what is rare; 0 without noise. Neither limit is one of how heavy the
+/// noise's tail looks: references that are lucky look best, and intervals of those alone cover less. metrics/README.md
+/// has the measured coverage.
 std::optional<double> noise_half_width(const NoiseTerms& terms, const Mask& mask);
 
-inline constexpr double least_noise_pixels = 2, least_difference_pixels = 8;  ///< nu
-inline constexpr double least_noise_samples = 480;                            ///< of all noisy pixels under the mask
+inline constexpr double least_noise_pixels = 1.25, least_difference_pixels = 8;  ///< nu
+inline constexpr double least_noise_samples = 4096;                              ///< of all noisy pixels under the mask

@@ -45,7 +45,7 @@ MetricReference metric_reference(HostImage image, std::optional<ReferenceHalves>
 ///
 /// Intervals: of metrics that are corrected (means of weighted squares), `bias` and `energy_ratio`, the ratio of a
 /// fixed mean to that of the reference. All others are means of a map, or made of one (Metric::mean_map), and carry the
-/// reference's noise in their value; their intervals reach to where it would lie without (metrics/extrapolation.h). But
-/// for ms_ssim, which has none: its windows are larger than a tile.
+/// reference's noise in their value; their intervals reach to where it would lie without (metrics/extrapolation.h). The
+/// forms of SSIM have none.
 std::vector<Score> score(const MetricReference& reference, const HostImage& test, std::span<const Mask> masks,
                          PixelCounts* counts = nullptr, std::vector<NoiseTerms>* noise = nullptr);

@@ -27,7 +27,7 @@ namespace interval {
 
 inline constexpr const char* reference_and_seeds = "reference and seeds";
 inline constexpr const char* reference = "reference";
-inline constexpr const char* seeds = "seeds";  ///< what the reference's noise adds is not known, or there is none
+inline constexpr const char* seeds = "seeds";  ///< the reference is exact, or its noise no part of the number
 inline constexpr const char* pixels_and_seeds = "pixels and seeds";
 inline constexpr const char* pixels = "pixels";  ///< of sequences of frames: the choice of pixels
 
@@ -36,6 +36,10 @@ inline constexpr const char* one_seed = "none: 1 seed";
 inline constexpr const char* too_few_seeds = "none: too few seeds";
 inline constexpr const char* open_end = "none: no upper end";
 inline constexpr const char* no_end = "none: lost in the reference's noise";
+/// One pixel carries the reference's noise, or so few samples are under the mask that they miss what is rare: see
+/// noise_half_width().
+inline constexpr const char* few_paths = "none: few paths carry the reference's noise";
+inline constexpr const char* one_tile = "none: pixels within one tile";  ///< of what the choice of pixels scatters by
 inline constexpr const char* unknown_reference = "none: reference's noise not known";
 inline constexpr const char* not_repeatable = "none: not repeatable";
 inline constexpr const char* not_positive = "none: an error is not above 0";

@@ -29,20 +29,13 @@ unsigned degrees_of(const MetricSummary& e) {
     return is_of_seeds && e.seeds > 1 ? e.seeds - 1 : 0;
 }
 
-/// Whether a paired comparison holds the noise of the reference too.
-bool holds_all_noise(const EffectRow& effect, const MetricSummary& a, const MetricSummary& b) {
-    const bool is_exact = a.floor == 0.0 && b.floor == 0.0;
-    return effect.p && (effect.interval == interval::reference_and_seeds || effect.interval == interval::reference ||
-                        (effect.interval == interval::seeds && is_exact));
-}
-
 /// Sets over_best where the pair has a ratio.
 PairP compare(MetricSummary& e, const MetricSummary& best, const PairedErrors& paired, double margin) {
     if (paired) {
         EffectRow asked{.shot = e.shot, .variant = e.variant, .point = e.point};
         asked.against_variant = best.variant, asked.against_point = best.point;
         asked.target = e.target, asked.metric = e.metric, asked.mask = e.mask;
-        if (const auto effect = paired(asked); effect && holds_all_noise(*effect, e, best)) {
+        if (const auto effect = paired(asked); effect && effect->p) {
             e.over_best = effect->ratio, e.over_best_low = effect->low, e.over_best_high = effect->high;
             return {*effect->p, effect->estimate.p_beyond(margin)};
         }

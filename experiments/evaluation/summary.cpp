@@ -48,6 +48,12 @@ bool is_of_pixels(const std::string& metric) {
            !metric.starts_with("frame_difference");
 }
 
+/// Whether the interval of a row comes from the noise of its pixels, which it lacks only where that is not trusted
+/// (noise_half_width()).
+bool is_freed_of_noise(const MetricSummary& s) {
+    return s.is_corrected || s.metric == "bias" || s.metric == "energy_ratio";
+}
+
 void set_interval(MetricSummary& s, const std::vector<const ResultRow*>& rows, bool depends_on_seed) {
     const auto lows = values_of(rows, &ResultRow::low), highs = values_of(rows, &ResultRow::high);
     // Half A against half B: no error at all means no noise, but where outliers are counted or left out.
@@ -57,12 +63,15 @@ void set_interval(MetricSummary& s, const std::vector<const ResultRow*>& rows, b
                  : std::ranges::any_of(rows, is_one_sided) ? interval::open_end
                  : depends_on_seed && has_rows
                      ? (is_of_pixels(s.metric) ? interval::pixels_and_seeds : interval::reference_and_seeds)
-                 : depends_on_seed                    ? interval::seeds
-                 : has_rows && is_of_pixels(s.metric) ? interval::pixels
-                 : has_rows || reference_is_exact     ? interval::reference
-                                                      : interval::unknown_reference;
+                 : has_rows && is_of_pixels(s.metric)    ? interval::pixels
+                 : has_rows                              ? interval::reference
+                 : reference_is_exact && depends_on_seed ? interval::seeds
+                 : reference_is_exact                    ? interval::reference
+                 : is_of_pixels(s.metric)                ? interval::one_tile
+                 : is_freed_of_noise(s)                  ? interval::few_paths
+                                                         : interval::unknown_reference;
     if (std::string_view(s.interval).starts_with("none")) return;
-    s.holds_all_noise = s.interval != interval::seeds || reference_is_exact;
+    s.holds_all_noise = true;
     const double from_seeds = depends_on_seed ? student_t_quantile(0.975, double(s.seeds - 1)) * *s.seed_deviation /
                                                     std::sqrt(double(s.seeds))
                                               : 0.0;
@@ -119,7 +128,8 @@ Extrapolated MetricSummary::extrapolated() const {
 
 bool MetricSummary::counts_over_scenes() const {
     const bool has_known_bias = is_corrected || floor == 0.0 || value_of_power;
-    return value && ((holds_all_noise && low) || (interval == interval::one_seed && has_known_bias));
+    const bool is_one_draw = interval == interval::one_seed || interval == interval::few_paths;
+    return value && ((holds_all_noise && low) || (is_one_draw && has_known_bias));
 }
 
 std::vector<MetricSummary> summarise(std::span<const ResultRow> rows, const PointSet& without_seeds,

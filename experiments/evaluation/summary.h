@@ -38,7 +38,7 @@ struct MetricSummary {
     Extrapolated extrapolated() const;
 
     /// Whether it is one draw of what scenes are compared by: an estimate without bias, or with one that extrapolated()
-    /// bounds, of however few seeds. How seeds scatter is then part of how scenes do.
+    /// bounds, of however few seeds and paths of the reference. How these scatter is then part of how scenes do.
     bool counts_over_scenes() const;
 
     static constexpr auto columns() {
@@ -65,12 +65,12 @@ struct MetricSummary {
 
 /// The interval of the mean over n seeds joins, in quadrature, what the reference's noise leaves (it is the same
 /// reference for all seeds, so the mean of the rows' intervals) and Student's t interval of the seeds, t(0.975, n-1) s
-/// / sqrt(n). Where rows have no interval, since what the reference's noise adds is not known, they get that
-/// of the seeds alone: what another run with other seeds would give against the same reference; `floor` bounds the
-/// rest. Points in `without_seeds` do not depend on seeds: the reference's noise is all of their interval. Of the
-/// others a single seed has none. Where the noise of the lit colour is known, what it leaves of the value joins, too,
-/// and the lower end reaches down by what it adds: `value` still holds that, as it may be less. Intervals of errors end
-/// at 0. `noise`, of these rows' points, tells the values without it.
+/// / sqrt(n). Where rows have no interval, since what the reference's noise adds is not known, the mean has none,
+/// unless the reference is exact (`floor` is 0): that of the seeds is then all there is. Points in `without_seeds` do
+/// not depend on seeds: the reference's noise is all of their interval. Of the others a single seed has none. Where the
+/// noise of the lit colour is known, what it leaves of the value joins, too, and the lower end reaches down by what it
+/// adds: `value` still holds that, as it may be less. Intervals of errors end at 0. `noise`, of these rows' points,
+/// tells the values without it.
 std::vector<MetricSummary> summarise(std::span<const ResultRow> rows, const PointSet& without_seeds = {},
                                      std::span<const ReferenceNoise> noise = {});
 

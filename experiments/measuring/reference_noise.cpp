@@ -54,9 +54,9 @@ void ReferenceNoiseMeans::add(const std::string& frame, const std::string& targe
 
 void ReferenceNoiseMeans::add(const std::string& frame, const std::string& target, const std::string& metric,
                               const std::string& mask, const NoiseGrowth& growth) {
-    // No ratio of two counts of outliers was simulated (metrics/README.md): such effects keep the interval of the
-    // seeds.
-    if (growth.empty() || !is_error(metric) || metric == "outliers") return;
+    // No ratio of two counts of outliers was simulated, and the intervals of ratios of mean absolute differences did
+    // not cover (metrics/README.md): such effects have no interval.
+    if (growth.empty() || !is_error(metric) || metric == "outliers" || metric == "mae") return;
     Sum& sum = sums_[{target, metric, mask, frame}];
     sum.groups.resize(growth.size()), sum.is_growth = true;
     for (size_t i = 0; i < growth.size(); ++i) sum.groups[i] += growth[i];

@@ -141,7 +141,7 @@ std::string gain_clause(const ShotAnswer& answer, const std::vector<Scored>& sco
 std::string why_not_ranked(const MetricSummary& e) {
     const std::string none = "none: ";
     if (e.interval.starts_with(none)) return e.interval.substr(none.size());
-    return e.interval == interval::seeds ? "its interval holds its seeds alone" : "not repeatable";
+    return "not repeatable";
 }
 
 /// What was measured and is not ranked: said before the verdict where it measures less than the best of those that are.

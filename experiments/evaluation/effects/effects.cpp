@@ -105,6 +105,12 @@ const ResultRow& row_of(const SeedsOfPoint& side, unsigned seed) {
     return side.depends_on_seed ? *side.seeds.at(seed) : *side.seeds.begin()->second;
 }
 
+/// Whether the noise of the reference may be in an error: the halves differ, or it is of outliers, which a floor of 0
+/// does not exclude, or it is of two references. Flicker and ghosts are of a technique's own frames.
+bool holds_reference_noise(const ResultRow& row) {
+    return row.floor > 0.0 || (row.floor && row.metric == "outliers") || row.metric.starts_with("frame_difference");
+}
+
 std::vector<EffectRow> effects_of_rows(const SeedsOfPoint& point, const SeedsOfPoint& baseline) {
     const ResultRow& first = *point.seeds.begin()->second;
     EffectRow row = effect_between(first, *baseline.seeds.begin()->second);
@@ -148,12 +154,11 @@ std::vector<EffectRow> effects_of_rows(const SeedsOfPoint& point, const SeedsOfP
     if (!row.ratio) return {row};
     const bool has_seeds = point.depends_on_seed || baseline.depends_on_seed;
     row.interval = has_seeds ? (has_noise ? interval::reference_and_seeds : interval::seeds) : interval::reference;
-    row.holds_all_noise = has_noise || !(first.floor > 0.0);  // without halves it has none to hold
     if (has_seeds && row.seeds < 2)
         withhold_interval(row, interval::one_seed);
     else if (!has_seeds && is_exact && !row.low)  // nor has its light any noise
         row.low = row.high = row.ratio, row.p = *row.ratio == 1 ? 1.0 : 0.0;
-    else if (!has_seeds && !has_noise)
+    else if (!has_noise && (!has_seeds || holds_reference_noise(first)))
         withhold_interval(row, interval::unknown_reference);
     else if (!row.low)
         withhold_interval(row, has_seeds ? interval::too_few_seeds : interval::no_end);
@@ -211,7 +216,10 @@ std::vector<EffectRow> effects_of_splits(const SeedsOfPoint& point, const SeedsO
         set_ratio(row, error, base_error, shared);
         if (!row.ratio) continue;
         row.interval = !has_seeds ? interval::reference : has_noise ? interval::reference_and_seeds : interval::seeds;
-        if (!row.low || (has_seeds && chosen.size() < 3)) withhold_interval(row, interval::too_few_seeds);
+        if (!row.low || (has_seeds && chosen.size() < 3))
+            withhold_interval(row, interval::too_few_seeds);
+        else if (is_bias && !has_noise)
+            withhold_interval(row, interval::unknown_reference);
     }
     return effects;
 }
@@ -307,10 +315,7 @@ void set_verdicts(std::span<EffectRow> effects, const PrimaryComparisons& primar
         e.family = is_primary ? "primary" : "exploratory", e.verdict.clear();
         e.p_holm = e.low_holm = e.high_holm = e.p_equivalent = e.p_equivalent_holm = std::nullopt;
         if (!e.p || !e.ratio) continue;
-        if (e.holds_all_noise)
-            families[{e.target, e.metric, e.mask}].push_back(&e);
-        else
-            e.low_holm = e.low, e.high_holm = e.high;
+        families[{e.target, e.metric, e.mask}].push_back(&e);
     }
     for (const auto& [error, family] : families) {
         std::vector<double> different, beyond;

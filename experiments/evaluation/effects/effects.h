@@ -25,7 +25,6 @@ struct EffectRow {
     std::optional<double> p_equivalent_holm;    ///< adjusted for its family
     std::string verdict;                        ///< see set_verdicts(); empty without a p
     RatioEstimate estimate{};                   ///< what all of these are made of; no column
-    bool holds_all_noise = true;                ///< false where the reference's noise is not in the interval; no column
 
     static constexpr auto columns() {
         return std::tuple(

@@ -61,7 +61,7 @@ TEST(Effects, AreRatiosPairedBySeed) {
     EXPECT_LT(*e.high, 1.0);
     EXPECT_GT(*e.low, 0.3);
     EXPECT_LT(*e.p, 0.05);
-    EXPECT_EQ(e.interval, interval::seeds) << "nothing is known of the reference's noise";
+    EXPECT_EQ(e.interval, interval::seeds) << "no noise of the reference is in these errors";
 }
 
 /// Beside the baseline's comparisons, under a name of their own.
@@ -127,9 +127,15 @@ TEST(Effects, AreNotJudgedWhereTheReferencesNoiseIsNotKnown) {
     std::vector<EffectRow> effects = effects_of(rows, two_points);
     ASSERT_EQ(effects.size(), 1u);
     set_verdicts(effects, {});
-    EXPECT_EQ(effects[0].interval, interval::seeds);
-    EXPECT_EQ(effects[0].verdict, "") << "another reference may say otherwise, however well the seeds agree";
-    EXPECT_EQ(effects[0].low_holm, effects[0].low);
+    EXPECT_EQ(effects[0].interval, interval::unknown_reference);
+    EXPECT_FALSE(effects[0].low || effects[0].p) << "another reference may say otherwise, however well the seeds agree";
+    EXPECT_EQ(effects[0].verdict, "");
+    for (ResultRow& r : rows) r.floor = 0;
+    EXPECT_EQ(effects_of(rows, two_points).at(0).interval, interval::seeds) << "an exact reference has no noise";
+    for (ResultRow& r : rows) r.metric = "frame_difference", r.floor.reset();
+    EXPECT_EQ(effects_of(rows, two_points).at(0).interval, interval::unknown_reference) << "of two references";
+    for (ResultRow& r : rows) r.metric = "flicker";
+    EXPECT_EQ(effects_of(rows, two_points).at(0).interval, interval::seeds) << "of the point's own frames";
 }
 
 TEST(Effects, OnOneErrorAreOneFamily) {

@@ -51,19 +51,29 @@ TEST(Summary, GivesASingleSeedNoIntervalUnlessAllAreEqual) {
     EXPECT_TRUE(only.holds_all_noise);
 }
 
-TEST(Summary, GivesTheSeedsAloneWhereTheReferencesNoiseIsNotKnown) {
-    // FLIP of three seeds: Student's interval with two degrees of freedom, whose quantile is 4.303.
+TEST(Summary, GivesTheSeedsAloneNoIntervalUnlessTheReferenceIsExact) {
     std::vector<ResultRow> rows = rows_of("flip", {0.11, 0.12, 0.13});
     for (ResultRow& row : rows) row.floor = 0.1;
-    const MetricSummary flip = summary(rows);
-    EXPECT_NEAR(*flip.high - 0.12, 0.043027 / std::sqrt(3.0), 1e-6);
-    EXPECT_NEAR(0.12 - *flip.low, 0.043027 / std::sqrt(3.0), 1e-6);
-    EXPECT_EQ(flip.interval, interval::seeds);
-    EXPECT_FALSE(flip.holds_all_noise) << "so it is not ranked";
+    EXPECT_FALSE(summary(rows).low || summary(rows).high || summary(rows).holds_all_noise);
+    EXPECT_EQ(summary(rows).interval, interval::unknown_reference);
     EXPECT_EQ(summary_without_seeds(rows_of("flip", {1})).interval, interval::unknown_reference);
+    EXPECT_FALSE(summary(rows).counts_over_scenes()) << "another reference has other noise in it";
+    // The seeds are all there is: Student's interval with two degrees of freedom, whose quantile is 4.303.
     for (ResultRow& row : rows) row.floor = 0;
-    EXPECT_TRUE(summary(rows).holds_all_noise) << "an exact reference: the seeds are all there is";
+    const MetricSummary exact = summary(rows);
+    EXPECT_NEAR(*exact.high - 0.12, 0.043027 / std::sqrt(3.0), 1e-6);
+    EXPECT_NEAR(0.12 - *exact.low, 0.043027 / std::sqrt(3.0), 1e-6);
+    EXPECT_EQ(exact.interval, interval::seeds);
+    EXPECT_TRUE(exact.holds_all_noise);
+    // One of three seeds was given none.
+    std::vector<ResultRow> mse = rows_of("mse", {1, 2, 3});
+    for (ResultRow& row : mse) row.floor = 0.1, row.is_corrected = true;
+    mse[0].low = 0.5, mse[0].high = 1.5, mse[1].low = 1.5, mse[1].high = 2.5;
+    EXPECT_FALSE(summary(mse).low || summary(mse).holds_all_noise);
+    EXPECT_EQ(summary(mse).interval, interval::few_paths);
+    EXPECT_TRUE(summary(mse).counts_over_scenes()) << "its value has no bias: one scene of several";
     std::vector<ResultRow> flicker = rows_of("flicker", {1, 2});
+    EXPECT_EQ(summary(flicker).interval, interval::one_tile);
     for (ResultRow& row : flicker) row.low = 0.5, row.high = 2.5;
     EXPECT_EQ(summary(flicker).interval, interval::pixels_and_seeds);
 }
@@ -95,7 +105,11 @@ TEST(Summary, EndsIntervalsOfErrorsAtZero) {
 
 TEST(Summary, EndsIntervalsWhereNoValueLies) {
     const auto high_of = [](const std::string& metric, std::vector<double> values) {
-        return *summary(rows_of(metric, values)).high;
+        std::vector<ResultRow> rows = rows_of(metric, values);
+        for (ResultRow& row : rows) row.floor = 0;  // the reference is exact
+        if (metric == "flicker_correlation")
+            for (ResultRow& row : rows) row.low = *row.value - 0.01, row.high = *row.value + 0.01;
+        return *summary(rows).high;
     };
     for (const char* metric : {"ssim", "ms_ssim", "flip", "flicker_correlation"}) {
         EXPECT_EQ(high_of(metric, {0.7, 0.9}), 1.0) << metric;

@@ -4,6 +4,7 @@
 #include "experiments/evaluation/summary.h"
 #include "experiments/measuring/measure.h"
 #include "experiments/measuring/rung_errors.h"
+#include "experiments/measuring/splits.h"
 #include "tests/experiments/measuring/coverage_view.h"
 
 #include <cmath>
@@ -163,105 +164,157 @@ HostImage box_blurred(const HostImage& image) {
     return blurred;
 }
 
-/// Images of each technique by seed; a single one where it has none.
-std::map<std::string, std::vector<CompositedImages>> technique_images(const View& view, unsigned seeds) {
+/// `fallback`: the environment alone, which has no seed; `noisy`: the truth with the noise of 16 samples; `denoised`:
+/// that noise blurred over 5x5 pixels.
+Techniques simulated_techniques(const View& view, unsigned seeds) {
     constexpr unsigned other_seed = 0x7e57;
     const HostImage confidence(view.extent, 1);
-    std::map<std::string, std::vector<CompositedImages>> images;
+    Techniques techniques{.baselines = {{"fallback", {"noisy", "denoised"}}}};
     const Reference shown = view.reference(16, other_seed);
     const HostImage& fallback = shown.ladder.fallback;
-    images["fallback"].push_back({product(shown.ladder.reflectance, fallback), fallback, confidence, {}});
+    techniques.images["fallback"].push_back({product(shown.ladder.reflectance, fallback), fallback, confidence, {}});
     for (unsigned seed = 1; seed <= seeds; ++seed) {
         const Reference noisy = view.reference(16, other_seed + seed),
                         poor = view.reference(16, other_seed + 1000 + seed);
-        images["noisy"].push_back({noisy.specular.mean, noisy.incident.mean, confidence, {}});
+        techniques.images["noisy"].push_back({noisy.specular.mean, noisy.incident.mean, confidence, {}});
         const HostImage blurred = box_blurred(poor.specular.mean);
-        images["denoised"].push_back({blurred, blurred, confidence, {}});
+        techniques.images["denoised"].push_back({blurred, blurred, confidence, {}});
     }
-    return images;
+    return techniques;
 }
 
-}  // namespace
-
-namespace {
-
-/// The rows of all techniques against one reference, with what its noise leaves of effects.
-struct AgainstReference {
+/// What is measured against one reference, and what its noise leaves of effects.
+struct Measured {
     std::vector<ResultRow> rows;
     std::vector<ReferenceNoise> noise;
+    std::vector<SplitRow> splits;
 };
 
-void add_effects(std::map<CoverageKey, CoverageRow>& sums, const AgainstReference& against,
-                 const std::map<CoverageKey, double>& truths, const CoverageSetting& setting) {
-    std::vector<VariantConfig> points(3);
-    points[0].variant = "fallback", points[0].is_baseline = true, points[0].depends_on_seed = false;
-    points[1].variant = "noisy", points[2].variant = "denoised";
-    for (const EffectRow& e : paired_effects(against.rows, points, {}, against.noise)) {
-        if (!e.ratio || !e.holds_all_noise) continue;
-        const std::string metric = "effect on " + e.metric;
-        CoverageRow& row = sums[{e.variant, e.target, e.mask, metric}];
-        row.scene = setting.scene, row.samples = setting.samples;
-        row.test = e.variant, row.target = e.target, row.mask = e.mask, row.metric = metric;
-        ResultRow result;
-        result.value = e.ratio, result.low = e.low, result.high = e.high;
-        add(row, result,
-            truths.at({e.variant, e.target, e.mask, e.metric}) / truths.at({"fallback", e.target, e.mask, e.metric}));
+/// One number of a technique, or of its effect on another: with its interval, if that holds all noise.
+struct Found {
+    CoverageKey key;
+    std::optional<double> value, low, high;
+};
+
+class TechniqueStudy {
+public:
+    TechniqueStudy(const Techniques& techniques, std::span<const Mask> masks, const CoverageSetting& setting)
+        : techniques_(techniques), masks_(masks) {
+        config_.targets = setting.targets, config_.metrics = setting.metrics;
     }
-}
+
+    /// All numbers against one reference, by `count` seeds from the one `first` on, which begin again at their end.
+    std::vector<Found> found(const Reference& reference, unsigned first, unsigned count) const {
+        const Measured measured = measure(reference, first, count);
+        std::vector<Found> all;
+        PointSet without_seeds;
+        for (const auto& [name, images] : techniques_.images)
+            if (images.size() == 1) without_seeds.insert({name, ""});
+        for (const MetricSummary& s : summarise(measured.rows, without_seeds))
+            all.push_back({{s.variant, s.target, s.mask, s.metric},
+                           s.value,
+                           s.holds_all_noise ? s.low : std::nullopt,
+                           s.holds_all_noise ? s.high : std::nullopt});
+        for (const SplitRow& s : measured.splits) {
+            all.push_back({{s.variant, s.target, s.mask, "bias_squared"},
+                           s.bias_squared,
+                           s.bias_squared_low,
+                           s.bias_squared_high});
+            if (!without_seeds.contains({s.variant, ""}))
+                all.push_back({{s.variant, s.target, s.mask, "variance"}, s.variance, s.variance_low, s.variance_high});
+        }
+        add_effects(all, measured);
+        return all;
+    }
+
+private:
+    Measured measure(const Reference& reference, unsigned first, unsigned count) const {
+        Measured measured;
+        const PoseTruth truth = pose_truth(reference, config_, 0, {.has_targets = true});
+        for (const auto& [name, images] : techniques_.images) {
+            ReferenceNoiseMeans noise;
+            std::map<std::string, SeedSplit> splits;
+            for (unsigned i = 0; i < std::min<size_t>(count, images.size()); ++i) {
+                const CompositedImages& shown = images[(first + i) % images.size()];
+                for (ResultRow& row :
+                     measure_targets(truth, shown, masks_, {.frame = "0", .variant = name, .seed = i})) {
+                    row.represents_shot = true;
+                    noise.add("0", row.target, row.metric, row.mask, row.growth);
+                    measured.rows.push_back(std::move(row));
+                }
+                const HostImage image = composited_image(truth, shown);
+                for (const auto& [target, against] : truth.targets) {
+                    const HostImage& tested = tested_image(target, shown, image);
+                    noise.add("0", target, against, tested, masks_);
+                    splits.try_emplace(target, against).first->second.add(i, tested);
+                }
+            }
+            for (ReferenceNoise& n : noise.means({.variant = name})) measured.noise.push_back(std::move(n));
+            for (const auto& [target, split] : splits)
+                for (SplitRow& row :
+                     split_rows(split, masks_, {.variant = name, .target = target, .mask = {}}, images.size() > 1))
+                    measured.splits.push_back(std::move(row));
+        }
+        return measured;
+    }
+
+    void add_effects(std::vector<Found>& all, const Measured& measured) const {
+        for (const auto& [baseline, others] : techniques_.baselines) {
+            std::vector<VariantConfig> points;
+            const auto add_point = [&](const std::string& name) {
+                VariantConfig& point = points.emplace_back();
+                point.variant = name, point.is_baseline = name == baseline;
+                point.depends_on_seed = techniques_.images.at(name).size() > 1;
+            };
+            add_point(baseline);
+            for (const std::string& name : others) add_point(name);
+            const auto add = [&](const std::vector<EffectRow>& effects) {
+                for (const EffectRow& e : effects)
+                    all.push_back({{e.variant + " / " + e.against_variant, e.target, e.mask, "effect on " + e.metric},
+                                   e.ratio,
+                                   e.low,
+                                   e.high});
+            };
+            add(paired_effects(measured.rows, points, {}, measured.noise));
+            add(split_effects(measured.splits, points));
+        }
+    }
+
+    const Techniques& techniques_;
+    std::span<const Mask> masks_;
+    Config config_;
+};
 
 }  // namespace
+
+std::vector<CoverageRow> technique_coverage(const CoverageSetting& setting, const Techniques& techniques,
+                                            std::span<const Mask> masks, const Reference& truth,
+                                            std::span<const Reference> references, unsigned technique_seeds) {
+    const TechniqueStudy study(techniques, masks, setting);
+    std::map<CoverageKey, double> truths;
+    for (const Found& f : study.found(truth, 0, most_seeds)) truths[f.key] = f.value.value_or(NAN);
+    std::map<CoverageKey, CoverageRow> sums;
+    for (unsigned r = 0; r < references.size(); ++r)
+        for (const Found& f : study.found(references[r], r * technique_seeds, technique_seeds)) {
+            // A number that does not exist, such as the ratio of nothing, has no interval that could fail.
+            const auto known = truths.find(f.key);
+            if (known == truths.end() || !std::isfinite(known->second)) continue;
+            CoverageRow& row = sums[f.key];
+            row.scene = setting.scene, row.samples = setting.samples;
+            std::tie(row.test, row.target, row.mask, row.metric) = f.key;
+            ResultRow result;
+            result.value = f.value, result.low = f.low, result.high = f.high;
+            add(row, result, known->second);
+        }
+    return finished(std::move(sums));
+}
 
 std::vector<CoverageRow> technique_coverage(const CoverageSetting& setting, unsigned technique_seeds) {
     constexpr unsigned known_seeds = 64, truth_factor = 128;
     const View view(setting.scene, setting.extent);
-    const auto images = technique_images(view, known_seeds);
     const Reference best = view.reference(truth_factor * setting.samples, setting.seeds + 1);
-    const std::vector<Mask> inside = surface_masks(view, best, {"all", "reflective"});
-    Config config;
-    config.targets = setting.targets, config.metrics = setting.metrics;
-    const auto rows_of = [&](const PoseTruth& truth, const std::string& name, unsigned first, unsigned count) {
-        std::vector<ResultRow> rows;
-        const std::vector<CompositedImages>& own = images.at(name);
-        for (unsigned seed = first; seed < first + std::min<size_t>(count, own.size()); ++seed)
-            for (ResultRow& row :
-                 measure_targets(truth, own[seed % own.size()], inside, {.frame = "0", .variant = name, .seed = seed}))
-                rows.push_back(std::move(row));
-        for (ResultRow& row : rows) row.represents_shot = true;
-        return rows;
-    };
-    const PointSet without_seeds = {{"fallback", ""}};
-    std::map<CoverageKey, double> truths;
-    const PoseTruth exact = pose_truth(best, config, 0, {.has_targets = true});
-    for (const auto& [name, own] : images)
-        for (const MetricSummary& s : summarise(rows_of(exact, name, 0, known_seeds), without_seeds))
-            truths[{name, s.target, s.mask, s.metric}] = s.value.value_or(NAN);
-    std::map<CoverageKey, CoverageRow> sums;
-    for (unsigned r = 0; r < setting.seeds; ++r) {
-        const PoseTruth truth = pose_truth(view.reference(setting.samples, r), config, 0, {.has_targets = true});
-        AgainstReference against;
-        for (const auto& [name, own] : images) {
-            const std::vector<ResultRow> rows = rows_of(truth, name, r * technique_seeds, technique_seeds);
-            for (const MetricSummary& s : summarise(rows, without_seeds)) {
-                CoverageRow& row = sums[{name, s.target, s.mask, s.metric}];
-                row.scene = setting.scene, row.samples = setting.samples;
-                row.test = name, row.target = s.target, row.mask = s.mask, row.metric = s.metric;
-                ResultRow result;
-                result.value = s.value, result.low = s.low, result.high = s.high;
-                if (!s.holds_all_noise) result.low = result.high = std::nullopt;
-                add(row, result, truths.at({name, s.target, s.mask, s.metric}));
-            }
-            against.rows.insert(against.rows.end(), rows.begin(), rows.end());
-            ReferenceNoiseMeans noise;
-            for (const ResultRow& row : rows) noise.add("0", row.target, row.metric, row.mask, row.growth);
-            for (size_t i = 0; i < std::min<size_t>(technique_seeds, own.size()); ++i) {
-                const CompositedImages& shown = own[(r * technique_seeds + i) % own.size()];
-                const HostImage image = composited_image(truth, shown);
-                for (const auto& [target, reference] : truth.targets)
-                    noise.add("0", target, reference, tested_image(target, shown, image), inside);
-            }
-            for (ReferenceNoise& n : noise.means({.variant = name})) against.noise.push_back(std::move(n));
-        }
-        add_effects(sums, against, truths, setting);
-    }
-    return finished(std::move(sums));
+    std::vector<Reference> references;
+    for (unsigned seed = 0; seed < setting.seeds; ++seed) references.push_back(view.reference(setting.samples, seed));
+    return technique_coverage(setting, simulated_techniques(view, known_seeds),
+                              surface_masks(view, best, {"all", "reflective"}), best, references, technique_seeds);
 }

@@ -1,6 +1,11 @@
 #pragma once
+#include "experiments/measuring/measure.h"
+
 #include <glm/glm.hpp>
+#include <map>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// How often intervals hold the truth, over references of many seeds of the path tracer itself: their noise has the
@@ -33,8 +38,21 @@ struct CoverageRow {
 /// each with 40 of the quieter half.
 std::vector<CoverageRow> coverage(const CoverageSetting& setting);
 
-/// The same of intervals over the seeds of a technique (summary.csv): `setting.seeds` references, `technique_seeds` of
-/// each technique against each. Tests: `fallback`, which has no seed; `noisy` (the truth with the noise of 16 samples);
-/// `denoised` (that of 4 samples, means of 5x5 pixels). The truth is the mean over 64 seeds against a reference of 128
-/// times the samples. Masks: `all` and `reflective`.
+/// Images of each technique by seed, a single one where it has none, and which are compared with which.
+struct Techniques {
+    std::map<std::string, std::vector<CompositedImages>> images;
+    std::vector<std::pair<std::string, std::vector<std::string>>> baselines;  ///< and what is compared with each
+};
+
+/// The same of intervals over the seeds of techniques (summary.csv, splits.csv, effects.csv), against each of
+/// `references` by `technique_seeds` of the seeds. The truth is the mean over all seeds, most_seeds at most, against
+/// `truth`. Tests: the techniques; "a / b" for effects.
+std::vector<CoverageRow> technique_coverage(const CoverageSetting& setting, const Techniques& techniques,
+                                            std::span<const Mask> masks, const Reference& truth,
+                                            std::span<const Reference> references, unsigned technique_seeds);
+inline constexpr unsigned most_seeds = 64;
+
+/// The same of techniques that are made by the path tracer: `fallback`, which has no seed; `noisy` (the truth with the
+/// noise of 16 samples); `denoised` (the same, means of 5x5 pixels). Masks: `all` and `reflective`. The truth has 128
+/// times the samples of one of `setting.seeds` references.
 std::vector<CoverageRow> technique_coverage(const CoverageSetting& setting, unsigned technique_seeds);

@@ -13,23 +13,27 @@ struct View {
     Scene scene;
     ScenePose pose;
     CameraPose camera;
+    bool has_ladder;
     PathTracer path_tracer;
     PixelTracer tracer;
     ReferenceGuide guide;
 
-    View(const std::string& name, glm::uvec2 size, float frame = 0)
+    View(const std::string& name, glm::uvec2 size, float frame = 0, bool has_ladder = true)
         : extent(size),
           scene(load_scene(name, {std::filesystem::path(SSRLAB_SOURCE_DIR) / "scenes"})),
           pose(pose_scene(scene, frame)),
           camera(pose_camera(scene.cameras.front(), pose, frame)),
-          path_tracer(scene, pose, camera, extent, {.ladder = true}),
+          has_ladder(has_ladder),
+          path_tracer(scene, pose, camera, extent, {.ladder = has_ladder}),
           tracer{[this](unsigned x, unsigned y) { return path_tracer.first_hit(x, y); },
                  [this](unsigned x, unsigned y, const FirstHit& hit, unsigned first, unsigned count,
                         std::span<SampleBatch> batches) { path_tracer.trace(x, y, hit, first, count, batches); }},
-          guide(render_guide(tracer, extent, ReferenceSettings().guide_samples, {}).means) {}
+          guide(render_guide(tracer, extent, ReferenceSettings().guide_samples, {}).means) {
+        path_tracer.expect(guide.diffuse, guide.specular);
+    }
 
     Reference reference(unsigned samples, unsigned seed) const {
-        ReferenceState state = empty_state(extent, {.ladder = true});
+        ReferenceState state = empty_state(extent, {.ladder = has_ladder});
         tbb::parallel_for(0u, extent.x * extent.y, [&](unsigned p) {
             add_samples(state.reference, tracer, p % extent.x, p / extent.x,
                         {.seed = seed, .batch_samples = samples / batch_count});

@@ -16,7 +16,7 @@ struct Case {
 
 TEST(NoiseCoverage, HoldsForReferencesOfThePathTracer) {
     // Mirrors that meet lamps with few of their samples, and a gradient of roughnesses.
-    for (const Case& c : {Case{"mirror_pillars", 16}, Case{"roughness_gradient", 64}}) {
+    for (const Case& c : {Case{"mirror_pillars", 64}, Case{"roughness_gradient", 64}}) {
         const std::vector<CoverageRow> rows = coverage({.scene = c.scene,
                                                         .extent = {24, 14},
                                                         .samples = c.samples,
@@ -41,7 +41,7 @@ TEST(NoiseCoverage, HoldsForReferencesOfThePathTracer) {
     }
 }
 
-/// FLIP and SSIM keep the reference's noise in their values; their intervals reach to where they would lie without.
+/// FLIP keeps the reference's noise in its values; its intervals reach to where it would lie without.
 TEST(NoiseCoverage, HoldsOverSeedsForMetricsThatAreNoMeansOfSquares) {
     std::map<std::string, CoverageRow> by_metric;
     for (const char* scene : {"roughness_gradient", "fence"})
@@ -50,19 +50,23 @@ TEST(NoiseCoverage, HoldsOverSeedsForMetricsThatAreNoMeansOfSquares) {
                                       .samples = 16,
                                       .seeds = 24,
                                       .targets = {"specular"},
-                                      .metrics = {"flip", "ssim", "mae"}},
+                                      .metrics = {"flip", "relmse_trimmed"}},
                                                          4)) {
-            // Of so few samples the noise may be all of an error, whose ratio then has no interval.
-            const bool is_effect = row.metric.starts_with("effect");
-            EXPECT_GE(row.intervals, row.trials * (is_effect ? 0.9 : 1))
-                << row.test << ' ' << row.metric << ": those without a seed, too";
+            // Of so few samples the noise may be all of an error, whose ratio then has no interval; a squared bias that
+            // is none has no ratio.
+            const bool is_effect = row.metric.starts_with("effect"), is_split = row.metric.ends_with("bias_squared");
+            if (!is_split) {
+                EXPECT_GE(row.intervals, row.trials * (is_effect ? 0.9 : 1))
+                    << row.test << ' ' << row.metric << ": those without a seed, too";
+            }
             CoverageRow& sum = by_metric[row.metric];
             sum.trials += row.trials, sum.intervals += row.intervals, sum.covered += row.covered;
         }
+    EXPECT_GE(by_metric.size(), 7u) << "the two metrics, bias and variance, and effects on them";
     for (const auto& [metric, row] : by_metric) {
         // The three techniques share each reference: as few as 48 independent trials. At 64 samples coverage is 93 % or
         // more (metrics/README.md); five deviations of 93 % in 48 trials are a false alarm of 3e-7. Seeds alone cover
-        // 81 and 33 %.
+        // 81 % of FLIP.
         EXPECT_GE(row.coverage(), 0.93 - 5 * std::sqrt(0.93 * 0.07 / 48)) << metric;
     }
 }

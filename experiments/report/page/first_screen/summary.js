@@ -57,9 +57,6 @@ function againstNone(row, rows) {
 /// Worth a column: from 2 % of the error.
 const isLitNoisy = row => row.litNoise > 0.02 * Math.abs(row.value);
 
-/// What an interval lacks, which keeps its row from being ranked.
-const intervalNote = row => row.low !== null && row.interval === "seeds" && !row.isRanked ? "seeds alone" : "";
-
 function valueCell(row, isBest) {
     const notes = [];
     if (row.value === null)
@@ -71,7 +68,7 @@ function valueCell(row, isBest) {
     return cell(
         row.value, h(isBest ? "b" : "span", {class: notes.length ? "below-floor" : null}, number(row.value)), " ",
         h("small", {class: row.low === null ? "reason" : null},
-          [interval(row), intervalNote(row), ...notes].filter(Boolean).join(" ")));
+          [interval(row), ...notes].filter(Boolean).join(" ")));
 }
 
 function summaryRow(row, rows, best, others, otherBest) {
@@ -134,11 +131,7 @@ function showSummary() {
         rows.some(isLitNoisy) &&
             "Lit noise: what the noise of the path-traced light that techniques read adds to the " +
                 "value; intervals reach down by it.",
-        "Brackets: 95 % interval" +
-            (rows.some(intervalNote) ?
-                 "; seeds alone: without what the reference's noise adds, which the noise floor " +
-                     "bounds, and so not ranked." :
-                 ".") +
+        "Brackets: 95 % interval." +
             (rows.some(isOneSeed) ? " One seed of a technique that draws random numbers has none, and is not ranked." :
                                     ""),
         "± after the seeds: their standard deviation."
