@@ -286,7 +286,6 @@ json answers_json(const std::vector<ShotAnswer>& answers, const Headline& headli
                         {"best", optional_json(a.best)},
                         {"near", points_json(a.near)},
                         {"tied", points_json(a.tied)},
-                        {"behind", points_json(a.behind)},
                         {"unranked", points_json(a.unranked)},
                         {"baseline", optional_json(a.baseline)},
                         {"limit", optional_json(a.limit)},

@@ -102,7 +102,7 @@ def report(witnesses, folder, errors):
         if not answer["best"]:
             continue
         best = (answer["best"]["variant"], answer["best"]["point"])
-        of = {kind: {(t["variant"], t["point"]) for t in answer[kind]} for kind in ("near", "tied", "behind")}
+        of = {kind: {(t["variant"], t["point"]) for t in answer[kind]} for kind in ("near", "tied")}
         for point, row in errors.get(answer["shot"], {}).items():
             if point == best:
                 continue

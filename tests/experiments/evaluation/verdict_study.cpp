@@ -101,9 +101,9 @@ int main(int argc, char** argv) {
         {"4 shots, 13 points, 8 seeds of deviation 0.02", 4, 13, 8, 0.02},
         {"4 shots, 13 points, 4 seeds of deviation 0.5", 4, 13, 4, 0.5},
         {"43 shots, 13 points, 4 seeds of deviation 0.02", 43, 13, 4, 0.02},
-        {"4 scenes, 13 points, deviation 0.5 over scenes", 4, 13, 1, 0, 0.5},
-        {"43 scenes, 13 points, deviation 0.5 over scenes", 43, 13, 1, 0, 0.5},
-        {"196 scenes, 49 points, deviation 0.5 over scenes", 196, 49, 1, 0, 0.5},
+        {"4 scenes, 13 points, deviation 0.5 over scenes", 4, 13, 4, 0.001, 0.5},
+        {"43 scenes, 13 points, deviation 0.5 over scenes", 43, 13, 4, 0.001, 0.5},
+        {"196 scenes, 49 points, deviation 0.5 over scenes", 196, 49, 4, 0.001, 0.5},
     };
     std::mt19937_64 random(1);
     std::printf("| studies of points that do not differ | verdict | studies with a wrong one |\n|---|---|---|\n");
