@@ -3,6 +3,7 @@
 #include "core/error.h"
 
 #include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/non_central_t.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <boost/math/quadrature/gauss.hpp>
@@ -62,4 +63,9 @@ double studentised_range_tail(double range, size_t count, double degrees) {
                normal_range_tail(range * s, double(count));
     };
     return boost::math::quadrature::gauss<double, 60>::integrate(at, 0.0, 1 + 6 / std::sqrt(degrees));
+}
+
+double noncentral_t_cdf(double t, double degrees, double noncentrality) {
+    if (!(degrees > 0)) fail("degrees of freedom must be above 0, not ", degrees);
+    return boost::math::cdf(boost::math::non_central_t(degrees, noncentrality), t);
 }

@@ -11,3 +11,6 @@ double chi_squared_quantile(double probability, double degrees);
 /// deviation that is known with so many degrees of freedom: the tail of the studentised range (Tukey), to 1e-6 by
 /// quadrature.
 double studentised_range_tail(double range, size_t count, double degrees);
+
+/// Of (normal + noncentrality) / sqrt(chi squared / degrees): Student's t where the mean is not 0, in standard errors.
+double noncentral_t_cdf(double t, double degrees, double noncentrality);

@@ -6,6 +6,7 @@
 #include "core/shown_text.h"
 #include "experiments/commands/commands.h"
 #include "experiments/run/plan/estimate.h"
+#include "experiments/run/plan/ranking_warnings.h"
 #include "experiments/run/progress.h"
 #include "experiments/store/cell_store.h"
 
@@ -115,6 +116,8 @@ void plan_command(const PlanOptions& options, const CommonOptions& common) {
     std::printf("%s: %s, %s\n\n", options.config.string().c_str(), counted(config.shots.size(), "shot").c_str(),
                 counted(config.variants.size(), "point").c_str());
     print_kinds(work);
+    for (const std::string& warning : ranking_warnings(config, plan))
+        std::printf("\nwarning: %s\n", shown_text(warning).c_str());
     if (!is_estimated) return;
     double memory = 0;
     for (const PlannedWork& w : work) memory = std::max(memory, w.is_done ? 0 : w.estimate.memory_mib);

@@ -63,6 +63,9 @@ json cell_types() {
         "frame": "count", "hash": "text", "lit_only??": "true or false", "samples_median": "number", "passes": "text", "seconds": "number",
         "rays": "number", "max_depth": "count", "target_relative_error": "number",
         "relative_error": {"median??": "number", "p95??": "number", "mean??": "number"}, "reached_share??": "number",
+        "noise??": {"target": "text", "mask": "text", "pixels": "size", "noisiest_share": "number", "carriers": "number",
+                    "by_roughness": [{"from": "number", "below": "number", "pixel_share": "number",
+                                      "variance_share": "number"}]},
         "non_finite_samples": "size", "light_cut??": "number", "warnings": ["text"], "from_cache": "true or false",
         "halves??": {"*": {"mean_z_squared??": "number", "low??": "number", "high??": "number", "correlation??": "number",
                           "most_correlation??": "number"}}})");

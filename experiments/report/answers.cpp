@@ -1,9 +1,11 @@
 #include "experiments/report/answers.h"
 
 #include "experiments/evaluation/interval.h"
+#include "experiments/evaluation/power.h"
 #include "experiments/evaluation/standings.h"
 #include "experiments/evaluation/study_points.h"
 #include "experiments/report/answer_text.h"
+#include "experiments/report/cause_and_cure.h"
 #include "experiments/store/manifest.h"
 #include "metrics/temporal.h"
 
@@ -71,6 +73,13 @@ std::optional<AnswerPoint> limit_of(const json& manifest, const std::string& sho
                 return limit;
             }
     }
+    return {};
+}
+
+/// What manifest.json says of a shot's reference; null where it says nothing.
+json reference_of(const json& manifest, const std::string& shot) {
+    for (const json& entry : manifest.value("shots", json::array()))
+        if (entry.is_object() && entry.value("shot", "") == shot) return entry.value("reference", json());
     return {};
 }
 
@@ -215,6 +224,7 @@ std::vector<ShotAnswer> shot_answers(const ReportTables& tables, const json& man
     const Headline headline = headline_of(manifest, tables.errors);
     const PointSet left_out = points_using_scene_data(manifest);
     auto labels = point_labels(manifest);
+    const size_t comparisons = comparisons_left(tables.errors, headline.target, headline.metric, headline.mask);
     std::vector<std::string> shots;
     for (const MetricSummary& e : tables.errors)
         if (std::ranges::count(shots, e.shot) == 0) shots.push_back(e.shot);
@@ -222,10 +232,12 @@ std::vector<ShotAnswer> shot_answers(const ReportTables& tables, const json& man
     for (const std::string& shot : shots) {
         ShotAnswer answer{.shot = shot, .limit = limit_of(manifest, shot, headline)};
         std::vector<Scored> scored, perceived;
+        std::vector<const MetricSummary*> judged;  // by all metrics
         for (const MetricSummary& e : tables.errors) {
             if (!e.represents_shot || e.shot != shot || e.mask != headline.mask || e.target != headline.target ||
                 !e.value || left_out.contains({e.variant, e.point}))
                 continue;
+            judged.push_back(&e);
             const AnswerPoint point{e.variant, e.point, *e.value, e.low, e.high, labels[{e.variant, e.point}]};
             if (e.metric == headline.metric) {
                 const auto time = std::ranges::find_if(tables.times, [&](const TimeSummary& t) {
@@ -253,7 +265,9 @@ std::vector<ShotAnswer> shot_answers(const ReportTables& tables, const json& man
         answer.front = front_of(scored);
         const ClockRecord clock = clock_of(manifest, shot);
         answer.is_clock_proven = clock.is_proven;
-        answer.sentence = sentence_of(answer, scored, headline, clock);
+        const JudgedShot of_shot{judged, headline.metric, reference_of(manifest, shot), labels, comparisons};
+        answer.sentence =
+            sentence_of(answer, scored, headline, clock) + cure_sentences(of_shot) + power_sentence(of_shot);
         answer.perceptual_sentence = perceptual_sentence_of(answer, perceived, headline.perceptual_metric);
         answers.push_back(std::move(answer));
     }

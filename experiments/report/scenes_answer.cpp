@@ -3,6 +3,7 @@
 #include "experiments/evaluation/standings.h"
 #include "experiments/evaluation/study_points.h"
 #include "experiments/report/answer_text.h"
+#include "experiments/report/cause_and_cure.h"
 
 #include <algorithm>
 #include <map>
@@ -126,7 +127,9 @@ std::string in_scenes_like_these(const ReportTables& tables, const json& manifes
     }
     if (rows.empty()) return "";
     const OverScenesRow& first = *rows.front();  // those that are ranked come first
-    if (!first.rank) return "Over scenes nothing is ranked: no shot has an error of every point.";
+    if (!first.rank)
+        return "Over scenes nothing is ranked: no shot has an error of every point." +
+               deciding_over_scenes_sentence(tables.over_scenes, first);
     std::set<std::string> scenes;
     for (const MetricSummary& e : tables.errors)
         if (is_of_headline(e)) scenes.insert(asset_of(manifest, e.shot));
@@ -160,5 +163,6 @@ std::string in_scenes_like_these(const ReportTables& tables, const json& manifes
         text += " Within " + percent_text(headline.margin) + " of " + name +
                 " for certain: " + listed(near, most_named) + ".";
     text += behind.empty() ? " Nothing is ruled out." : " Behind for certain: " + listed(behind, most_named) + ".";
-    return text;
+    std::erase_if(rows, [](const OverScenesRow* row) { return !row->rank; });
+    return text + power_over_scenes_sentence(rows);
 }

@@ -6,6 +6,7 @@
 #include "core/json.h"
 #include "core/scene/load_scene.h"
 #include "experiments/measuring/costs/gpu_estimates.h"
+#include "experiments/run/plan/ranking_warnings.h"
 #include "experiments/run/shots/shot_cells.h"
 #include "experiments/run/study_results.h"
 #include "experiments/store/finished_run.h"
@@ -240,6 +241,7 @@ void run_study(const Config& config, const RunSettings& settings) {
     const nlohmann::json entry = study_entry(config);
     for (const auto& warning : entry["warnings"]) say("warning: " + warning.get<std::string>());
     plan_work(study, selection);
+    for (const std::string& warning : ranking_warnings(config, study.plan)) say("warning: " + warning);
     for (const GpuCompilers::Entry& compiler : study.plan.compilers.entries)
         if (!compiler.refusal.empty())
             say("warning: compiled.csv gets no numbers of " + compiler.chip.name + ": " + compiler.refusal);

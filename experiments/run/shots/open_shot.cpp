@@ -3,12 +3,16 @@
 #include "core/files.h"
 #include "core/gbuffer/gbuffer_transfer.h"
 #include "core/gpu/device.h"
+#include "experiments/measuring/noise_places.h"
 #include "experiments/measuring/reflection_probe.h"
 #include "experiments/measuring/rung_errors.h"
+#include "experiments/run/progress.h"
 #include "experiments/store/result_images.h"
 #include "experiments/store/shot_facts.h"
 #include "groundtruth/reference/reference_cache.h"
+#include "metrics/noise.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <span>
@@ -109,6 +113,25 @@ void enter_truth_images(Opening& opening) {
     }
 }
 
+/// Which pixels hold the noise of the last frame's reference, under the mask and of the target that the study compares.
+void enter_noise(Opening& opening, const FrameStep& last) {
+    OpenShot& open = opening.shot;
+    const FrameTruth* truth = open.truth.frame(last);
+    const std::string &mask = opening.config.primary.mask, &target = opening.config.primary.target;
+    const auto compared = open.truth.pose(last).targets.find(target);
+    if (!truth || compared == open.truth.pose(last).targets.end() || !compared->second.halves) return;
+    const auto inside = std::ranges::find(truth->masks, mask, &Mask::name);
+    if (inside == truth->masks.end() || inside->inside.empty()) return;  // one of a technique's confidence
+    const NoisePlaces places = noise_places(compared->second.halves->variance, truth->roughness, *inside);
+    open.entry["reference"]["noise"] = noise_entry(places, target, mask);
+    const double samples = compared->second.halves->samples;
+    if (double(places.pixels) * samples < least_noise_samples)
+        opening.settings.say("warning: " + open.shot.name() + ": the mask " + mask + " holds " +
+                             counted(places.pixels, "pixel") +
+                             ", whose samples are too few for an interval. Render a larger image, or give "
+                             "reference.samples a larger number.");
+}
+
 /// What the manifest says of the shot that its G-buffers and its truth tell.
 void enter_shot(Opening& opening) {
     OpenShot& open = opening.shot;
@@ -120,6 +143,7 @@ void enter_shot(Opening& opening) {
     if (open.truth.is_measured()) {
         const FlipExposures& flip = open.truth.pose(last).flip_exposures;
         open.entry["flip_exposures"] = {flip.start, flip.stop, flip.count};
+        enter_noise(opening, last);
         if (needs_ladder(opening.config))
             open.entry["truth_ladder"] = rung_entries(open.truth.pose(last), open.truth.frame(last)->masks);
     } else {

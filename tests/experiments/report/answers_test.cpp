@@ -147,7 +147,8 @@ TEST(Answers, SayWhatIsRankedAndWhatIsOnlyMeasured) {
     EXPECT_FALSE(made.answer().best);
     EXPECT_EQ(made.answer().sentence,
               "Nothing is ranked, as no mse of this shot has an interval that holds all noise (1 seed): a measures "
-              "least, mse 0.06.");
+              "least, mse 0.06. Run with seeds: 4 to rank none, a and 2 more. Add flip to metrics: few samples suffice "
+              "for its intervals.");
 }
 
 TEST(Answers, SayWhereALimitOfOneFrameIsReached) {
