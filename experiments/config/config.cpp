@@ -131,7 +131,7 @@ Keys study_keys(const json& variant = json::object()) {
          "time and space"},
         {"timing", object_of(timing_keys()), otherwise("as below"), "how times are taken"},
         {"metrics", names_of_metrics(), Names{"mse", "relmse", "smape", "bias", "energy_ratio", "flip", "ssim"},
-         "what is measured"},
+         "what is measured; which differences each sees: metrics/README.md, power"},
         {"masks", names_of_masks(), mask_names(), "over which pixels"},
         {"frame_metrics",
          named(either(names_of_metrics(), {{{"type", "array"}, {"maxItems", 0}}, "", {}}),
