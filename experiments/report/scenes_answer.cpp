@@ -40,11 +40,12 @@ public:
         if (at == found_.end()) at = found_.insert(at, {name, {}});
         at->second.push_back(where);
     }
-    /// "A in x and y, B in z".
+    /// "A in x and y; B in z".
     std::string text() const {
-        Names parts;
-        for (const auto& [name, where] : found_) parts.push_back(name + " in " + listed(where, most_named));
-        return listed(parts, most_named);
+        std::string text;
+        for (const auto& [name, where] : found_)
+            text += (text.empty() ? "" : "; ") + name + " in " + listed(where, most_named);
+        return text;
     }
     /// Those that are said of `count` shots.
     Names of(size_t count) const {
@@ -65,15 +66,17 @@ std::string probability(double p) {
     return p < 0.005 ? "below 0.01" : p > 0.995 ? "above 0.99" : text;
 }
 
-/// "A errs least with a probability of 0.68, B with 0.28"; the first of all is named in any case.
+/// "A 0.68, B 0.28": probabilities; the largest is named in any case.
 std::string chances_text(std::vector<const OverScenesRow*> rows, std::optional<double> OverScenesRow::*chance,
                          const std::map<PointName, std::string>& names) {
     std::ranges::stable_sort(rows, std::greater{}, [&](const OverScenesRow* r) { return (r->*chance).value_or(0); });
     Names parts;
     for (const OverScenesRow* r : rows)
         if (r->*chance && (parts.empty() || (parts.size() < most_named && *(r->*chance) >= worth_naming)))
-            parts.push_back(names.at({r->variant, r->point}) + " with " + probability(*(r->*chance)));
-    return listed(parts, most_named);
+            parts.push_back(names.at({r->variant, r->point}) + " " + probability(*(r->*chance)));
+    std::string text;
+    for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
+    return text;
 }
 
 }  // namespace
@@ -98,9 +101,9 @@ std::string in_these_scenes(const std::vector<ShotAnswer>& answers, const json& 
     if (ranked == 0) return all + "nothing is ranked by " + headline.metric + ".";
     std::string text =
         (ranked < answers.size() ? "In " + std::to_string(ranked) + " of these " + count + " shots " : all) +
-        "the least " + headline.metric + " has " + first.text() + ".";
+        "the least " + headline.metric + " has: " + first.text() + ".";
     if (!near.is_empty())
-        text += " Within " + percent_text(headline.margin) + " of it for certain: " + near.text() + ".";
+        text += " Within " + percent_text(headline.margin) + " of that for certain: " + near.text() + ".";
     if (const Names everywhere = behind.of(ranked); !everywhere.empty())
         text += " In each of them behind for certain: " + listed(everywhere, most_named) + ".";
     return text;
@@ -114,7 +117,7 @@ std::string in_scenes_like_these(const ReportTables& tables, const json& manifes
     auto labels = point_labels(manifest);
     std::map<PointName, std::string> names;
     std::vector<const OverScenesRow*> rows;
-    Names tied, near, behind;
+    Names near, behind;
     for (const OverScenesRow& row : tables.over_scenes) {
         if (!is_of_headline(row)) continue;
         const AnswerPoint point{row.variant, row.point, row.ratio, row.low, row.high, labels[{row.variant, row.point}]};
@@ -122,7 +125,6 @@ std::string in_scenes_like_these(const ReportTables& tables, const json& manifes
         rows.push_back(&row);
         if (!row.rank || rows.size() == 1) continue;
         if (row.standing == standing::behind) behind.push_back(name);
-        if (row.standing == standing::tied) tied.push_back(name);
         if (row.standing == standing::equivalent) near.push_back(name);
     }
     if (rows.empty()) return "";
@@ -156,9 +158,9 @@ std::string in_scenes_like_these(const ReportTables& tables, const json& manifes
                           (first.scenes < scenes.size() ? " of " + std::to_string(scenes.size()) : "") + " scenes";
     std::string text = "In scenes like these " + name;
     if (first.standing == standing::best) return text + " errs least on average for certain" + gain + ".";
-    text += " measures least" + gain + ". Least on average is " +
-            chances_text(rows, &OverScenesRow::chance_first, names) + " (probability); within " +
-            percent_text(near_first) + " of the least " + chances_text(rows, &OverScenesRow::chance_near, names) + ".";
+    text += " measures least" + gain + ". Probability to err least on average: " +
+            chances_text(rows, &OverScenesRow::chance_first, names) + ". To be within " + percent_text(near_first) +
+            " of the least: " + chances_text(rows, &OverScenesRow::chance_near, names) + ".";
     if (!near.empty())
         text += " Within " + percent_text(headline.margin) + " of " + name +
                 " for certain: " + listed(near, most_named) + ".";

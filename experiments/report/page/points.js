@@ -3,7 +3,7 @@
 /// What the page shows first: the error that a study compares by, and what an eye sees; manifests of other versions
 /// may lack it.
 const headline = Object.fromEntries(
-    Object.entries({metric: "mse", mask: "reflective", target: "specular", perceptual_metric: "flip"})
+    Object.entries({metric: "mse", mask: "reflective", target: "specular", perceptual_metric: "flip", margin: 0.05})
         .map(([key, usual]) => [key, report.headline?.[key] || usual]));
 
 const pointKey = row => row.variant + "|" + row.point;

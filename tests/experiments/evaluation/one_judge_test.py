@@ -299,7 +299,7 @@ def over_scenes(folder, manifest, found, summary, page):
     assert not tied or listed(said[3]) == behind[:3], (sentence, behind)
     if chances:
         likely = max(chances, key=chances.get)
-        assert not tied or f"Least on average is {name(likely)} with {chances[likely]:.2f}" in sentence, (sentence, chances)
+        assert not tied or f"Probability to err least on average: {name(likely)} {chances[likely]:.2f}" in sentence, (sentence, chances)
 
     across = {(r["variant"], r["point"]): r for r in read(os.path.join(folder, "tradeoff"), "across.csv") if not r["cost"] and not r["group"]}
     assert across.keys() == rows.keys(), across.keys() ^ rows.keys()
