@@ -158,8 +158,9 @@ std::string in_scenes_like_these(const ReportTables& tables, const json& manifes
                           (first.scenes < scenes.size() ? " of " + std::to_string(scenes.size()) : "") + " scenes";
     std::string text = "In scenes like these " + name;
     if (first.standing == standing::best) return text + " errs least on average for certain" + gain + ".";
-    text += " measures least" + gain + ". Probability to err least on average: " +
-            chances_text(rows, &OverScenesRow::chance_first, names) + ". To be within " + percent_text(near_first) +
+    text += " measures least" + gain +
+            ". Probability to err least on average: " + chances_text(rows, &OverScenesRow::chance_first, names) +
+            ". To be within " + percent_text(near_first) +
             " of the least: " + chances_text(rows, &OverScenesRow::chance_near, names) + ".";
     if (!near.empty())
         text += " Within " + percent_text(headline.margin) + " of " + name +

@@ -71,8 +71,7 @@ std::optional<std::string> warning_of_rooms(const Config& config, const StudyPla
     const bool has_flip = std::ranges::count(config.metrics, "flip") > 0;
     return listed_names(rooms) + ": few paths find the lamps that furnished scenes reflect, so that " +
            config.primary.metric + " of " + std::to_string(samples) +
-           " samples sees only large differences there. In a study of 64 samples mse sees 9 %, and flip 1.2 % " +
-           "(metrics/README.md, power). " +
+           " samples sees only large differences there (metrics/README.md, power). " +
            (has_flip ? "Make flip the primary metric" : "Measure flip, and make it the primary metric") +
            ", or give reference.samples: " + std::to_string(samples_of_rooms) + ".";
 }

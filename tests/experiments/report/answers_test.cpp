@@ -221,11 +221,10 @@ TEST(Answers, SayFirstWhatMayHoldInOtherScenes) {
     EXPECT_EQ(sentence({"best", "behind", "behind"}, 6),
               "In scenes like these A, labelled errs least on average for certain: 0.1x [0.05x, 0.2x] the mse of no "
               "reflections (none), geometric mean over 6 scenes.");
-    EXPECT_EQ(
-        sentence({"tied", "tied", "behind"}, 5),
-        "In scenes like these A, labelled measures least: 0.1x [0.05x, 0.2x] the mse of no reflections (none), "
-        "geometric mean over 5 of 6 scenes. Probability to err least on average: A, labelled 0.68, b 0.30. To be "
-        "within 10 % of the least: A, labelled above 0.99, b 0.50, c 0.25. Behind for certain: c.");
+    EXPECT_EQ(sentence({"tied", "tied", "behind"}, 5),
+              "In scenes like these A, labelled measures least: 0.1x [0.05x, 0.2x] the mse of no reflections (none), "
+              "geometric mean over 5 of 6 scenes. Probability to err least on average: A, labelled 0.68, b 0.30. To be "
+              "within 10 % of the least: A, labelled above 0.99, b 0.50, c 0.25. Behind for certain: c.");
     EXPECT_EQ(sentence({"", ""}, 3),
               "Of other scenes 3 scenes say nothing: a verdict over scenes takes 4. Here A, labelled errs least on "
               "average.");
@@ -241,17 +240,17 @@ TEST(Answers, SayWhatIsCertainInTheseScenes) {
         answers[i].behind = {point("none"), point("c")};
         (i == 1 ? answers[i].near : answers[i].tied).push_back(point(i == 2 ? "a" : "b"));
     }
-    EXPECT_EQ(in_these_scenes({answers.front()}, json::object(), headline), "") << "one shot speaks for itself";
+    EXPECT_EQ(in_these_scenes({answers.front()}, json::object(), headline), "") << "the shot has its own sentence";
     EXPECT_EQ(
         in_these_scenes(answers, json::object(), headline),
         "In these 3 shots the least mse has: a in p and q; b in r. Within 5 % of that for certain: b in q. In each "
         "of them behind for certain: none and c.");
     const json scenes = {{"shots", {{{"shot", "p"}, {"scene", "hall"}}, {{"shot", "q"}, {"scene", "yard"}}}}};
     answers[2].best = {};
-    EXPECT_EQ(
-        in_these_scenes(answers, scenes, headline),
-        "In 2 of these 3 shots the least mse has: a in hall and yard. Within 5 % of that for certain: b in yard. In each "
-        "of them behind for certain: none and c.");
+    EXPECT_EQ(in_these_scenes(answers, scenes, headline),
+              "In 2 of these 3 shots the least mse has: a in hall and yard. Within 5 % of that for certain: b in yard. "
+              "In each "
+              "of them behind for certain: none and c.");
     for (ShotAnswer& a : answers) a.best = {};
     EXPECT_EQ(in_these_scenes(answers, json::object(), headline), "In these 3 shots nothing is ranked by mse.");
 }
