@@ -120,6 +120,13 @@ void set_ranks(const std::vector<OverScenes*>& points) {
     }
 }
 
+/// Whether what all points say together is a third of what is known of a ratio's scatter. Over more scenes its own
+/// scatter is most of it, and the range of all points, as if they had one, errs in 6 % of studies of 49 points.
+bool shares_scatter(const PooledByLaw& pooled, const MeanOverScenes& mean) {
+    constexpr size_t most_scenes = 8;
+    return pooled.front().degrees > 0 && mean.scenes <= most_scenes;
+}
+
 /// Compares all with the first rank over the shots that both have, and decides who may be the best.
 void set_standings(std::vector<OverScenes>& points, OverScenes& first, std::span<const ShotErrors> shots,
                    const std::map<PointName, Logarithms>& logarithms, const PooledByLaw& pooled, double margin) {
@@ -140,7 +147,7 @@ void set_standings(std::vector<OverScenes>& points, OverScenes& first, std::span
         point.over_best_low = exponential(mean.low), point.over_best_high = exponential(mean.high);
         if (mean.p) {
             compared.push_back(&point),
-                different.push_back({0, *mean.p, pooled.front().degrees > 0 ? mean.degrees : 0});
+                different.push_back({0, *mean.p, shares_scatter(pooled, mean) ? mean.degrees : 0});
             beyond.push_back(p_beyond_by_laws(values, pooled, margin));
         }
         if (mean.scenes < least_scenes) continue;

@@ -272,7 +272,7 @@ def over_scenes(folder, manifest, found, summary, page):
     assert first == min(ranked, key=lambda k: (means[k][0], k)), first
     against = {k: by_laws({s: v - logs[first][s] for s, v in of.items() if s in logs[first]}, asset_of, pooled) for k, of in logs.items() if k != first}
     counts = {k: len({asset_of[s] for s in logs[k] if s in logs[first]}) for k in against}
-    degrees = {k: n - 1 + pooled[0][1] if pooled[0][1] else 0 for k, n in counts.items()}
+    degrees = {k: n - 1 + pooled[0][1] if pooled[0][1] and n <= 8 else 0 for k, n in counts.items()}  # of more scenes each ratio has its own
     adjusted = adjusted_for_choice({k: v[3] for k, v in against.items() if v[3] is not None}, degrees)
     exponential = lambda v: None if v is None else math.exp(v)  # noqa: E731
     for r in of_pairs:
