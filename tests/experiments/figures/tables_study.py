@@ -89,7 +89,7 @@ def write_results(folder, tables=TABLES, ratios=RATIOS):
         | {"against_point": "default", "target": "specular", "metric": metric, "mask": "all", "seeds": 8}
         | {"interval": SEEDS if metric == "flip" else REFERENCE}
         | dict(zip(("ratio", "low_holm", "high_holm", "p_holm", "interval"), numbers))
-        | {"verdict": "" if numbers[3] == "" else "not distinguishable" if numbers[3] > 0.05 else "less" if numbers[0] < 1 else "more"}
+        | {"verdict": "" if numbers[3] == "" else "undecided" if numbers[3] > 0.05 else "less" if numbers[0] < 1 else "more"}
         for (point, metric, shot), numbers in ratios.items()
     ]
     write_rows(os.path.join(folder, "effects.csv"), effects)
@@ -115,5 +115,5 @@ def write_results(folder, tables=TABLES, ratios=RATIOS):
         row |= {"fits_from_ms": row["high_ms"], "may_fit_from_ms": row["low_ms"]}
     write_rows(os.path.join(folder, "time_summary.csv"), times)
     ratio = {"variant": "sssr", "point": "taps=4", "against": "baseline", "against_variant": "sssr", "against_point": "default"}
-    ratio |= {"stage": "total", "clock": "gpu_timestamp", "rounds": 15, "ratio": 1, "low": 0.9, "high": 1.1, "low_holm": 0.9, "high_holm": 1.1, "verdict": "not distinguishable"}
+    ratio |= {"stage": "total", "clock": "gpu_timestamp", "rounds": 15, "ratio": 1, "low": 0.9, "high": 1.1, "low_holm": 0.9, "high_holm": 1.1, "verdict": "undecided"}
     write_rows(os.path.join(folder, "time_effects.csv"), [{"shot": shot} | ratio for shot in SHOTS])

@@ -85,7 +85,7 @@ def test_effects(page, folder, stepping_shot):
         result = (
             "not repeatable"
             if point == RACING
-            else "not distinguishable" if point == "lucky" else "less error" if is_significant else "changes nothing"
+            else "undecided" if point == "lucky" else "less error" if is_significant else "changes nothing"
         )
         check(result in cells[9][0], f"result of {point}: {cells[9][0]!r}, expected {result!r}")
     marks = values(page, "#effect-table .point")

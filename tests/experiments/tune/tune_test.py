@@ -104,7 +104,7 @@ class FakeSsrlab:
                     ratio = {"against": "baseline", "stage": "total", "ratio": operations / base_operations}
                     time_effects += [key | ratio] if p is not points[0] else []
                 row = {"against": "baseline", "target": "specular", "metric": "mse", "mask": "all", "ratio": error / base}
-                effects.append(key | row | {"low": error / base * 0.99, "high": error / base * 1.01, "low_holm": error / base * 0.98, "high_holm": error / base * 1.02, "verdict": "not distinguishable"})
+                effects.append(key | row | {"low": error / base * 0.99, "high": error / base * 1.01, "low_holm": error / base * 0.98, "high_holm": error / base * 1.02, "verdict": "undecided"})
         shots = [{"shot": s["scene"], "scene": s["scene"], "references": [{"hash": s["scene"]}]} for s in study["shots"]]
         with open(os.path.join(out, "manifest.json"), "w", encoding="utf-8") as stream:
             is_beside_program = any("external" in entry for entry in study["variants"])  # whose settings are not a technique's parameters

@@ -106,7 +106,7 @@ function budgetRows(kind, byMetric) {
         const picture = h("span", {class: "thumbnail"});
         answerCanvas(answerImage(row.shot, row), null).then(canvas => canvas && picture.append(canvas));
         const value = (v, isLeast) => h("td", {class: "number"}, isLeast ? h("b", {}, number(v.value, 3)) : number(v.value, 3),
-                                        " ", h("small", {}, interval(v, 3)));
+                                        " ", h("small", {}, v.low === null ? "no interval" : interval(v, 3)));
         const errors = headlineMetrics().map((metric, m) => {
             const error = headlineRows(row.shot, metric).find(r => pointKey(r) === pointKey(row));
             return error ? value(error, kind !== "just misses" && byMetric[m][kind][0] && pointKey(byMetric[m][kind][0].row) === pointKey(row)) :
