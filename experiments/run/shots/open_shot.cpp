@@ -6,7 +6,6 @@
 #include "experiments/measuring/noise_places.h"
 #include "experiments/measuring/reflection_probe.h"
 #include "experiments/measuring/rung_errors.h"
-#include "experiments/run/progress.h"
 #include "experiments/store/result_images.h"
 #include "experiments/store/shot_facts.h"
 #include "groundtruth/reference/reference_cache.h"
@@ -127,7 +126,7 @@ void enter_noise(Opening& opening, const FrameStep& last) {
     const double samples = compared->second.halves->samples;
     if (double(places.pixels) * samples < least_noise_samples)
         opening.settings.say("warning: " + open.shot.name() + ": the mask " + mask + " holds " +
-                             counted(places.pixels, "pixel") +
+                             std::to_string(places.pixels) + (places.pixels == 1 ? " pixel" : " pixels") +
                              ", whose samples are too few for an interval. Render a larger image, or give "
                              "reference.samples a larger number.");
 }
