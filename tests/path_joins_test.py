@@ -19,6 +19,8 @@ SCENE = "scenes have a rule of their own: file_below() (core/reading_limits.h)"
 
 ALLOWED = {
     ("core/path_inside.cpp", "path /= part"): "the one way",
+    ("experiments/figures/power.py", "os.path.join(ROOT, 'experiments/summaries', summary + '.csv')"): PROGRAM,
+    ("experiments/tradeoff/scatter_study.py", "os.path.join(SUMMARIES, file)"): PROGRAM,
     ("variants/registry.cpp", "base / text"): REQUEST,
     ("variants/declared/technique_files.cpp", "fs::path(SSRLAB_SOURCE_DIR) / folder"): PROGRAM,
     ("core/reading_limits.cpp", "folder / name"): SCENE,

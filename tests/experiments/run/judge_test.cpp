@@ -116,7 +116,7 @@ TEST_F(JudgeTest, PassesNoiseAndFailsWhatErrsMore) {
     EXPECT_TRUE(fs::exists(folder / "judged/report.html"));
 
     const Judgement same = judge("week2", "week1").against.value();
-    EXPECT_EQ(same.verdict, judgement::undecided);
+    EXPECT_EQ(same.verdict, judgement::equivalent);
     const Judgement worse = judge("darker", "week1").against.value();
     EXPECT_EQ(worse.verdict, judgement::worse);
     EXPECT_GT(worse.views.at(0).low, 1);

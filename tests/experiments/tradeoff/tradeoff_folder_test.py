@@ -27,12 +27,12 @@ PRESETS = {"none": (0.2, 8.0), "v:rays=1": (4.0, 2.0), "v:rays=2": (8.0, 1.0), "
 
 
 COLUMNS = {  # of the files that ssrlab reads, which refuses those that lack one
-    "summary.csv": "shot,frame,variant,point,target,metric,formula,mask,seeds,value,low,high,interval,ranked,seed_deviation,floor,lit_noise,corrected,value_of_power,value_of_bounded,pixels,non_finite,negative,represents_shot,standing,over_best,over_best_low,over_best_high,p_best,fronts,dominated",
+    "summary.csv": "shot,frame,variant,point,target,metric,formula,mask,seeds,value,low,high,interval,ranked,seed_deviation,floor,lit_noise,corrected,value_of_power,value_of_bounded,pixels,non_finite,negative,represents_shot,standing,over_best,over_best_low,over_best_high,p_best,p_equivalent,fronts,dominated",
     "results.csv": "shot,scene,camera,frame,width,height,variant,point,seed,target,metric,formula,mask,value,corrected,uncorrected,low,high,floor,lit_noise,lit_half_width,pixels,non_finite,negative,represents_shot",
     "times.csv": "shot,variant,point,seed,stage,frame,milliseconds,clock,foreign_load,disturbed",
     "time_summary.csv": "shot,variant,point,stage,clock,frames,median_ms,low_ms,high_ms,fits_from_ms,may_fit_from_ms,disturbed_share",
-    "effects.csv": "shot,frame,variant,point,against,against_variant,against_point,target,metric,formula,mask,seeds,ratio,low,high,interval,p,family,p_holm,low_holm,high_holm,verdict",
-    "over_scenes.csv": "target,metric,mask,variant,point,baseline_variant,baseline_point,scenes,shots,ratio,low,high,rank,rank_low,rank_high,over_best,over_best_low,over_best_high,p_holm,standing",
+    "effects.csv": "shot,frame,variant,point,against,against_variant,against_point,target,metric,formula,mask,seeds,ratio,low,high,interval,p,family,p_holm,low_holm,high_holm,p_equivalent,p_equivalent_holm,verdict",
+    "over_scenes.csv": "target,metric,mask,variant,point,baseline_variant,baseline_point,scenes,shots,ratio,low,high,rank,rank_low,rank_high,over_best,over_best_low,over_best_high,p_holm,p_equivalent,chance_first,chance_near,standing",
     "time_effects.csv": "shot,variant,point,against,against_variant,against_point,stage,clock,rounds,ratio,low,high,p,p_holm,low_holm,high_holm,verdict",
     "costs.csv": "shot,variant,point,stage,quantity,value",
     "estimates.csv": "shot,variant,point,stage,chip,product,microseconds,low,high,bound,vector,scalar,shared_memory,textures,targets,memory,latency,caches,waves,active_lanes,unmatched,cut_lanes,refusal",
@@ -71,7 +71,7 @@ def write_study(folder):
         for name, (ms, error) in PRESETS.items():
             own = {"shot": a_shot, "variant": keys[name][0], "point": keys[name][1]}
             row = own | {"frame": 0, "target": "specular", "metric": "mse", "mask": "reflective", "value": error * (number + 1), "represents_shot": 1}
-            standing = {"standing": "best"} if name == "v:rays=8" else {"standing": "behind", "p_best": 0.001}
+            standing = {"standing": "best"} if name == "v:rays=8" else {"standing": "behind", "p_best": 0.001, "p_equivalent": 1}
             errors.append(row | {"low": row["value"] * 0.99, "high": row["value"] * 1.01, "ranked": 1, "floor": 0.001, "seed": 0} | standing)
             for frame in range(FRAMES):
                 times.append(own | {"seed": 0, "stage": "total", "frame": frame, "milliseconds": ms * (1 + 0.01 * (frame % 3)), "clock": "host_fence", "disturbed": 0})
