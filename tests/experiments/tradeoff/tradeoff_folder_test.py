@@ -173,7 +173,7 @@ class Folder(unittest.TestCase):
         # 0.8 of 8 in `floor` and as much in `wall`; nothing fits in 3 ms but `none`.
         self.assertIn("| 3 | none that fits in all scenes |", answers)
         self.assertIn("**v** has the least error, 0.125 of that of none (geometric mean, 2 scenes)", answers)
-        self.assertIn("2 scenes are too few for an interval", answers)
+        self.assertIn("Of other scenes 2 scenes say nothing", answers)
         self.assertIn("| v rays=1: rays: 1 -> 2 | wall | -50 [-52, -48] |", answers)
         self.assertIn("Multiples leave out sky:", answers)
         self.assertIn("The timer was not validated in 1 of 3 shots", answers)
