@@ -1,9 +1,9 @@
 #include "experiments/evaluation/judgement.h"
 
 #include "core/error.h"
+#include "experiments/evaluation/power.h"
 #include "experiments/measuring/cell.h"
 #include "experiments/measuring/reference_noise.h"
-#include "metrics/quantiles.h"
 
 #include <cmath>
 #include <map>
@@ -28,10 +28,8 @@ std::map<std::string, const EffectRow*> rows_of_shots(std::span<const EffectRow>
 /// From the interval's width, which is Student's on the logarithm; with one image a side it is the reference's noise
 /// alone.
 double detectable_ratio(const EffectRow& row) {
-    const double degrees = double((row.seeds > 1 ? row.seeds : noise_groups) - 1), power = 0.95;
-    const double deviation = std::log(*row.high / *row.low) / 2 / student_t_quantile(1 - significance / 2, degrees);
-    return std::exp(deviation *
-                    (student_t_quantile(1 - judge_significance / 2, degrees) + student_t_quantile(power, degrees)));
+    const ComparedRatio ratio{*row.low, *row.high, double((row.seeds > 1 ? row.seeds : noise_groups) - 1)};
+    return std::exp(effects_seen(ratio.degrees, judge_significance, 0.95) * ratio.standard_error());
 }
 
 std::string verdict_at(const PairP& p, double ratio) {

@@ -18,13 +18,6 @@ double test_quantile(double share, double degrees) {
 
 double adjusted_level(size_t comparisons) { return significance / double(std::max<size_t>(comparisons, 1)); }
 
-/// The degrees of freedom of a shot's pair with the best: seeds alone are counted, as Satterthwaite's are not kept. The
-/// noise of the reference adds more, so that what is said to be seen is not too little.
-double pair_degrees(const MetricSummary& e) {
-    const bool is_of_seeds = e.interval.find("seeds") != std::string::npos;
-    return is_of_seeds && e.seeds > 1 ? double(e.seeds - 1) : 0;
-}
-
 double middle_of(std::vector<double> values) {
     std::ranges::sort(values);
     return 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
@@ -54,13 +47,12 @@ bool has_ratio_interval(const std::optional<double>& low, const std::optional<do
     return low && high && *low > 0 && std::isfinite(*high) && *high >= *low;
 }
 
-/// The pairs with the first rank. That compares with none, and has no interval. Intervals are of the scenes' own scatter,
-/// moderated where three points or more tell it together (PooledScatter).
+/// The pairs with the first rank. That compares with none, and has no interval. Intervals are of the scenes' own
+/// scatter, moderated where three points or more tell it together (PooledScatter).
 std::vector<NamedRatio> pairs_over_scenes(std::span<const OverScenesRow* const> rows) {
     std::vector<NamedRatio> pairs;
     for (const OverScenesRow* row : rows) {
-        const double scenes = double(row->scenes),
-                     degrees = rows.size() > 2 ? scenes - 1 + pooled_degrees : scenes - 2;
+        const double scenes = double(row->scenes), degrees = rows.size() > 2 ? scenes - 1 + pooled_degrees : scenes - 2;
         if (row->scenes >= least_scenes && has_ratio_interval(row->over_best_low, row->over_best_high))
             pairs.push_back({{row->variant, row->point}, {*row->over_best_low, *row->over_best_high, degrees}});
     }
@@ -78,27 +70,18 @@ double power_of_test(double effects, double degrees, double level) {
     return 1 - noncentral_t_cdf(limit, degrees, effects) + noncentral_t_cdf(-limit, degrees, effects);
 }
 
-double effects_seen(double degrees, double level) {
+double effects_seen(double degrees, double level, double power) {
     double low = 0, high = 1;
-    while (power_of_test(high, degrees, level) < wanted_power) low = high, high *= 2;
+    while (power_of_test(high, degrees, level) < power) low = high, high *= 2;
     while (high - low > 1e-4 * high) {
         const double middle = 0.5 * (low + high);
-        (power_of_test(middle, degrees, level) < wanted_power ? low : high) = middle;
+        (power_of_test(middle, degrees, level) < power ? low : high) = middle;
     }
     return high;
 }
 
 double ComparedRatio::standard_error() const {
     return (std::log(high) - std::log(low)) / 2 / test_quantile(0.975, degrees);
-}
-
-double smallest_difference_seen(const ComparedRatio& ratio, size_t comparisons) {
-    return std::expm1(effects_seen(ratio.degrees, adjusted_level(comparisons)) * ratio.standard_error());
-}
-
-double power_of_difference(const ComparedRatio& ratio, double share, size_t comparisons) {
-    const double error = ratio.standard_error();
-    return error > 0 ? power_of_test(std::log1p(share) / error, ratio.degrees, adjusted_level(comparisons)) : 1;
 }
 
 size_t comparisons_left(std::span<const MetricSummary> errors, const std::string& target, const std::string& metric,
@@ -114,10 +97,13 @@ size_t comparisons_left(std::span<const MetricSummary> errors, const std::string
 }
 
 std::optional<VisibleDifference> visible_in_shot(std::span<const MetricSummary* const> points, size_t comparisons) {
+    // Of a pair the degrees of the seeds alone are counted, as Satterthwaite's are not kept. The noise of the reference
+    // adds more, so that what is said to be seen is not too little.
     std::vector<NamedRatio> pairs;
     for (const MetricSummary* e : points)
         if (has_ratio_interval(e->over_best_low, e->over_best_high))
-            pairs.push_back({{e->variant, e->point}, {*e->over_best_low, *e->over_best_high, pair_degrees(*e)}});
+            pairs.push_back(
+                {{e->variant, e->point}, {*e->over_best_low, *e->over_best_high, double(e->seed_degrees())}});
     return visible_of_pairs(pairs, comparisons);
 }
 

@@ -16,8 +16,8 @@ inline constexpr double wanted_power = 0.8;
 /// standard error is known, and the test is a normal's.
 double power_of_test(double effects, double degrees, double level);
 
-/// The least true difference, in standard errors, that is found with wanted_power.
-double effects_seen(double degrees, double level);
+/// The least true difference, in standard errors, that is found with so much power, in (level, 1).
+double effects_seen(double degrees, double level, double power = wanted_power);
 
 /// One error over another, as intervals tell it.
 struct ComparedRatio {
@@ -28,15 +28,9 @@ struct ComparedRatio {
     double standard_error() const;
 };
 
-/// By how much an error must exceed another, as a share of that, to be seen with wanted_power: exp(effects_seen() s) -
-/// 1 with s the standard error. The test is the strictest of `comparisons` that are adjusted together (Bonferroni). 0
-/// where the interval has no width.
-double smallest_difference_seen(const ComparedRatio& ratio, size_t comparisons);
-
-/// Probability that a difference of `share` of the error (0.05: 5 %) is seen, by the same test.
-double power_of_difference(const ComparedRatio& ratio, double share, size_t comparisons);
-
-/// What a study of this kind can see of one error.
+/// What a study of this kind can see of one error: by how much it must exceed another, as a share of that, to be seen
+/// with wanted_power, exp(effects_seen() s) - 1 with s the standard error. The test is the strictest of `comparisons`
+/// that are adjusted together (Bonferroni).
 struct VisibleDifference {
     double typical = 0;    ///< share of the error: the median over the compared points
     double largest = 0;    ///< that of the point which scatters most ...

@@ -23,12 +23,6 @@ double half_width(const MetricSummary& e, Better better, bool is_worse_side) {
     return is_worse_side ? std::max({ends[0], ends[1], own}) - own : own - std::min({ends[0], ends[1], own});
 }
 
-/// The degrees of freedom that the interval's half-width is of; 0: a normal's.
-unsigned degrees_of(const MetricSummary& e) {
-    const bool is_of_seeds = e.interval.find("seeds") != std::string::npos;
-    return is_of_seeds && e.seeds > 1 ? e.seeds - 1 : 0;
-}
-
 /// Sets over_best where the pair has a ratio.
 PairP compare(MetricSummary& e, const MetricSummary& best, const PairedErrors& paired, double margin) {
     if (paired) {
@@ -119,7 +113,7 @@ PairP p_by_intervals(const MetricSummary& a, const MetricSummary& b, double marg
         const bool is_a_worse = (difference > 0) == is_apart;
         return std::hypot(half_width(a, better, is_a_worse), half_width(b, better, !is_a_worse));
     };
-    const unsigned of_a = degrees_of(a), of_b = degrees_of(b),
+    const unsigned of_a = a.seed_degrees(), of_b = b.seed_degrees(),
                    least = of_a > 0 && of_b > 0 ? std::min(of_a, of_b) : std::max(of_a, of_b);
     const double degrees = least > 0 ? least : 1e9;  // as good as a normal's
     const double quantile = student_t_quantile(0.975, degrees), closer = both(false) / quantile;

@@ -122,6 +122,10 @@ std::vector<std::vector<const Row*>> grouped(std::span<const Row> rows, KeyOf ke
 
 }  // namespace
 
+unsigned MetricSummary::seed_degrees() const {
+    return interval.find("seeds") != std::string::npos && seeds > 1 ? seeds - 1 : 0;
+}
+
 Extrapolated MetricSummary::extrapolated() const {
     return {*value, value_of_power.value_or(*value), value_of_bounded.value_or(*value)};
 }

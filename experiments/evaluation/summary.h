@@ -34,6 +34,9 @@ struct MetricSummary {
     std::string fronts = {};             ///< the costs against which the point is on the front, see set_fronts()
     std::string dominated = {};          ///< whether another point of the shot surely beats it, see set_dominated()
 
+    /// The degrees of freedom that the interval has from its seeds; 0: it is of no seeds, and taken for a normal's.
+    unsigned seed_degrees() const;
+
     /// `value` with and without the reference's noise: three times the same where that is no part of it.
     Extrapolated extrapolated() const;
 

@@ -2,6 +2,7 @@
 
 #include "experiments/evaluation/interval.h"
 #include "experiments/evaluation/power.h"
+#include "experiments/report/answer_text.h"
 #include "metrics/noise.h"
 #include "metrics/temporal.h"
 
@@ -27,16 +28,14 @@ Cause cause_of(const MetricSummary& e) {
 
 std::string point_name(const MetricSummary& e, const PointLabels& labels) {
     const auto label = labels.find({e.variant, e.point});
-    if (label != labels.end() && !label->second.empty()) return label->second;
-    return e.point == "default" || e.point.empty() ? e.variant : e.variant + " " + e.point;
+    return name_of(
+        AnswerPoint{.variant = e.variant, .point = e.point, .label = label == labels.end() ? "" : label->second});
 }
 
 std::string listed_points(const std::vector<const MetricSummary*>& points, const PointLabels& labels) {
-    constexpr size_t most = 2;
-    std::string text;
-    for (size_t i = 0; i < std::min(points.size(), most); ++i)
-        text += (i == 0 ? "" : i + 1 == points.size() ? " and " : ", ") + point_name(*points[i], labels);
-    return points.size() > most ? text + " and " + std::to_string(points.size() - most) + " more" : text;
+    std::vector<std::string> names;
+    for (const MetricSummary* e : points) names.push_back(point_name(*e, labels));
+    return listed(names, 2);
 }
 
 /// Two significant digits, and whole numbers from 10 on.

@@ -1,6 +1,7 @@
 #include "experiments/run/plan/ranking_warnings.h"
 
 #include "experiments/evaluation/effects/over_scenes.h"
+#include "experiments/report/answer_text.h"
 #include "metrics/metric.h"
 #include "metrics/noise.h"
 
@@ -9,13 +10,7 @@
 
 namespace {
 
-std::string listed_names(const std::vector<std::string>& names) {
-    constexpr size_t most = 3;
-    std::string text;
-    for (size_t i = 0; i < std::min(names.size(), most); ++i)
-        text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
-    return names.size() > most ? text + " and " + std::to_string(names.size() - most) + " more" : text;
-}
+std::string listed_names(const std::vector<std::string>& names) { return listed(names, 3); }
 
 /// Per pixel, of the specular light; 0 where the study sets no limit of samples.
 unsigned samples_of_reference(const ReferenceSettings& reference) {

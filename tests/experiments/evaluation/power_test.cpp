@@ -41,8 +41,9 @@ TEST(Power, OfSimulatedStudiesIsWhatIsSaid) {
     const double half = student_t_quantile(0.975, seeds - 1) * error;
     for (const size_t comparisons : {size_t(1), size_t(11)}) {
         const ComparedRatio ratio{.low = std::exp(-half), .high = std::exp(half), .degrees = seeds - 1};
-        const double share = smallest_difference_seen(ratio, comparisons);
-        EXPECT_NEAR(power_of_difference(ratio, share, comparisons), wanted_power, 1e-3);
+        const double level = significance / double(comparisons), effects = effects_seen(seeds - 1, level);
+        const double share = std::expm1(effects * ratio.standard_error());
+        EXPECT_NEAR(power_of_test(effects, seeds - 1, level), wanted_power, 1e-3);
         std::mt19937 random(5);
         std::normal_distribution<double> normal(std::log1p(share), scatter);
         int seen = 0;
@@ -58,8 +59,7 @@ TEST(Power, OfSimulatedStudiesIsWhatIsSaid) {
         // 4 standard errors of 4000 studies.
         EXPECT_NEAR(double(seen) / studies, wanted_power, 4 * std::sqrt(0.16 / studies)) << comparisons;
     }
-    EXPECT_EQ(smallest_difference_seen({.low = 2, .high = 2, .degrees = 3}, 1), 0) << "without noise all is seen";
-    EXPECT_EQ(power_of_difference({.low = 2, .high = 2, .degrees = 3}, 0.01, 1), 1);
+    EXPECT_EQ((ComparedRatio{.low = 2, .high = 2, .degrees = 3}.standard_error()), 0) << "without noise all is seen";
 }
 
 TEST(Power, OfAShotIsTheMedianAndTheWorstOfItsPairs) {
@@ -92,7 +92,8 @@ TEST(Power, CountsThePairsThatAreLeft) {
     const auto add = [&](const std::string& shot, const char* standing) {
         errors.push_back(ranked_point("a", 1, 0.1, 1)), errors.back().shot = shot, errors.back().standing = standing;
     };
-    for (const char* standing : {standing::tied, standing::tied, standing::equivalent, standing::behind}) add("s", standing);
+    for (const char* standing : {standing::tied, standing::tied, standing::equivalent, standing::behind})
+        add("s", standing);
     for (const char* standing : {standing::best, standing::behind, ""}) add("t", standing);
     EXPECT_EQ(comparisons_left(errors, "", "mse", ""), 3u) << "three points of one shot, one of the other";
     EXPECT_EQ(comparisons_left(errors, "", "flip", ""), 1u);

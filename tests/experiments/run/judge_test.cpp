@@ -87,13 +87,14 @@ TEST(Judgement, IsWorseIfAViewIsAndAdjustsForTheirNumber) {
 }
 
 TEST(Judgement, SaysWhichChangeItWouldSee) {
-    // Student's t of 7 degrees: 2.3646 at 97.5 %, 3.4995 at 99.5 %, 1.8946 at 95 %.
+    // Student's t of 7 degrees is 2.3646 at 97.5 %. A noncentral one lies beyond 3.4995 (99.5 %) in 95 % where it is
+    // moved by 5.6441 (scipy's nct).
     EffectRow row = effect("a", 1, 0.5);
     row.seeds = 8, row.low = std::exp(-2.3646 * 0.02), row.high = std::exp(2.3646 * 0.02);
-    EXPECT_NEAR(judged({row}).views.at(0).detectable, std::exp((3.4995 + 1.8946) * 0.02), 1e-4);
-    // One image a side: the truth's noise, nearly normal: 1.9693, 2.5954 and 1.6509 of 255 degrees.
+    EXPECT_NEAR(judged({row}).views.at(0).detectable, std::exp(5.6441 * 0.02), 1e-4);
+    // One image a side: the truth's noise, nearly normal: 1.9693, and 4.2484 of 255 degrees.
     row.seeds = 1, row.low = std::exp(-1.9693 * 0.02), row.high = std::exp(1.9693 * 0.02);
-    EXPECT_NEAR(judged({row}).views.at(0).detectable, std::exp((2.5954 + 1.6509) * 0.02), 1e-4);
+    EXPECT_NEAR(judged({row}).views.at(0).detectable, std::exp(4.2484 * 0.02), 1e-4);
 }
 
 TEST(Judgement, SaysNothingOfWhatCannotBeDecided) {
