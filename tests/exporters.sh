@@ -13,6 +13,6 @@ esac
 install_packages "${build_packages[@]}" "${exporter_packages[@]}"
 build release ssrlab
 say "Blender"
-/usr/bin/python3 -B tests/experiments/captures/blender_check.py build/release/ssrlab
+/usr/bin/python3 -B tests/experiments/bridges/captures/blender_check.py build/release/ssrlab
 say "RenderDoc"
-/usr/bin/python3 -B tests/experiments/captures/renderdoc_check.py build/release/ssrlab
+/usr/bin/python3 -B tests/experiments/bridges/captures/renderdoc_check.py build/release/ssrlab

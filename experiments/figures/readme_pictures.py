@@ -163,7 +163,7 @@ def main():
     parser.add_argument("--report", metavar="QUICKSTART", help="the results folder of the quickstart, for a picture of its report")
     parser.add_argument("--findings", metavar="COMPARISON", help="the results folder of the comparison, for the findings' pictures")
     parser.add_argument("--composed", metavar="COMPOSED_MOTION", help="that of composed_ssr in motion, for more of them")
-    parser.add_argument("--engines", metavar="ENGINES", help="that of experiments/engines/engines.json, for those of engines")
+    parser.add_argument("--engines", metavar="ENGINES", help="that of experiments/bridges/engines/engines.json, for those of engines")
     arguments = parser.parse_args()
     style.apply()
     draw_error_time()

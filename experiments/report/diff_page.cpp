@@ -1,7 +1,7 @@
 #include "experiments/report/diff_page.h"
 
 #include "core/files.h"
-#include "experiments/config/targets.h"
+#include "experiments/results/tables/targets.h"
 #include "experiments/report/report.h"
 #include "experiments/report/report_data.h"
 #include "experiments/report/report_images.h"

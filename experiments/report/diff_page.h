@@ -1,5 +1,5 @@
 #pragma once
-#include "experiments/evaluation/study_diff.h"
+#include "experiments/results/verdicts/study_diff.h"
 
 #include <filesystem>
 #include <nlohmann/json.hpp>

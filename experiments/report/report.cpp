@@ -4,15 +4,15 @@
 #include "core/files.h"
 #include "core/json.h"
 #include "core/path_inside.h"
-#include "experiments/evaluation/columns/results_schema.h"
-#include "experiments/evaluation/study_tables.h"
-#include "experiments/evaluation/summary.h"
-#include "experiments/report/answers.h"
+#include "experiments/results/results_schema.h"
+#include "experiments/results/verdicts/study_tables.h"
+#include "experiments/results/verdicts/summary.h"
+#include "experiments/results/answers/answers.h"
 #include "experiments/report/page_template.h"
 #include "experiments/report/report_data.h"
 #include "experiments/report/report_images.h"
 #include "experiments/report/report_warnings.h"
-#include "experiments/report/scenes_answer.h"
+#include "experiments/results/answers/scenes_answer.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -176,7 +176,7 @@ StudyAnswers write_report(const std::filesystem::path& folder, bool links_images
     }
     const json manifest = read_json(file);
     require_manifest(manifest, file);
-    const ReportTables tables = read_report_tables(folder, manifest);
+    const ResultTables tables = read_result_tables(folder, manifest);
 
     const PointSet singles = single_changes(manifest);
     json data = report_data(tables, singles);

@@ -1,5 +1,5 @@
 #pragma once
-#include "experiments/report/answers.h"
+#include "experiments/results/answers/answers.h"
 
 #include <filesystem>
 
@@ -17,3 +17,6 @@ std::string page_text(const std::string& title, const nlohmann::json& data, nloh
 /// stability`, the page shows them; where it holds these alone, it shows nothing else. Fails with Error, naming the
 /// file, if one is missing or malformed. Returns what the page says first.
 StudyAnswers write_report(const std::filesystem::path& results_folder, bool links_images = false);
+
+/// RunSettings::write_report.
+inline StudyAnswers write_page(const std::filesystem::path& results_folder) { return write_report(results_folder); }

@@ -2,10 +2,8 @@
 
 #include "core/gpu/chips/model_range.h"
 #include "core/gpu/pass_cost.h"
-#include "core/path_inside.h"
-#include "experiments/evaluation/evaluation.h"
-#include "experiments/measuring/costs/counts_spread.h"
-#include "experiments/store/manifest.h"
+#include "experiments/results/tables/counts_spread.h"
+#include "experiments/results/tables/manifest.h"
 
 #include <algorithm>
 #include <map>
@@ -99,39 +97,14 @@ json stability_data(const StabilityTables& tables, Texts& code) {
     return {{"lead", stability_lead(tables)},
             {"verdicts", verdicts},  // from the best to the worst; rows have indices into them
             {"failures", failures},
-            {"cases", table<StabilityCase>(tables.cases, code)},
+            {"cases", table<StabilityCaseName>(tables.cases, code)},
             {"rows", table<StabilityRow>(tables.rows, code)},
             {"stages", table<StageRow>(stages, code)}};
 }
 
 }  // namespace
 
-ReportTables read_report_tables(const std::filesystem::path& folder, const json& manifest) {
-    require_evaluation(folder, manifest);
-    const auto file = [&](const char* name) { return path_inside(folder, name); };
-    ReportTables tables{.errors = read_rows<MetricSummary>(file("summary.csv")),
-                        .splits = {},
-                        .hits = {},
-                        .costs = {},
-                        .compiled = {},
-                        .estimates = {},
-                        .effects = {},
-                        .time_effects = {},
-                        .times = read_rows<TimeSummary>(file("time_summary.csv")),
-                        .over_scenes = read_rows<OverScenesRow>(file("over_scenes.csv")),
-                        .stability = read_stability_tables(folder)};
-    const auto has = [&](const char* name) { return std::filesystem::exists(file(name)); };
-    if (has("splits.csv")) tables.splits = read_rows<SplitRow>(file("splits.csv"));
-    if (has("hits.csv")) tables.hits = read_rows<HitRow>(file("hits.csv"));
-    if (has("costs.csv")) tables.costs = read_rows<CostRow>(file("costs.csv"));
-    if (has("compiled.csv")) tables.compiled = read_rows<CompiledRow>(file("compiled.csv"));
-    if (has("estimates.csv")) tables.estimates = read_rows<EstimateRow>(file("estimates.csv"));
-    if (has("effects.csv")) tables.effects = read_rows<EffectRow>(file("effects.csv"));
-    if (has("time_effects.csv")) tables.time_effects = read_rows<TimeEffectRow>(file("time_effects.csv"));
-    return tables;
-}
-
-json report_data(const ReportTables& tables, const PointSet& single_changes) {
+json report_data(const ResultTables& tables, const PointSet& single_changes) {
     Texts code;
     std::vector<MetricSummary> errors, frames;
     std::set<std::tuple<std::string, std::string, std::string, std::string>> known_over_frames;

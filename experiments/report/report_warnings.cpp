@@ -1,6 +1,6 @@
 #include "experiments/report/report_warnings.h"
 
-#include "experiments/report/answer_text.h"
+#include "experiments/results/answers/answer_text.h"
 
 #include <algorithm>
 #include <cmath>

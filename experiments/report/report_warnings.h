@@ -1,5 +1,5 @@
 #pragma once
-#include "experiments/evaluation/summary.h"
+#include "experiments/results/verdicts/summary.h"
 
 #include <nlohmann/json.hpp>
 #include <string>

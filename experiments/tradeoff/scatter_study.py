@@ -17,7 +17,7 @@ KEPT = {  # file, table, its axis of scenes
     "`rooms_tuned`, FLIP": ("rooms_tuned.csv", "by_room", "row"),
     "`quality`, MSE": ("quality.csv", "errors", "column"),
 }
-PRIOR = 3  # pooled_degrees, experiments/evaluation/effects/scatter_over_scenes.h
+PRIOR = 3  # pooled_degrees, experiments/results/verdicts/effects/scatter_over_scenes.h
 NEAR = np.log(1.1)
 BINS = ((0, 0.05), (0.05, 0.2), (0.2, 0.5), (0.5, 0.8), (0.8, 1.01))
 

@@ -9,7 +9,7 @@ DIGITS = 4  # of a number that was sampled: names of points and presets stay leg
 
 
 def holds(test, value):
-    """Whether a value of a parameter meets a condition of a config (experiments/config/points/conditions.h)."""
+    """Whether a value of a parameter meets a condition of a config (experiments/study/config/points/conditions.h)."""
     if isinstance(test, list):
         return value in test
     if not isinstance(test, dict):

@@ -38,7 +38,7 @@ class Studies:
     """Those of one search in its folder, and what of their tables counts."""
 
     def __init__(self, asked, out, command, baseline):
-        """`asked`: what `ssrlab tune` read of the config (experiments/commands/script_commands.cpp). `baseline`: the name
+        """`asked`: what `ssrlab tune` read of the config (experiments/cli/script_commands.cpp). `baseline`: the name
         of the point that all are compared with."""
         self.rules = asked["tune"]
         self.common = {k: v for k, v in asked["study"].items() if k not in NOT_OF_STUDIES}

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-NO_INTERVAL = "none: "  # experiments/evaluation/interval.h: before the reason
+NO_INTERVAL = "none: "  # experiments/results/verdicts/interval.h: before the reason
 NOT_POSITIVE = NO_INTERVAL + "an error is not above 0"
 SOME_ZERO = NO_INTERVAL + "a count is 0"
 COUNTED = "counted"  # of counts, in place of what an interval holds: they are of one seed
@@ -24,7 +24,7 @@ class Cell:
     most: float = None
     is_significant: bool = False  # as effects.csv says (`verdict`)
     seeds: int = None
-    interval: str = None  # what it holds, or why there is none: experiments/evaluation/interval.h; COUNTED; EXACT
+    interval: str = None  # what it holds, or why there is none: experiments/results/verdicts/interval.h; COUNTED; EXACT
     mean_of: int = None  # how many have a value and are in the mean; of how many, its table knows
     clock: str = None  # of times
     disturbed_share: float = None  # of the frames that a time is the median of, by other programs

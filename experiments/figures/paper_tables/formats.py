@@ -9,7 +9,7 @@ from ssrlab.results import BEST, LIKE_BEST
 from paper_tables.cell import BOTH, COUNTED, EXACT
 from paper_tables.means import ASSETS, SAMPLED
 
-# What intervals hold (experiments/evaluation/interval.h) that is less than the scatter over the seeds and the reference's noise, where
+# What intervals hold (experiments/results/verdicts/interval.h) that is less than the scatter over the seeds and the reference's noise, where
 # there are such: its mark, and what the mark says.
 LESSER = {
     "seeds": ("\N{DAGGER}", "the interval holds the seeds alone, not the reference's noise"),

@@ -8,7 +8,7 @@ KINDS = ("camera", "size", "frames", "settings")
 
 
 def parts(name):
-    """scene.camera.WxH[.fA[-B]][.nN][.wW][.rR][.settings], as experiments/config/shots/shot.cpp names shots, by kind; None if it is no such name."""
+    """scene.camera.WxH[.fA[-B]][.nN][.wW][.rR][.settings], as experiments/study/config/shots/shot.cpp names shots, by kind; None if it is no such name."""
     words = name.split(".")
     at = next((i for i, word in enumerate(words) if i > 1 and SIZE.fullmatch(word)), None)
     if at is None:

@@ -60,8 +60,8 @@ def read_schema(folder):
     return {r["name"]: r["schema"]["fields"] for r in read_json(file, _SCHEMA)["resources"]} if os.path.exists(file) else {}
 
 
-ONE_SEED = "none: 1 seed"  # experiments/evaluation/interval.h
-BEST, TIED, EQUIVALENT, BEHIND = "best", "tied", "equivalent", "behind"  # experiments/evaluation/standings.h
+ONE_SEED = "none: 1 seed"  # experiments/results/verdicts/interval.h
+BEST, TIED, EQUIVALENT, BEHIND = "best", "tied", "equivalent", "behind"  # experiments/results/verdicts/standings.h
 LIKE_BEST = (TIED, EQUIVALENT)  # neither better than all others nor behind
 # Which values of a metric are good, to how far a value is from the best one.
 DIRECTIONS = {"lower": lambda v: v, "higher": lambda v: -v, "near_zero": abs, "near_one": lambda v: abs(v - 1)}

@@ -1,5 +1,5 @@
 """Statistics of numbers that scripts choose, as ssrlab itself computes them: asked of the program, so that each is written once
-(experiments/commands/statistics_command.cpp). One process answers all questions of a script, some 20 microseconds each."""
+(experiments/cli/statistics_command.cpp). One process answers all questions of a script, some 20 microseconds each."""
 
 import functools
 import json
@@ -74,7 +74,7 @@ def model_range():
 
 @functools.cache
 def counts_spread():
-    """By how much the counts of a point's seeds spread at most (experiments/measuring/costs/counts_spread.h), relative."""
+    """By how much the counts of a point's seeds spread at most (experiments/results/tables/counts_spread.h), relative."""
     return _ask("counts_spread", [])[0]
 
 

@@ -39,7 +39,7 @@ function readData() {
         manifest: raw.manifest,
         metrics: raw.metrics,
         defaults: raw.defaults,          // variant to {parameter: value}, of those that this build knows
-        headline: raw.headline ?? null,  // of studies, as their answers: experiments/report/answers.h
+        headline: raw.headline ?? null,  // of studies, as their answers: experiments/results/answers/answers.h
         answers: raw.answers ?? [],
         inTheseScenes: raw.in_these_scenes ?? "",
         inScenesLikeThese: raw.in_scenes_like_these ?? "",

@@ -45,7 +45,7 @@ function number(x, digits = 4) {
     return String(Number(x.toPrecision(digits)));
 }
 
-/// Why a value has no interval, as experiments/evaluation/interval.h has it; empty where the reason is unknown.
+/// Why a value has no interval, as experiments/results/verdicts/interval.h has it; empty where the reason is unknown.
 const whyNoInterval = row => row.value !== null && row.interval?.startsWith("none: ") ?
     `${row.interval.slice("none: ".length)}: no interval` :
     "";
@@ -156,7 +156,7 @@ async function copyText(text) {
 }
 
 /// A text of a table as spreadsheets take it: what begins like a formula and is more than a number, a percentage or an interval stands behind
-/// an apostrophe, as in ssrlab's own files (experiments/tables/csv.h).
+/// an apostrophe, as in ssrlab's own files (experiments/results/tables/csv.h).
 const inCells = text => /^'*[=+\-@]/.test(text) && !/^[+-][\d.,e\s%[\]+-]*$/.test(text) ? `'${text}` : text;
 
 /// Buttons that copy a table as it is shown, for a spreadsheet, and save it under the name that `name` gives.

@@ -1,4 +1,4 @@
-"""The points of a study, each with its error and its cost in every shot, as ssrlab judged them (experiments/evaluation/tradeoff/tradeoff.h)."""
+"""The points of a study, each with its error and its cost in every shot, as ssrlab judged them (experiments/results/tradeoff/tradeoff.h)."""
 
 from dataclasses import dataclass, field
 

@@ -45,7 +45,7 @@ class Analysis:
         return self._shot_columns(shot) | {"variant": variant, "label": variant, "start": curve.start, "end": curve.end}
 
     def _error_at_cost_rows(self, shot):
-        """On the variant's curve, and beside it the point that ran which ssrlab chose (ChosenPoint, experiments/evaluation/tradeoff/tradeoff.h)."""
+        """On the variant's curve, and beside it the point that ran which ssrlab chose (ChosenPoint, experiments/results/tradeoff/tradeoff.h)."""
         for variant, curve in self.curves[shot.name].items():
             for cost in self.costs:
                 chosen = self.study.chosen[shot.name, variant, cost]

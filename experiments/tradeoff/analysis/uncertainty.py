@@ -51,7 +51,7 @@ class ShotDraws:
             rest = math.sqrt(max(up * up - of_seeds * of_seeds, 0.0)) / NORMAL
             relative += rest / p.error * normal(("reference", p.variant))
             down = min(max(p.error - p.error_low, 0.0), up) if p.error_low <= 0 else max(p.error - p.error_low, 0.0)
-            # What the noise of the lit colour adds reaches down alone (experiments/measuring/lit_noise.h).
+            # What the noise of the lit colour adds reaches down alone (experiments/study/measuring/lit_noise.h).
             relative -= lit * max(down - up, 0.0) / p.error
             drawn[i] = p.error * np.exp(np.clip(relative, -20, 20))
         return drawn

@@ -27,7 +27,7 @@ TABLES = [
     },
     {"name": "parts", "caption": "Parts", "of": "splits", "where": {"shot": "floor"}, "rows": "point", "columns": "metric"},
 ]
-SEEDS, REFERENCE, ONE_SEED = "seeds", "reference and seeds", "none: 1 seed"  # experiments/evaluation/interval.h
+SEEDS, REFERENCE, ONE_SEED = "seeds", "reference and seeds", "none: 1 seed"  # experiments/results/verdicts/interval.h
 RATIOS = {  # point, metric, shot: ratio, low, high, p_holm
     ("taps=4", "mse", "floor"): (0.5, 0.45, 0.555555555555, 0.001),
     ("taps=4", "mse", "wall"): (2.0, 1.8, 2.222222222222, 0.001),

@@ -1,9 +1,9 @@
 // What a study says of a shot at first sight, of made-up tables.
-#include "experiments/report/answers.h"
+#include "experiments/results/answers/answers.h"
 
-#include "experiments/evaluation/interval.h"
-#include "experiments/evaluation/standings.h"
-#include "experiments/report/scenes_answer.h"
+#include "experiments/results/verdicts/interval.h"
+#include "experiments/results/verdicts/standings.h"
+#include "experiments/results/answers/scenes_answer.h"
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ const json manifest = {
           {"high", 0.051}}}}}}}};
 
 struct Made {
-    ReportTables tables;
+    ResultTables tables;
 
     /// An error with an interval of -+ `half`, in all else as the headline; a total time unless it is 0.
     void add(const std::string& variant, double value, double half, double milliseconds = 0,

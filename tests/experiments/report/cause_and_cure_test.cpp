@@ -1,8 +1,8 @@
 // What is said of points that are not ranked, and of what a study can see, of made-up errors.
-#include "experiments/report/cause_and_cure.h"
+#include "experiments/results/answers/cause_and_cure.h"
 
-#include "experiments/evaluation/interval.h"
-#include "experiments/evaluation/standings.h"
+#include "experiments/results/verdicts/interval.h"
+#include "experiments/results/verdicts/standings.h"
 
 #include <gtest/gtest.h>
 #include <cmath>

@@ -2,9 +2,9 @@
 
 #include "core/exr.h"
 #include "core/files.h"
-#include "experiments/evaluation/evaluation.h"
-#include "experiments/store/manifest.h"
-#include "experiments/store/study_rows.h"
+#include "experiments/results/evaluation.h"
+#include "experiments/study/manifest_entries.h"
+#include "experiments/results/cells/study_rows.h"
 
 #include <cmath>
 #include <random>

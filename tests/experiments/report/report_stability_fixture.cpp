@@ -1,6 +1,6 @@
 #include "tests/experiments/report/report_stability_fixture.h"
 
-#include "experiments/stability/stability_rows.h"
+#include "experiments/results/stability/stability_rows.h"
 
 namespace {
 

@@ -3,12 +3,12 @@
 
 #include "core/exr.h"
 #include "core/files.h"
-#include "experiments/evaluation/effects/effects.h"
-#include "experiments/evaluation/effects/time_effects.h"
-#include "experiments/evaluation/evaluation.h"
-#include "experiments/evaluation/interval.h"
-#include "experiments/store/manifest.h"
-#include "experiments/store/study_rows.h"
+#include "experiments/results/verdicts/effects/effects.h"
+#include "experiments/results/verdicts/effects/time_effects.h"
+#include "experiments/results/evaluation.h"
+#include "experiments/results/verdicts/interval.h"
+#include "experiments/study/manifest_entries.h"
+#include "experiments/results/cells/study_rows.h"
 
 #include <random>
 #include <vector>
@@ -390,13 +390,13 @@ void write_study_fixture(const std::filesystem::path& folder) {
             cells.push_back(std::move(cell));
         }
     }
-    std::vector<VariantConfig> variants;
+    std::vector<ComparedPoint> variants;
     for (const StudyPoint& p : study_points) {
-        VariantConfig variant;
+        ComparedPoint variant;
         variant.variant = p.variant, variant.point = p.point, variant.is_baseline = p.point == "first";
         variant.depends_on_seed = p.variant != "none";
         if (p.point == "fixed")
-            variant.against = {{"float_histories", false}}, variant.against_point = "first round_up_tiles=true";
+            variant.against = "float_histories=false", variant.against_point = "first round_up_tiles=true";
         variants.push_back(variant);
     }
     const StudyRows rows = rows_of(cells);

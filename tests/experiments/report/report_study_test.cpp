@@ -1,7 +1,7 @@
 #include "core/files.h"
 #include "core/json.h"
 #include "experiments/report/report.h"
-#include "experiments/report/report_data.h"
+#include "experiments/results/result_tables.h"
 #include "tests/experiments/report/report_study_fixture.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ struct StudyReport : testing::Test {
 }  // namespace
 
 TEST_F(StudyReport, ReadsEffectsAsTheyWereWritten) {
-    const ReportTables tables = read_report_tables(folder, read_json(folder / "manifest.json"));
+    const ResultTables tables = read_result_tables(folder, read_json(folder / "manifest.json"));
     write_text(folder / "before.csv", read_text(folder / "effects.csv"));
     ASSERT_FALSE(tables.effects.empty());
     write_rows(folder / "effects.csv", tables.effects);
@@ -47,7 +47,7 @@ TEST_F(StudyReport, KnowsTheDefaultsOfRegisteredVariants) {
 }
 
 TEST_F(StudyReport, LetsTheRowsOverFramesSpeakForAShot) {
-    const ReportTables tables = read_report_tables(folder, read_json(folder / "manifest.json"));
+    const ResultTables tables = read_result_tables(folder, read_json(folder / "manifest.json"));
     size_t over_frames = 0, of_last = 0;
     for (const MetricSummary& e : tables.errors) {
         if (!e.represents_shot || e.metric != "relmse" || e.mask != "reflective") continue;
@@ -60,7 +60,7 @@ TEST_F(StudyReport, LetsTheRowsOverFramesSpeakForAShot) {
 }
 
 TEST_F(StudyReport, CarriesEachFrameOfPresetsAlone) {
-    const ReportTables tables = read_report_tables(folder, read_json(folder / "manifest.json"));
+    const ResultTables tables = read_result_tables(folder, read_json(folder / "manifest.json"));
     const nlohmann::json data = report_data(tables, single_changes(read_json(folder / "manifest.json")));
     EXPECT_EQ(data["effects"]["rows"].size(), tables.effects.size());
     EXPECT_EQ(data["splits"]["rows"].size(), 7u * 5u);

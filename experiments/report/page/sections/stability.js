@@ -1,6 +1,6 @@
 // Stability under extreme inputs: each technique in each case of `ssrlab stability`, and what failed there.
 
-/// From the best to the worst, as verdict_names() of experiments/stability/stability_rows.cpp has them: a shape and a
+/// From the best to the worst, as verdict_names() of experiments/results/stability/stability_rows.cpp has them: a shape and a
 /// colour, so that either alone distinguishes them. Shapes fill a square from -1 to 1.
 const verdictMarks = [
     {d: "M-.3 0a.3 .3 0 1 0 .6 0a.3 .3 0 1 0 -.6 0", color: "var(--faint)"},

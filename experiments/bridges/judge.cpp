@@ -1,0 +1,166 @@
+#include "experiments/bridges/judge.h"
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/json.h"
+#include "core/scene/load_scene.h"
+#include "experiments/study/config/points/external_images.h"
+#include "experiments/study/config/shots/capture_folder.h"
+#include "experiments/results/verdicts/summary.h"
+#include "experiments/results/cells/image_path.h"
+
+#include <re2/re2.h>
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using nlohmann::json;
+
+std::set<unsigned> frames_in(const fs::path& folder) {
+    static const RE2 pattern(R"(f(\d{1,6})\.s0\.exr)");
+    std::set<unsigned> frames;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        unsigned frame = 0;
+        if (RE2::FullMatch(entry.path().filename().string(), pattern, &frame)) frames.insert(frame);
+    }
+    return frames;
+}
+
+}  // namespace
+
+std::vector<FramesOfView> views_of_frames(const fs::path& folder, const std::string& scene,
+                                          const std::vector<fs::path>& search_path) {
+    static const RE2 size(R"((.+)\.([1-9]\d{0,4})x([1-9]\d{0,4}))");
+    std::vector<FramesOfView> views;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        FramesOfView view{.folder = entry.path()};
+        std::string names;
+        if (!entry.is_directory() ||
+            !RE2::FullMatch(entry.path().filename().string(), size, &names, &view.width, &view.height))
+            continue;
+        if (!scene.empty() && !names.starts_with(scene + ".")) continue;
+        view.frames = frames_in(entry.path());
+        if (view.frames.empty() || names.find('.') == std::string::npos) continue;
+        view.name = scene.empty() ? view_name(names, entry.path(), search_path)
+                                  : ViewName{scene, names.substr(scene.size() + 1)};
+        views.push_back(std::move(view));
+    }
+    std::ranges::sort(views, {},
+                      [](const FramesOfView& v) { return std::tuple(v.name.scene, v.name.camera, v.width, v.height); });
+    return views;
+}
+
+namespace {
+
+json shots_of(const JudgeSettings& settings) {
+    if (!settings.capture.empty()) {
+        json shot = {{"gbuffer", fs::absolute(settings.capture).string()},
+                     {"reference", fs::absolute(settings.reference).string()}};
+        for (const auto& [frame, folder] : capture_frames(settings.capture)) shot["frames"].push_back(frame);
+        return {shot};
+    }
+    const std::string name = settings.scene.empty() ? "" : load_scene(settings.scene, settings.run.search_path).name;
+    json shots = json::array();
+    for (const FramesOfView& view : views_of_frames(settings.frames, name, settings.run.search_path))
+        shots.push_back({{"scene", name.empty() ? view.name.scene : settings.scene},
+                         {"camera", view.name.camera},
+                         {"resolution", {view.width, view.height}},
+                         {"frames", view.frames}});
+    if (shots.empty())
+        fail(settings.frames.string(), " holds no images of ", name.empty() ? "a view" : "'" + name + "'",
+             ": they are expected as SCENE.CAMERA.WIDTHxHEIGHT/fFRAME.s0.exr");
+    return shots;
+}
+
+constexpr const char *judged_point = "frames", *before_point = "before";
+
+/// The study that judges.
+Config study_of(const JudgeSettings& settings, const std::string& engine) {
+    json variants = {{{"variant", "none"}, {"baseline", settings.against.empty()}},
+                     {{"external", fs::absolute(settings.frames).string()},
+                      {"point", judged_point},
+                      {"label", fs::absolute(settings.frames).filename().string()}}};
+    if (!settings.against.empty())
+        variants.push_back({{"external", fs::absolute(settings.against).string()},
+                            {"point", before_point},
+                            {"label", fs::absolute(settings.against).filename().string() + " (before)"},
+                            {"baseline", true}});
+    json study = {{"title", engine},
+                  {"shots", shots_of(settings)},
+                  {"variants", variants},
+                  {"metrics", {"mse", "flip", "relmse"}},
+                  {"masks", {"all", "reflective", "edge", "roughness_0_0.1", "roughness_0.1_0.3", "roughness_0.3_0.6"}},
+                  {"targets", {"specular", "image"}},
+                  {"primary", {{"margin", settings.margin}}},
+                  {"timing", {{"frames", 0}}}};
+    if (settings.capture.empty()) study["reference"] = {{"samples", settings.samples}};
+    const fs::path file = settings.run.out / "judge.json";
+    write_text(file, study.dump(1) + "\n");
+    return read_config(file);
+}
+
+/// The images of a folder with the hashes of their bytes.
+std::map<fs::path, std::string> images_in(const fs::path& folder) {
+    std::map<fs::path, std::string> images;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (entry.path().extension() == ".exr") images[fs::relative(entry.path(), folder)] = file_hash(entry.path());
+    return images;
+}
+
+/// Fails if `other` lacks a frame that `folder` has: a verdict would leave it out.
+void refuse_missing_frames(const fs::path& folder, const fs::path& other) {
+    const auto there = images_in(other);
+    for (const auto& [image, hash] : images_in(folder))
+        if (image.string().ends_with(".s0.exr") && !there.contains(image))
+            fail(other.string(), " lacks ", image.string(), ", which ", folder.string(),
+                 " has: frames are judged against those of the same views");
+}
+
+/// Of each shot the error over its frames, or of its only one.
+std::vector<ViewError> errors_of(const fs::path& out, const PrimaryComparisons& primary) {
+    std::map<std::string, std::pair<MetricSummary, MetricSummary>> rows;  // of the frames, and of no reflections
+    for (const MetricSummary& r : read_rows<MetricSummary>(out / "summary.csv")) {
+        if (r.metric != primary.metric || r.mask != primary.mask || r.target != primary.target) continue;
+        if (r.variant != "none" && r.point != judged_point) continue;
+        auto& [frames, none] = rows[r.shot];
+        MetricSummary& kept = r.variant == "none" ? none : frames;
+        if (kept.shot.empty() || r.frame == over_frames) kept = r;
+    }
+    std::vector<ViewError> errors;
+    for (const auto& [shot, pair] : rows) {
+        const auto& [frames, none] = pair;
+        ViewError& error = errors.emplace_back(ViewError{shot, frames.value, frames.low, frames.high, {}});
+        if (frames.value && none.value && *none.value > 0) error.ratio_to_none = *frames.value / *none.value;
+    }
+    return errors;
+}
+
+}  // namespace
+
+JudgedFrames judge_frames(const JudgeSettings& settings) {
+    const auto images = read_external_images(settings.frames, "judge");
+    if (!settings.against.empty()) {
+        const auto before = read_external_images(settings.against, "--against");
+        if (before->name != images->name)
+            fail(settings.against.string(), " holds images of '", before->name, "', ", settings.frames.string(),
+                 " of '", images->name, "': frames are judged against those of the same renderer");
+        refuse_missing_frames(settings.frames, settings.against);
+        refuse_missing_frames(settings.against, settings.frames);
+    }
+    const Config study = study_of(settings, images->engine + " " + images->version);
+    RunSettings run = settings.run;
+    run.replaces = true;
+    run_study(study, run);
+    JudgedFrames judged{.errors = errors_of(run.out, study.primary), .against = {}};
+    if (settings.against.empty()) return judged;
+    if (images_in(settings.frames) == images_in(settings.against))
+        judged.against = Judgement{.views = {}, .verdict = judgement::identical};
+    else
+        judged.against = judge_effects(read_rows<EffectRow>(run.out / "effects.csv"), study.primary,
+                                       {images->name, judged_point}, {images->name, before_point});
+    return judged;
+}

@@ -1,0 +1,152 @@
+#include "experiments/cli/command_line.h"
+
+#include "core/error.h"
+#include "core/near_miss.h"
+#include "core/reading_limits.h"
+
+#include <cstdlib>
+#include <limits>
+
+namespace {
+
+/// {NAME: VALUE} of texts NAME=VALUE, whose values are JSON or else texts.
+nlohmann::json parameters_of(const std::vector<std::string>& values) {
+    nlohmann::json parameters = nlohmann::json::object();
+    for (const std::string& text : values) {
+        const size_t equals = text.find('=');
+        if (equals == std::string::npos || equals == 0) fail("'", shortened(text), "' must be NAME=VALUE");
+        const std::string value = text.substr(equals + 1);
+        nlohmann::json json = nlohmann::json::parse(value, nullptr, false);
+        parameters[text.substr(0, equals)] = json.is_discarded() ? nlohmann::json(value) : json;
+    }
+    return parameters;
+}
+
+}  // namespace
+
+CLI::Validator real_in(double min, double max, const std::string& description) {
+    return CLI::Validator(
+        [=](std::string& text) {
+            char* end = nullptr;
+            const double value = std::strtod(text.c_str(), &end);
+            const bool fits = !text.empty() && *end == 0 && value >= min && value <= max;
+            return fits ? std::string() : "'" + text + "' must be " + description;
+        },
+        "");
+}
+CLI::Validator positive() {
+    return real_in(std::numeric_limits<double>::min(), std::numeric_limits<double>::max(), "a number above 0");
+}
+
+void add_margin(CLI::App& command, double& margin, const std::string& otherwise) {
+    command
+        .add_option("--margin", margin,
+                    "Errors that differ by a smaller share than this for certain are equivalent; default: " + otherwise)
+        ->type_name("SHARE")
+        ->check(CLI::Range(0.001, 1.0));
+}
+
+void add_reading(CLI::App& command) {
+    command
+        .add_option_function<uint64_t>(
+            "--max-memory", [](const uint64_t& bytes) { reading_limits().memory = bytes; },
+            "What files may take at one time, e.g. 8GB; more is refused before it is taken; default: "
+            "SSRLAB_MAX_MEMORY, "
+            "else half of this machine's")
+        ->transform(CLI::AsSizeValue(true))
+        ->transform(CLI::Validator(  // the last one comes first: CLI11 would take -1 for 2^64 - 1
+            [](std::string& text) { return text.starts_with('-') ? "'" + text + "' must be a size" : std::string(); },
+            ""))
+        ->envname("SSRLAB_MAX_MEMORY");
+    command.add_flag_callback(
+        "--allow-outside", [] { reading_limits().allows_outside = true; },
+        "Scene and glTF files may name files outside of their own folder; for files that you trust");
+}
+
+void add_scene_path(CLI::App& command, CommonOptions& common) {
+    command
+        .add_option("--scene-path", common.scene_path,
+                    "Folder with scenes, searched before SSRLAB_SCENE_PATH and ssrlab's own; may be repeated")
+        ->type_name("DIR");
+}
+
+void add_device(CLI::App& command, CommonOptions& common) {
+    command
+        .add_option("--device", common.device,
+                    "Vulkan device: its index or a part of its name (see: ssrlab list devices); default: a discrete "
+                    "GPU, else lavapipe")
+        ->type_name("NAME");
+}
+
+void add_cache(CLI::App& command, CommonOptions& common) {
+    command
+        .add_option("--cache", common.cache,
+                    "Folder of cached references; default: SSRLAB_CACHE, else ssrlab in the user's cache folder")
+        ->type_name("DIR");
+}
+
+void add_scene(CLI::App& command, std::string& scene) {
+    command.add_option("scene", scene, "A scene's name (see: ssrlab list scenes), or a path to a .json, .gltf or .glb")
+        ->required()
+        ->type_name("SCENE");
+}
+
+void add_size(CLI::App& command, std::vector<unsigned>& size, const std::string& otherwise) {
+    command.add_option("--size", size, "Width and height in pixels; default: " + otherwise)
+        ->expected(2)
+        ->type_name("W H")
+        ->check(CLI::Range(1, 16384));
+}
+
+void add_planes(CLI::App& command, ShotOptions& shot) {
+    command
+        .add_option("--planes", shot.planes,
+                    "Near and far planes: camera, its own (default), or scene, derived so that they cut nothing")
+        ->check(CLI::IsMember({"camera", "scene"}))
+        ->type_name("WHOSE");
+}
+
+void add_animation(CLI::App& command, std::string& animation) {
+    command
+        .add_option("--animation", animation,
+                    "Which of the glTF's animations is played; or all, or none; default: as its scene.json says, else "
+                    "the first")
+        ->type_name("NAME");
+}
+
+void add_shot(CLI::App& command, ShotOptions& shot) {
+    add_scene(command, shot.scene), add_animation(command, shot.animation);
+    command.add_option("--camera", shot.camera, "Default: the scene's first")->type_name("NAME");
+    add_planes(command, shot);
+    add_size(command, shot.size);
+    command.add_option("--frame", shot.frame, "Frame of the camera's path and of the animation; default: 0")
+        ->type_name("N");
+}
+
+std::vector<std::string> run_options(const CLI::App& command, const CommonOptions& common) {
+    std::vector<std::string> options;
+    if (command.count("--max-memory")) options.push_back("--max-memory=" + std::to_string(reading_limits().memory));
+    if (reading_limits().allows_outside) options.push_back("--allow-outside");
+    if (!common.device.empty()) options.push_back("--device=" + common.device);
+    if (!common.cache.empty()) options.push_back("--cache=" + common.cache.string());
+    for (const std::filesystem::path& folder : common.scene_path) options.push_back("--scene-path=" + folder.string());
+    return options;
+}
+
+void add_values(CLI::App& command, std::string& preset, nlohmann::json& parameters) {
+    command.add_option("--preset", preset, "One of its presets; default: its defaults")->type_name("NAME");
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--set", [&parameters](const std::vector<std::string>& values) { parameters = parameters_of(values); },
+            "A parameter's value; may be repeated")
+        ->type_name("NAME=VALUE");
+}
+
+void refuse_unknown_command(const CLI::App& app, const std::string& name) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands({})) {
+        if (command->get_name() == name) return;
+        if (!command->get_group().empty()) names.push_back(command->get_name());
+    }
+    fail("unknown command '", shortened(name), "'", suggestion(name, names));
+}

@@ -1,0 +1,75 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+/// Options that most commands share.
+struct CommonOptions {
+    std::vector<std::filesystem::path> scene_path;
+    std::string device;           ///< "": the default one
+    std::filesystem::path cache;  ///< "": the default folder
+};
+
+/// The command line of `ssrlab`, to which each command adds itself (commands.h).
+struct CommandLine {
+    explicit CommandLine(CLI::App& app) : app(app) {}
+
+    CLI::App& app;
+    int status = 0;  ///< the exit code of the command that ran, as it sets it
+    CommonOptions common;
+
+    /// What a command's options write into: lives until the command has run.
+    template <class Options>
+    Options& keep(Options options = {}) {
+        auto kept = std::make_shared<Options>(std::move(options));
+        kept_.push_back(kept);
+        return *kept;
+    }
+
+private:
+    std::vector<std::shared_ptr<void>> kept_;
+};
+
+/// One frame of one camera.
+struct ShotOptions {
+    std::string scene, camera;
+    std::string planes = "camera";  ///< or "scene": derive_planes()
+    std::vector<unsigned> size{480, 270};
+    unsigned frame = 0;
+    std::string animation;  ///< "": the scene's
+
+    bool has_planes_of_scene() const { return planes == "scene"; }
+};
+
+// Checks of values, and options of several commands.
+
+/// CLI11's own ranges let NaN pass, which lies in none.
+CLI::Validator real_in(double min, double max, const std::string& description);
+CLI::Validator positive();
+
+/// What files may cost and name, of all commands that read them (core/reading_limits.h).
+void add_reading(CLI::App& command);
+void add_scene_path(CLI::App& command, CommonOptions& common);
+void add_device(CLI::App& command, CommonOptions& common);
+void add_cache(CLI::App& command, CommonOptions& common);
+/// Of equivalence: PrimaryComparisons::margin.
+void add_margin(CLI::App& command, double& margin, const std::string& otherwise);
+
+void add_scene(CLI::App& command, std::string& scene);
+/// Width and height; `otherwise`: what they are by default.
+void add_size(CLI::App& command, std::vector<unsigned>& size, const std::string& otherwise = "480 270");
+void add_planes(CLI::App& command, ShotOptions& shot);
+void add_animation(CLI::App& command, std::string& animation);
+/// All of ShotOptions.
+void add_shot(CLI::App& command, ShotOptions& shot);
+/// A technique's values: those of a preset, or its defaults, with others in their place.
+void add_values(CLI::App& command, std::string& preset, nlohmann::json& parameters);
+
+/// As the command line of `ssrlab run` takes them, for studies that `command` makes.
+std::vector<std::string> run_options(const CLI::App& command, const CommonOptions& common);
+
+/// Fails with the nearest commands where `name` is none: CLI11 would only say that some command is missing.
+void refuse_unknown_command(const CLI::App& app, const std::string& name);

@@ -1,0 +1,79 @@
+// ssrlab compare: two images.
+#include "experiments/cli/commands.h"
+#include "metrics/compare.h"
+#include "metrics/tone_map.h"
+
+#include <iostream>
+
+namespace {
+
+struct CompareCommandOptions {
+    std::filesystem::path reference, test, map;
+    std::string layer;
+    std::vector<std::string> metrics;
+    bool as_json = false, fail_on_non_finite = false;
+    float exposure_ev = 0.0f, map_max = 1.0f;
+    std::string tone_map = "none";
+};
+
+}  // namespace
+
+static void compare_images_command(const CompareCommandOptions& options) {
+    const Comparison result =
+        compare({.reference = options.reference,
+                 .test = options.test,
+                 .layer = options.layer,
+                 .metrics = options.metrics,
+                 .map = options.map,
+                 .map_max = options.map_max,
+                 .settings = {.exposure_ev = options.exposure_ev, .tone_map = tone_map_named(options.tone_map)},
+                 .fail_on_non_finite = options.fail_on_non_finite});
+    if (options.as_json)
+        std::cout << to_json(result).dump(2, ' ', /*ensure_ascii=*/true) << '\n';
+    else
+        print(result, std::cout, std::cerr);
+}
+
+void add_compare(CommandLine& line) {
+    CompareCommandOptions& compare = line.keep<CompareCommandOptions>();
+    CLI::App& command =
+        *line.app.add_subcommand("compare", "Compare two images (OpenEXR, Radiance or PNG): one number per line");
+    command.add_option("reference", compare.reference, "What is right: .exr (linear radiance) or .png (sRGB)")
+        ->required()
+        ->type_name("REFERENCE");
+    command.add_option("test", compare.test, "What is judged, of the same size and kind")
+        ->required()
+        ->type_name("TEST");
+    command
+        .add_option("--metric", compare.metrics,
+                    "May be repeated; see: ssrlab list metrics; default: mse, relmse, relmse_trimmed, outliers, mae, "
+                    "smape, bias, energy_ratio, psnr, flip, where the image is large enough ssim and "
+                    "ms_ssim, and hdr_flip of an EXR reference")
+        ->type_name("NAME");
+    command
+        .add_option(
+            "--layer", compare.layer,
+            "Layer, part, view or channel of EXR files that have several, such as specular; default: that without "
+            "a name, else image, as of files by `ssrlab reference`, else the only one with R, G and B")
+        ->type_name("NAME");
+    command
+        .add_option("--map", compare.map,
+                    "Write the error map: .exr (a layer per metric) or .png (one metric, in false colour)")
+        ->type_name("FILE");
+    command.add_option("--map-max", compare.map_max, "The error shown in the brightest colour of a .png map")
+        ->check(positive())
+        ->capture_default_str();
+    command.add_option("--exposure", compare.exposure_ev, "Display metrics use radiance times 2^EV")
+        ->type_name("EV")
+        ->check(real_in(-100, 100, "a number from -100 to 100"))
+        ->capture_default_str();
+    command.add_option("--tone-map", compare.tone_map, "Applied before display metrics (psnr, ssim, flip)")
+        ->check(CLI::IsMember(tone_map_names))
+        ->capture_default_str();
+    command.add_flag(
+        "--fail-on-non-finite", compare.fail_on_non_finite,
+        "Exit with 2 if a pixel is NaN or Inf; by default such pixels are excluded and counted in a warning");
+    command.add_flag("--json", compare.as_json, "Print one JSON object");
+    add_reading(command);
+    command.callback([&] { compare_images_command(compare); });
+}

@@ -1,0 +1,132 @@
+// ssrlab describe: parameters, and the schema of configs.
+#include "core/error.h"
+#include "core/files.h"
+#include "core/gpu/chips/chip_compiler.h"
+#include "core/gpu/device.h"
+#include "core/json.h"
+#include "core/near_miss.h"
+#include "core/scene/load_scene.h"
+#include "core/scene/scene_family.h"
+#include "core/shown_text.h"
+#include "experiments/cli/commands.h"
+#include "experiments/study/config/config_schema.h"
+#include "metrics/metric.h"
+#include "metrics/temporal.h"
+#include "variants/registry.h"
+#include "variants/resolves/resolves.h"
+#include "variants/tracers/tracers.h"
+
+#include <algorithm>
+#include <iostream>
+
+namespace {
+
+struct DescribeOptions {
+    std::string variant;  ///< "": all
+    bool as_schema = false;
+    std::filesystem::path document;  ///< whose tables of config keys are made anew; "": none
+};
+
+void describe_tracer(const TracerEntry& tracer, const ParameterSet& params) {
+    std::cout << tracer.name << ": " << tracer.title << "\n  " << tracer.description << "\n  Source: " << tracer.source
+              << '\n';
+    if (!tracer.fits_webgl2) std::cout << "  Does not fit WebGL 2\n";
+    std::cout << params.help(part_of(tracer));
+}
+
+/// The tracers that a technique may use, each with its parameters, those of a shared part once.
+void describe_tracers(const ParameterSet& params) {
+    std::set<std::string> described;
+    for (const TracerEntry& tracer : tracer_table()) {
+        if (!described.insert(part_of(tracer)).second || params.help(part_of(tracer)).empty()) continue;
+        std::cout << "\nParameters of the tracer " << tracer.name << ":\n" << params.help(part_of(tracer));
+    }
+}
+
+/// But for those that the technique decides.
+ParameterSet parameters_of(const ResolveEntry& resolve) {
+    ParameterSet declared, params;
+    resolve.declare(declared);
+    for (const Parameter& p : declared)
+        if (!std::ranges::count(resolve.given, p.name)) params.add(p);
+    return params;
+}
+
+void describe_resolve(const ResolveEntry& resolve) {
+    std::cout << resolve.name << ": " << resolve.title << "\n  " << resolve.description
+              << "\n  Source: " << resolve.source << '\n';
+    if (resolve.needs_density) std::cout << "  Needs the densities of rays, which mirror rays lack\n";
+    std::cout << parameters_of(resolve).help();
+}
+
+/// Of a technique that has them.
+void describe_resolves(const ParameterSet& params) {
+    for (const ResolveEntry& resolve : resolve_table())
+        if (const std::string help = params.help(resolve.name); !help.empty())
+            std::cout << "\nParameters of the resolve " << resolve.name << ":\n" << help;
+}
+
+bool is_resolve(const std::string& name) { return std::ranges::count(resolve_table(), name, &ResolveEntry::name) > 0; }
+
+bool is_tracer(const std::string& name) {
+    return std::ranges::any_of(tracer_table(), [&](const TracerEntry& tracer) { return tracer.name == name; });
+}
+
+}  // namespace
+
+static void describe_command(const DescribeOptions& asked) {
+    DescribeOptions options = asked;
+    options.variant = technique_name(asked.variant);
+    if (options.as_schema) {
+        std::cout << config_schema(options.variant).dump(2) << '\n';
+        return;
+    }
+    if (!options.document.empty()) return write_text(options.document, with_key_tables(read_text(options.document)));
+    if (is_tracer(options.variant)) {
+        ParameterSet params;
+        for (const TracerEntry& tracer : tracer_table())
+            if (part_of(tracer) == part_of(find_tracer(options.variant))) tracer.create(params);
+        return describe_tracer(find_tracer(options.variant), params);
+    }
+    if (is_resolve(options.variant)) return describe_resolve(find_resolve(options.variant));
+    if (!options.variant.empty() && !std::ranges::count(variant_table(), options.variant, &VariantEntry::name)) {
+        std::vector<std::string> names;
+        for (const VariantEntry& entry : variant_table()) names.push_back(entry.name);
+        for (const TracerEntry& tracer : tracer_table()) names.push_back(tracer.name);
+        for (const ResolveEntry& resolve : resolve_table()) names.push_back(resolve.name);
+        fail("unknown variant, tracer or resolve '", shortened(options.variant), "'",
+             suggestion(options.variant, names));
+    }
+    for (const VariantEntry& entry : variant_table()) {
+        if (!options.variant.empty() && entry.name != options.variant) continue;
+        std::cout << entry.name << ": " << entry.title << "\n  " << entry.description << "\n  Source: " << entry.source
+                  << "\n";
+        if (const std::string limits = limits_text(entry.limits); !limits.empty())
+            std::cout << "  Enforced limits: " << limits << '\n';
+        const std::unique_ptr<Variant> variant = make_variant(entry.name);
+        const std::string parameters = variant->params.help();
+        std::cout << (parameters.empty() ? "\nIt has no parameters.\n" : "\nParameters:\n" + parameters);
+        describe_tracers(variant->params);
+        describe_resolves(variant->params);
+        if (!entry.presets.empty()) std::cout << "\nPresets:\n";
+        for (const Preset& preset : entry.presets)
+            std::cout << "  " << preset.name << ": " << preset.meaning << " " << preset.parameters.dump() << '\n';
+        std::cout << '\n';
+    }
+}
+
+void add_describe(CommandLine& line) {
+    DescribeOptions& describe = line.keep<DescribeOptions>();
+    CLI::App& command =
+        *line.app.add_subcommand("describe", "Print every parameter: default, range, unit, meaning, source");
+    command
+        .add_option("variant", describe.variant,
+                    "A variant or its folder, a tracer or a resolve; default: all variants")
+        ->type_name("NAME");
+    command.add_flag("--schema", describe.as_schema, "Print a JSON Schema for configs, so that editors complete them");
+    command
+        .add_option("--fill", describe.document,
+                    "In place of printing make the tables of a config's keys in a document anew")
+        ->type_name("FILE.md");
+    command.callback([&] { describe_command(describe); });
+}

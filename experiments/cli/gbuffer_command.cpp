@@ -1,0 +1,83 @@
+// ssrlab gbuffer: a scene's G-buffer as files.
+#include "core/error.h"
+#include "core/gbuffer/gbuffer_transfer.h"
+#include "core/gbuffer/rasterizer.h"
+#include "core/gpu/device.h"
+#include "core/scene/load_scene.h"
+#include "core/shown_text.h"
+#include "experiments/cli/commands.h"
+#include "experiments/study/config/shots/scene_warnings.h"
+#include "experiments/study/config/shots/shot.h"
+
+#include <cstdio>
+
+namespace {
+
+struct GBufferCommandOptions {
+    ShotOptions shot;
+    std::vector<unsigned> frames;  ///< first and last, each into a folder of its own; empty: shot.frame alone
+    std::filesystem::path out;
+    std::string depth_format = "d32f";
+    bool is_reversed = false;
+};
+
+}  // namespace
+
+static void gbuffer_command(const GBufferCommandOptions& options, const CommonOptions& common) {
+    const unsigned first = options.frames.empty() ? options.shot.frame : options.frames.front(),
+                   last = options.frames.empty() ? first : options.frames.back();
+    if (last < first) fail("--frames: ", first, " to ", last, " runs backwards");
+    const DepthFormat format = options.depth_format == "d16"   ? DepthFormat::d16
+                               : options.depth_format == "d24" ? DepthFormat::d24
+                                                               : DepthFormat::d32f;
+    const ShotConfig config{
+        .scene = options.shot.scene,
+        .choices = {.animation = options.shot.animation},
+        .camera = options.shot.camera,
+        .has_planes_of_scene = options.shot.has_planes_of_scene(),
+        .extent = {options.shot.size[0], options.shot.size[1]},
+        .frames = {first},
+        .depth_format = format,
+        .depth_direction = options.is_reversed ? DepthDirection::reversed : DepthDirection::standard};
+    const Shot shot = load_shot(config, scene_search_path(common.scene_path));
+    for (const std::string& warning : warning_sentences(shot.scene))
+        std::fprintf(stderr, "warning: %s\n", shown_text(warning).c_str());
+    const std::filesystem::path out =
+        options.out.empty() ? std::filesystem::path(shot.scene.name + "_gbuffer") : options.out;
+
+    Device device(common.device);
+    Rasterizer rasterizer(device, shot.scene, {.extent = config.extent, .depth_format = format});
+    for (unsigned frame = first; frame <= last; ++frame) {
+        const GBuffer gbuffer = rasterizer.render(
+            shot.camera, {.extent = config.extent, .depth_direction = config.depth_direction, .frame = frame});
+        rasterizer.light_directly(gbuffer);
+        char name[32];
+        std::snprintf(name, sizeof name, "frame_%04u", frame);
+        const std::filesystem::path folder = options.frames.empty() ? out : out / name;
+        HostGBuffer host = download_gbuffer(rasterizer.graph(), gbuffer, rasterizer.camera(), format);
+        host.exposure_ev = shot.camera.exposure_ev;
+        save_gbuffer(folder, host);
+        std::printf("%s\n%s\n", (folder / "gbuffer.exr").c_str(), (folder / "camera.json").c_str());
+    }
+    save_environment(out, shot.scene.environment);
+    std::printf("%s\n", (out / "environment.json").c_str());
+}
+
+void add_gbuffer(CommandLine& line) {
+    GBufferCommandOptions& gbuffer = line.keep<GBufferCommandOptions>();
+    CLI::App& command =
+        *line.app.add_subcommand("gbuffer", "Rasterise a scene's G-buffer into gbuffer.exr and camera.json");
+    add_shot(command, gbuffer.shot);
+    command.add_option("--frames", gbuffer.frames, "First and last, both included: a capture of frames in a row")
+        ->expected(2)
+        ->type_name("A B")
+        ->excludes("--frame");
+    command.add_option("--out", gbuffer.out, "Folder; default: <scene>_gbuffer")->type_name("DIR");
+    command.add_option("--depth-format", gbuffer.depth_format)
+        ->check(CLI::IsMember({"d32f", "d24", "d16"}))
+        ->capture_default_str();
+    command.add_flag("--reversed-depth", gbuffer.is_reversed, "1 at the near plane, 0 at the far plane");
+    add_device(command, line.common), add_scene_path(command, line.common);
+    add_reading(command);
+    command.callback([&] { gbuffer_command(gbuffer, line.common); });
+}

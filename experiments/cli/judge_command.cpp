@@ -1,0 +1,99 @@
+// ssrlab judge: how far a renderer's frames are from the truth, and whether they err more than those before.
+#include "core/cache_folder.h"
+#include "core/error.h"
+#include "core/scene/load_scene.h"
+#include "core/shown_text.h"
+#include "experiments/bridges/judge.h"
+#include "experiments/cli/commands.h"
+#include "experiments/report/report.h"
+
+#include <cstdio>
+
+namespace {
+
+struct JudgeOptions {
+    std::filesystem::path frames, against, capture, reference, out = "results/judge";  ///< "": none
+    std::string scene;                                                                 ///< "": by the views' names
+    unsigned samples = 256;
+    double margin = 0;  ///< 0: PrimaryComparisons'
+    bool fails_if_worse = false;
+};
+
+std::string error_text(const ViewError& view) {
+    char text[160];
+    if (!view.error) return "no error: nothing reflects in this view";
+    std::snprintf(text, sizeof text, "mse %.4g", *view.error);
+    std::string all = text;
+    if (view.low && view.high) std::snprintf(text, sizeof text, " [%.4g, %.4g]", *view.low, *view.high), all += text;
+    if (view.ratio_to_none)
+        std::snprintf(text, sizeof text, ", %.3g times that of no reflections", *view.ratio_to_none), all += text;
+    return all;
+}
+
+void print(const JudgedView& view, const std::string& before) {
+    std::printf(
+        "%s: mse %.4g [%.4g, %.4g] times that of %s: %s (p %.2g; %.3g times it would be seen in 95 %% of runs)\n",
+        shown_text(view.shot).c_str(), view.ratio, view.low, view.high, before.c_str(), view.verdict.c_str(),
+        view.p_holm, view.detectable);
+}
+
+}  // namespace
+
+static int judge_command(const JudgeOptions& options, const CommonOptions& common) {
+    if (!options.capture.empty() && options.reference.empty())
+        fail("--capture needs --reference, what `ssrlab reference` wrote of the captured frame");
+    if (options.fails_if_worse && options.against.empty())
+        fail("--fail-if-worse needs --against, a folder of frames to be no worse than");
+    const JudgedFrames judged =
+        judge_frames({.frames = options.frames,
+                      .against = options.against,
+                      .scene = options.scene,
+                      .capture = options.capture,
+                      .reference = options.reference,
+                      .samples = options.samples,
+                      .margin = options.margin > 0 ? options.margin : PrimaryComparisons().margin,
+                      .run = {.out = options.out,
+                              .device = common.device,
+                              .cache = common.cache.empty() ? default_cache_folder() : common.cache,
+                              .search_path = scene_search_path(common.scene_path),
+                              .write_report = write_page}});
+    std::printf("\n");
+    for (const ViewError& view : judged.errors)
+        std::printf("%s: %s\n", shown_text(view.shot).c_str(), error_text(view).c_str());
+    if (!judged.against) return 0;
+    const std::string before = shown_text(options.against.string());
+    for (const JudgedView& view : judged.against->views) print(view, before);
+    std::printf("%s against %s\n", judged.against->verdict.c_str(), before.c_str());
+    return options.fails_if_worse && judged.against->verdict == judgement::worse ? 1 : 0;
+}
+
+void add_judge(CommandLine& line) {
+    JudgeOptions& judge = line.keep<JudgeOptions>();
+    CLI::App& command = *line.app.add_subcommand(
+        "judge",
+        "Judge the frames of another renderer by the truth, and against those that it rendered before: better, worse, "
+        "equivalent, undecided or identical (at most 1 % false alarms)");
+    command
+        .add_option("frames", judge.frames,
+                    "Folder with external.json and SCENE.CAMERA.WIDTHxHEIGHT/fFRAME.sSEED.exr (experiments/README.md, "
+                    "\"Images of other programs\")")
+        ->required()
+        ->type_name("FRAMES");
+    command
+        .add_option("--scene", judge.scene,
+                    "The scene of the views, by name or path; default: found by the names of the views' folders")
+        ->type_name("SCENE");
+    command.add_option("--capture", judge.capture, "A captured G-buffer in place of a scene")->type_name("DIR");
+    command.add_option("--reference", judge.reference, "With --capture: the truth of its frame")->type_name("FILE.exr");
+    command.add_option("--against", judge.against, "Such a folder of earlier frames of the same renderer and views")
+        ->type_name("FOLDER");
+    command.add_flag("--fail-if-worse", judge.fails_if_worse, "Exit code 1 if the verdict is \"worse\"");
+    command.add_option("--samples", judge.samples, "Of the truth, per pixel; default: 256")
+        ->type_name("N")
+        ->check(CLI::Range(32, 1 << 20));
+    command.add_option("--out", judge.out, "Results folder with the page; default: results/judge")->type_name("DIR");
+    add_margin(command, judge.margin, "0.05");
+    add_scene_path(command, line.common), add_device(command, line.common), add_cache(command, line.common);
+    add_reading(command);
+    command.callback([&] { line.status = judge_command(judge, line.common); });
+}

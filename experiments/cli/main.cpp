@@ -1,0 +1,70 @@
+// ssrlab: the command line.
+#include "core/error.h"
+#include "core/gpu/pipelines/shader_error.h"
+#include "core/shown_text.h"
+#include "experiments/bridges/inspect/inspect_hint.h"
+#include "experiments/cli/commands.h"
+#include "experiments/results/cells/host_info.h"
+
+#include <cstdio>
+#include <new>
+#include <string_view>
+
+namespace {
+
+/// CLI11 reports its own mistakes; they exit with 2 as all mistakes of the user do.
+int parse_and_run(int argc, char** argv) {
+    CLI::App app{
+        "ssrlab compares screen-space reflection techniques with path-traced truth.\n"
+        "Exit codes: 0 done, 2 an error in the request, 3 a fault of this machine, 130 stopped by Ctrl-C."};
+    app.require_subcommand(1);
+    app.get_formatter()->column_width(34);
+    app.set_version_flag(
+        "--version", [] { return build_info().dump(); },
+        "Print version, commit and the hash of all code, as manifest.json has them");
+    CommandLine line(app);
+    for (const auto add :
+         {add_run,       add_plan,      add_merge,    add_report,     add_figures, add_diff,    add_judge,
+          add_scene_for, add_tables,    add_tradeoff, add_statistics, add_tune,    add_compare, add_reference,
+          add_gbuffer,   add_capture,   add_inspect,  add_needs,      add_shaders, add_rays,    add_record,
+          add_watch,     add_stability, add_new,      add_describe,   add_list})
+        add(line);
+    if (argc > 1 && argv[1][0] != '-') refuse_unknown_command(app, argv[1]);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        return app.exit(e) == 0 ? 0 : 2;
+    }
+    return line.status;
+}
+
+/// A mistake in a file that is there is seen best by who looks at all that is understood of it.
+void say_how_to_inspect(int argc, char** argv, const Error& error) {
+    if (argc > 1 && std::string_view(argv[1]) == "inspect") return;
+    const std::string hint = inspect_hint(error.what());
+    if (!hint.empty()) std::fprintf(stderr, "note: %s\n", shown_text(hint).c_str());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return parse_and_run(argc, argv);
+    } catch (const MachineError& e) {
+        std::fprintf(stderr, "error: %s\n", shown_text(e.what()).c_str());
+        return 3;
+    } catch (const ShaderError& e) {
+        std::fprintf(stderr, "error: %s\n", e.what());
+        return 2;
+    } catch (const Error& e) {
+        std::fprintf(stderr, "error: %s\n", shown_text(e.what()).c_str());
+        say_how_to_inspect(argc, argv, e);
+        return 2;
+    } catch (const std::bad_alloc&) {
+        std::fprintf(stderr, "error: not enough memory\n");
+        return 3;
+    } catch (const std::exception& e) {
+        std::fprintf(stderr, "error: %s\n", shown_text(e.what()).c_str());
+        return 3;
+    }
+}

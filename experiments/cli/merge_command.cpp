@@ -1,0 +1,50 @@
+// ssrlab merge: the parts of a study.
+#include "core/scene/load_scene.h"
+#include "experiments/cli/commands.h"
+#include "experiments/cli/config_of_study.h"
+#include "experiments/report/report.h"
+#include "experiments/study/run.h"
+
+namespace {
+
+struct MergeOptions {
+    std::filesystem::path config, out;
+    std::vector<std::filesystem::path> folders;
+    bool keep_all = false, replaces = false;
+};
+
+}  // namespace
+
+static int merge_command(const MergeOptions& options, const CommonOptions& common) {
+    const std::filesystem::path out = options.out.empty() ? default_results(options.config) : options.out;
+    const size_t missing = merge_study(config_of_study(options.config),
+                                       {.out = out,
+                                        .device = common.device,
+                                        .search_path = scene_search_path(common.scene_path),
+                                        .keep_all = options.keep_all,
+                                        .replaces = options.replaces,
+                                        .write_report = write_page},
+                                       options.folders.empty() ? std::vector{out} : options.folders);
+    return missing > 0 ? 1 : 0;
+}
+
+void add_merge(CommandLine& line) {
+    MergeOptions& merge = line.keep<MergeOptions>();
+    CLI::App& command = *line.app.add_subcommand(
+        "merge", "Merge the results folders of a study's parts (`ssrlab run --cells`) into one");
+    command.add_option("config", merge.config, "The study")->required()->type_name("CONFIG.json");
+    command.add_option("results", merge.folders, "Folders of its parts; default: that of --out")
+        ->check(CLI::ExistingDirectory)
+        ->type_name("DIR...");
+    command.add_option("--out", merge.out, "Results folder; default: results/<name of the config>")->type_name("DIR");
+    command.add_flag("--keep-all", merge.keep_all, "The parts were run with --keep-all");
+    command.add_flag("--replace", merge.replaces, "As for `ssrlab run`");
+    command
+        .add_option("--device", line.common.device,
+                    "Whose cells are merged, where the parts hold those of several devices: a part of its name, or an "
+                    "index of `ssrlab list devices`; default: the one that made all, which need not be here")
+        ->type_name("NAME");
+    add_scene_path(command, line.common);
+    add_reading(command);
+    command.callback([&] { line.status = merge_command(merge, line.common); });
+}

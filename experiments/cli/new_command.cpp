@@ -1,0 +1,111 @@
+// ssrlab new: a technique of one's own, as a folder, from one that is there.
+#include "core/error.h"
+#include "core/files.h"
+#include "core/near_miss.h"
+#include "core/path_inside.h"
+#include "core/shown_text.h"
+#include "experiments/cli/commands.h"
+#include "variants/declared/declared_entry.h"
+#include "variants/registry.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace {
+
+struct NewOptions {
+    std::filesystem::path folder;      ///< that is to be made
+    std::string from = "mcguire_dda";  ///< a technique's name, or its folder
+};
+
+namespace fs = std::filesystem;
+
+/// Techniques of ssrlab that folders declare: of variants/, and for one in C++ an example.
+std::map<std::string, fs::path> declared_folders() {
+    const fs::path root = SSRLAB_SOURCE_DIR;
+    std::map<std::string, fs::path> folders;
+    for (const VariantEntry& entry : variant_table())
+        for (const std::string above : {"variants/", "experiments/examples/"})
+            if (const fs::path folder = path_inside(root, above + entry.name);
+                fs::exists(path_inside(folder, "technique.json")))
+                folders[entry.name] = folder;
+    return folders;
+}
+
+/// The folder that `from` names: one of ssrlab's, or one of the user's own.
+fs::path folder_of(const std::string& from) {
+    if (from.find('/') != std::string::npos) return from;
+    const std::map<std::string, fs::path> folders = declared_folders();
+    if (const auto found = folders.find(from); found != folders.end()) return found->second;
+    const std::string& name = find_variant(from).name;  // or says that there is none of that name
+    std::string list;
+    for (const auto& [known, folder] : folders) list += (list.empty() ? "" : ", ") + known;
+    fail("'", name, "' has no declared form: its C++ decides what a list of passes cannot say; these have one: ", list);
+}
+
+std::string with_names(std::string text, const std::map<std::string, std::string>& new_names) {
+    for (const auto& [before, after] : new_names)
+        for (size_t at = 0; (at = text.find("\"" + before + "\"", at)) != std::string::npos; ++at)
+            text.replace(at, before.size() + 2, "\"" + after + "\"");
+    return text;
+}
+
+/// Content by file of the technique, with the shaders that it has of ssrlab's technique of its own name beside it.
+std::map<std::string, std::string> files_of(const VariantEntry& technique) {
+    std::map<std::string, std::string> files = technique.folder->files, new_names;
+    const std::string shared = "variants/", own = shared + technique.name + "/";
+    for (const std::string& source : technique.folder->sources) {
+        if (!source.starts_with(own)) continue;
+        const std::string name = source.substr(own.size());
+        files[name] = read_text(path_inside(SSRLAB_SOURCE_DIR, source));
+        new_names[source.substr(shared.size())] = name;
+    }
+    for (auto& [name, text] : files) text = with_names(std::move(text), new_names);
+    return files;
+}
+
+/// A first study of it, beside what it was made from.
+std::string study_of(const std::string& name, const std::string& from) {
+    const nlohmann::json of_origin = from.find('/') == std::string::npos
+                                         ? nlohmann::json({{"variant", from}})
+                                         : nlohmann::json({{"variant", fs::absolute(from).lexically_normal()}});
+    const nlohmann::json study = {{"title", name},
+                                  {"shots", {{{"scene", "fence"}, {"resolution", {240, 135}}, {"warm_up", 4}}}},
+                                  {"lit", "direct"},
+                                  {"reference", {{"samples", 64}}},
+                                  {"variants", {{{"variant", "none"}}, of_origin, {{"variant", "./"}}}}};
+    return study.dump(2) + "\n";
+}
+
+}  // namespace
+
+static void new_command(const NewOptions& options) {
+    const std::string name = declared_name(options.folder);
+    std::error_code error;
+    if (fs::exists(fs::symlink_status(options.folder, error)))
+        fail(options.folder.string(), " is there already; choose another name, or remove it");
+    if (std::ranges::count(variant_table(), name, &VariantEntry::name))
+        fail("'", name, "' is one of ssrlab's own techniques; give the folder another name");
+    const VariantEntry technique = declared_entry(folder_of(options.from));
+    for (const auto& [file, text] : files_of(technique)) write_text(path_inside(options.folder, file), text);
+    const fs::path study = path_inside(options.folder, name + ".json");
+    write_text(study, study_of(name, options.from));
+    add_technique_folder(options.folder);  // or says what is wrong with it
+    std::printf("%s: technique.json and its shaders. A first study: ssrlab run %s\n",
+                shown_text(options.folder.string()).c_str(), shown_text(study.string()).c_str());
+}
+
+void add_new(CommandLine& line) {
+    NewOptions& new_technique = line.keep<NewOptions>();
+    CLI::App& command = *line.app.add_subcommand(
+        "new", "Write a technique of one's own as a folder, which needs no compiler, and a first study of it");
+    command.add_option("folder", new_technique.folder, "The folder to make; its name is the technique's")
+        ->required()
+        ->type_name("FOLDER");
+    command
+        .add_option("--from", new_technique.from,
+                    "What it begins as: mcguire_dda, simple_ssr or four_mode_ssr, or a technique's folder; default: "
+                    "mcguire_dda")
+        ->type_name("TECHNIQUE");
+    command.callback([&] { new_command(new_technique); });
+}

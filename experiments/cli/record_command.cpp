@@ -1,0 +1,96 @@
+// ssrlab record: a technique as one page that does its passes again in a browser.
+#include "core/cache_folder.h"
+#include "core/gpu/device.h"
+#include "core/scene/load_scene.h"
+#include "core/shown_text.h"
+#include "experiments/cli/commands.h"
+#include "experiments/cli/frame_numbers.h"
+#include "experiments/live/record/record.h"
+#include "experiments/study/config/points/all_points.h"
+#include "experiments/study/progress.h"
+
+#include <cstdio>
+
+namespace {
+
+struct RecordOptions {
+    ShotOptions shot{.size = {192, 108}};         ///< its frame is not looked at
+    std::string variant, preset, frames = "0-7";  ///< a frame, or a range with both ends
+    nlohmann::json parameters = nlohmann::json::object();
+    unsigned samples = 256;
+    bool is_packed = false, has_results = false, has_passes = false;
+    std::filesystem::path out;
+};
+
+std::string listed(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+    return text.empty() ? "none" : text;
+}
+
+}  // namespace
+
+static void record_command(const RecordOptions& options, const CommonOptions& common) {
+    const VariantConfig point = single_point(options.variant, options.preset, options.parameters);
+    constexpr size_t most_frames = 1000;
+    const std::vector<unsigned> frames = frame_numbers({&options.frames, 1}, most_frames, "a page");
+    Device device(common.device);
+    Progress progress(1.0);
+    const RecordedPage page = record_page(
+        device, {.shot = {.scene = options.shot.scene,
+                          .choices = {.animation = options.shot.animation},
+                          .camera = options.shot.camera,
+                          .has_planes_of_scene = options.shot.has_planes_of_scene(),
+                          .extent = {options.shot.size[0], options.shot.size[1]},
+                          .frames = frames,
+                          .gbuffer_formats = options.is_packed ? GBufferFormats::packed : GBufferFormats::exact},
+                 .point = point,
+                 .samples = options.samples,
+                 .has_results = options.has_results,
+                 .has_passes = options.has_passes,
+                 .page = options.out,
+                 .cache = common.cache.empty() ? default_cache_folder() : common.cache,
+                 .search_path = scene_search_path(common.scene_path),
+                 .say = [&](const std::string& text) { progress.say(shown_text(text)); },
+                 .report = [&](double share, const std::string& what) { progress.update(share, what); }});
+    progress.say(shown_text(options.out.string()));
+    std::printf("%s of %u passes, %.2f MB; relmse of the last frame %.4g\n",
+                counted(page.errors.size(), "frame").c_str(), page.passes, double(page.bytes) * 1e-6,
+                page.errors.back());
+    std::printf("sliders: %s\n", listed(page.sliders).c_str());
+}
+
+void add_record(CommandLine& line) {
+    RecordOptions& record = line.keep<RecordOptions>();
+    CLI::App& command = *line.app.add_subcommand(
+        "record", "Write a page in which a browser does a technique's passes again (WebGL 2), beside the truth");
+    add_scene(command, record.shot.scene);
+    command
+        .add_option(
+            "--variant", record.variant,
+            "A technique of fragment passes alone (see: ssrlab list variants), or its folder; others are refused")
+        ->required()
+        ->type_name("NAME");
+    add_values(command, record.preset, record.parameters);
+    command.add_option("--camera", record.shot.camera, "Default: the scene's first")->type_name("NAME");
+    add_planes(command, record.shot);
+    add_animation(command, record.shot.animation);
+    add_size(command, record.shot.size, "192 108");
+    command.add_option("--frames", record.frames, "Frames of the camera's path and of the animation")
+        ->capture_default_str()
+        ->type_name("A-B");
+    command.add_option("--samples", record.samples, "Of the truth, per pixel")
+        ->check(CLI::Range(1, 1 << 24))
+        ->capture_default_str()
+        ->type_name("N");
+    command.add_flag("--packed", record.is_packed,
+                     "G-buffer in the formats of engines, so that the page is smaller; default: float32");
+    command.add_flag("--results", record.has_results,
+                     "Also what this device rendered, so that the page says where a browser differs from it");
+    command.add_flag("--passes", record.has_passes,
+                     "Also what each pass of this device wrote, so that the page compares one by one");
+    command.add_option("--out", record.out, "The page")->required()->type_name("PAGE.html");
+    add_device(command, line.common), add_scene_path(command, line.common), add_cache(command, line.common);
+    add_reading(command);
+    command.callback([&] { record_command(record, line.common); });
+}

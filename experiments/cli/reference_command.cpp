@@ -1,0 +1,160 @@
+// The commands that need no Vulkan device: reference, compare.
+#include "core/cache_folder.h"
+#include "core/error.h"
+#include "core/gbuffer/scene_facts.h"
+#include "core/scene/load_scene.h"
+#include "core/shown_text.h"
+#include "experiments/cli/commands.h"
+#include "experiments/study/config/shots/scene_warnings.h"
+#include "experiments/study/config/shots/shot.h"
+#include "experiments/study/progress.h"
+#include "groundtruth/paths/path_tracer.h"
+#include "groundtruth/reference/reference_audit.h"
+#include "groundtruth/reference/reference_cache.h"
+#include "groundtruth/reference/reference_error.h"
+#include "groundtruth/reference/reference_file.h"
+#include "groundtruth/reference/truth_ladder.h"
+
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+
+namespace {
+
+struct ReferenceCommandOptions {
+    ShotOptions shot;
+    ReferenceSettings settings;
+    std::filesystem::path out;
+};
+
+Shot load_single_shot(const ShotOptions& options, const CommonOptions& common) {
+    const ShotConfig config{.scene = options.scene,
+                            .choices = {.animation = options.animation},
+                            .camera = options.camera,
+                            .has_planes_of_scene = options.has_planes_of_scene(),
+                            .extent = {options.size[0], options.size[1]},
+                            .frames = {options.frame}};
+    return load_shot(config, scene_search_path(common.scene_path));
+}
+
+/// "76900 rays", "4.61 million rays", "1.2 billion rays".
+std::string rays_text(double rays) {
+    char text[64];
+    if (rays < 1e6)
+        std::snprintf(text, sizeof text, "%.0f rays", rays);
+    else
+        std::snprintf(text, sizeof text, "%.3g %s rays", rays / (rays < 1e9 ? 1e6 : 1e9),
+                      rays < 1e9 ? "million" : "billion");
+    return text;
+}
+
+/// Root of a noise-free mean square with its interval, in percent of `unit`.
+std::string rms_percent(const LadderDifference& difference, double unit) {
+    const auto root = [&](double square) { return 100 * std::sqrt(std::max(square, 0.0)) / unit; };
+    char text[64];
+    std::snprintf(text, sizeof text, "%6.2f [%.2f, %.2f]", root(difference.square),
+                  root(difference.square - 1.96 * difference.square_error),
+                  root(difference.square + 1.96 * difference.square_error));
+    return text;
+}
+
+void print_ladder(const LadderSummary& ladder) {
+    if (ladder.mean_specular <= 0) {
+        std::printf("truth ladder: nothing reflects\n");
+        return;
+    }
+    std::printf(
+        "truth ladder, in %% of the mean specular light %.4g of %zu reflecting pixels; the image shows %.1f %% of what "
+        "they reflect\n",
+        ladder.mean_specular, ladder.pixels, 100 * ladder.on_screen_share);
+    std::printf("  %-16s %-31s %16s  %-22s  %s\n", "rung", "approximation", "mean change", "RMS of the step [95 %]",
+                "RMS from the truth [95 %]");
+    for (const LadderRung& rung : ladder.rungs) {
+        char mean[32];
+        std::snprintf(mean, sizeof mean, "%+.2f +- %.2f", 100 * rung.step.mean / ladder.mean_specular,
+                      196 * rung.step.mean_error / ladder.mean_specular);
+        std::printf("  %-16s %-31s %16s  %-22s  %s\n", rung.name.c_str(), rung.costs.c_str(), mean,
+                    rms_percent(rung.step, ladder.mean_specular).c_str(),
+                    rms_percent(rung.from_truth, ladder.mean_specular).c_str());
+    }
+}
+
+}  // namespace
+
+static void reference_command(const ReferenceCommandOptions& options, const CommonOptions& common) {
+    const Shot shot = load_single_shot(options.shot, common);
+    for (const std::string& warning : warning_sentences(shot.scene))
+        std::fprintf(stderr, "warning: %s\n", shown_text(warning).c_str());
+    const ShotFrame frame = shot_frame(shot, options.shot.frame);
+
+    Progress progress(1.0);
+    ReferenceRun run;
+    run.progress = [&](double fraction, double rays_per_second, double) {
+        char what[64];
+        std::snprintf(what, sizeof what, "%.2f Mray/s", rays_per_second * 1e-6);
+        progress.update(fraction, what);
+    };
+    run.notice = [&](const std::string& text) { progress.say("note: " + text); };
+    Reference reference = cached_reference(shot.scene, frame.scene, frame.camera, shot.config.extent, options.settings,
+                                           common.cache.empty() ? default_cache_folder() : common.cache, run);
+    const std::filesystem::path out =
+        options.out.empty() ? std::filesystem::path(shot.scene.name + "_reference.exr") : options.out;
+    const ErrorSummary error = relative_error_summary(reference, reference.specular);
+    write_reference(out, reference, options.settings);
+
+    progress.say(out.string() + (reference.from_cache ? " (from the cache)" : ""));
+    std::printf("passes %s samples per pixel, %s, %s\n", reference.passes.c_str(),
+                format_duration(reference.seconds).c_str(), rays_text(double(reference.rays)).c_str());
+    std::printf(
+        "relative standard error of the specular light at a pixel: median %.2f %%, 95 %% of pixels below %.2f %%\n",
+        100 * error.median, 100 * error.p95);
+    if (options.settings.target_relative_error > 0)
+        std::printf("%.1f %% of the pixels reached the target\n", 100 * reference.reached_share);
+    if (options.settings.ladder) print_ladder(summarize_ladder(reference));
+    for (const std::string& warning : audit_reference(reference).warnings)
+        std::printf("warning: %s\n", shown_text(warning).c_str());
+    if (reference.non_finite_samples)
+        std::printf("warning: %llu samples were not finite and count as zero\n",
+                    (unsigned long long)reference.non_finite_samples);
+}
+
+void add_reference(CommandLine& line) {
+    ReferenceCommandOptions& reference = line.keep<ReferenceCommandOptions>();
+    CLI::App& command = *line.app.add_subcommand("reference", "Path-trace a scene; continues a stopped render");
+    add_shot(command, reference.shot);
+    command
+        .add_option("--samples", reference.settings.max_samples,
+                    "Per pixel, at most; rounded up to 16 x 2^k; default: " +
+                        std::to_string(ReferenceSettings::default_samples) + ", or no limit with --seconds or --target")
+        ->check(CLI::Range(16, 1 << 24));
+    command
+        .add_option("--lit-samples", reference.settings.lit_samples,
+                    "Of these of the diffuse light, at most: the rest is of the specular light alone; default: all")
+        ->check(CLI::Range(16, 1 << 24));
+    command
+        .add_option("--guide-samples", reference.settings.guide_samples,
+                    "Per pixel of the guide, which weighs relative errors and tells roulette what to expect")
+        ->check(CLI::Range(16, 4096))
+        ->capture_default_str();
+    command
+        .add_option("--seconds", reference.settings.max_seconds,
+                    "Time limit, beside the samples of the guide; default: none")
+        ->check(positive());
+    command
+        .add_option("--target", reference.settings.target_relative_error,
+                    "Stop at this relative standard error of the specular light at a pixel, e.g. 0.03")
+        ->check(real_in(1e-4, 1, "a number from 0.0001 to 1"));
+    command
+        .add_option("--max-depth", reference.settings.max_depth,
+                    "Reflections of a path at most; the camera ray does not count")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
+    command.add_option("--seed", reference.settings.seed, "Seed of the path tracer")->capture_default_str();
+    command.add_flag("--ladder", reference.settings.ladder,
+                     "Also the truth ladder: lower bounds of the errors by factoring the BRDF, one view and "
+                     "bounce, and the borders of the screen; about twice the rays");
+    command.add_option("--out", reference.out, "Default: <scene>_reference.exr")->type_name("FILE.exr");
+    add_scene_path(command, line.common), add_cache(command, line.common);
+    add_reading(command);
+    command.callback([&] { reference_command(reference, line.common); });
+}

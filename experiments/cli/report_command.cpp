@@ -1,0 +1,24 @@
+// ssrlab report: the page of a results folder.
+#include "experiments/cli/commands.h"
+#include "experiments/report/report.h"
+
+#include <cstdio>
+
+static void report_command(const std::filesystem::path& folder, bool links_images) {
+    write_report(folder, links_images);
+    std::printf("Report: %s\n", std::filesystem::absolute(folder / "report.html").lexically_normal().c_str());
+}
+
+void add_report(CommandLine& line) {
+    auto& report_folder = line.keep<std::filesystem::path>();
+    CLI::App& command = *line.app.add_subcommand("report", "Write report.html again from the tables of a folder");
+    command.add_option("results", report_folder, "A folder that `ssrlab run` or `ssrlab stability` filled")
+        ->required()
+        ->check(CLI::ExistingDirectory)
+        ->type_name("DIR");
+    bool& links_images = line.keep<bool>();
+    command.add_flag("--link-images", links_images,
+                     "Keep all images beside the page, in report_images/, even if they are small");
+    add_reading(command);
+    command.callback([&] { report_command(report_folder, links_images); });
+}

@@ -1,0 +1,225 @@
+// The commands that are Python scripts: figures, tables, tradeoff, tune.
+#include "core/child_process.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "core/gpu/chips/chip_compiler.h"
+#include "core/gpu/chips/model_range.h"
+#include "core/path_inside.h"
+#include "experiments/cli/commands.h"
+#include "experiments/cli/config_of_study.h"
+#include "experiments/cli/stability_options.h"
+#include "experiments/results/cells/host_info.h"
+#include "experiments/results/tables/counts_spread.h"
+#include "experiments/results/tradeoff/tradeoff.h"
+#include "experiments/results/verdicts/study_points.h"
+#include "experiments/study/config/config.h"
+#include "experiments/study/config/config_parts.h"
+#include "experiments/study/config/config_schema.h"
+#include "metrics/estimators.h"
+#include "variants/registry.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+namespace {
+
+struct TradeoffOptions {
+    std::filesystem::path results, out;
+    std::string baseline, metric, mask, target, cost;                   ///< empty: the study's own, and time
+    std::vector<double> times{5, 10, 20, 40}, factors{0.5, 0.25, 0.1};  ///< ms or counts; of the baseline's error
+    std::vector<std::string> left_out;                                  ///< scenes or shots
+    double margin = 0;                                                  ///< 0: the study's own
+};
+
+struct TuneOptions {
+    std::filesystem::path config, out;
+};
+
+/// Runs a script of experiments/: 0 done, 2 a mistake of the user, else a fault of the machine (3). Scripts ask this
+/// program for their statistics (experiments/python/ssrlab/statistics.py).
+int run_script(const std::string& name, const std::vector<std::string>& arguments) {
+    setenv("SSRLAB_PROGRAM", this_program().c_str(), 1);
+    std::vector<std::string> command = {SSRLAB_PYTHON, "-B", SSRLAB_SOURCE_DIR "/experiments/" + name};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    const int code = run_program(command);
+    return code == 0 || code == 2 ? code : 3;
+}
+
+}  // namespace
+
+static int figures_command(const std::vector<std::string>& arguments) {
+    return run_script("figures/figures.py", arguments);
+}
+
+int stability_figure(const std::filesystem::path& csv, const std::filesystem::path& figure) {
+    return run_script("figures/stability_figure.py", {"--out=" + figure.string(), "--", csv.string()});
+}
+
+static int tables_command(const std::vector<std::string>& arguments) {
+    std::vector<std::string> handed_on = arguments;
+    for (std::string& argument : handed_on)  // the script compares what is kept with the estimators of this program
+        if (argument == "--check") argument += "=" + std::to_string(estimator_version);
+    return run_script("figures/tables.py", handed_on);
+}
+
+static int tradeoff_command(const TradeoffOptions& options) {
+    const StudyTables tables = read_study_tables(options.results);
+    PrimaryComparisons error = primary_of(tables.manifest);
+    if (!options.metric.empty()) error.metric = options.metric;
+    if (!options.mask.empty()) error.mask = options.mask;
+    if (!options.target.empty()) error.target = options.target;
+    if (options.margin > 0) error.margin = options.margin;
+    std::vector<double> costs = options.times;
+    std::ranges::sort(costs);
+    const Tradeoff found = tradeoff_of(tables, {.error = error,
+                                                .cost = options.cost,
+                                                .baseline = options.baseline,
+                                                .costs = costs,
+                                                .left_out = options.left_out});
+    const std::filesystem::path out = options.out.empty() ? path_inside(options.results, "tradeoff") : options.out;
+    create_folder(out);
+    write_rows(out / "pairs.csv", found.pairs);
+    write_rows(out / "front.csv", found.front);
+    write_rows(out / "across.csv", found.across);
+    write_rows(out / "stages.csv", found.changes);
+    write_text(out / "frozen.json", nlohmann::json{{"frozen", frozen_json(found.to_freeze)}}.dump(2) + "\n");
+    nlohmann::json asked = {{"results", options.results.string()},
+                            {"out", out.string()},
+                            {"baseline", found.baseline},
+                            {"times", costs},
+                            {"factors", options.factors},
+                            {"target", error.target},
+                            {"metric", error.metric},
+                            {"mask", error.mask},
+                            {"costs", found.kind == CostKind::timed     ? "timed"
+                                      : found.kind == CostKind::counted ? "counted"
+                                                                        : "estimated"},
+                            {"unit", found.unit},
+                            {"model_range", model_range_text()},
+                            {"model_decides_from", model_decides_from},
+                            {"counts_spread", counts_spread},
+                            {"refused", nlohmann::json::array()},
+                            {"divisors", nlohmann::json::object()},
+                            {"chosen", nlohmann::json::array()}};
+    for (const auto& [shot, divisor] : found.divisors) asked["divisors"][shot] = column_json(divisor);
+    for (const RefusedEstimate& r : found.refused)
+        asked["refused"].push_back({{"point", r.point}, {"shots", r.shots}, {"why", r.refusal}});
+    for (const ChosenPoint& c : found.chosen)
+        asked["chosen"].push_back({{"shot", c.shot},
+                                   {"variant", c.variant},
+                                   {"cost", c.cost},
+                                   {"point", c.point},
+                                   {"chosen_on", c.chosen_on},
+                                   {"fits", c.fits}});
+    write_text(out / "asked.json", asked.dump(1) + "\n");
+    return run_script("tradeoff/tradeoff.py", {(out / "asked.json").string()});
+}
+
+namespace {
+
+/// The name of a technique of ssrlab, or else its folder, wherever the config lies.
+std::string named_in_configs(const VariantConfig& point) {
+    if (point.external) return point.variant;
+    const VariantEntry& entry = find_variant(point.variant);
+    return entry.is_ssrlabs() ? entry.name : entry.folder->path.string();
+}
+
+}  // namespace
+
+static int tune_command(const TuneOptions& options, const std::vector<std::string>& run_options) {
+    using nlohmann::json;
+    const Config config = read_config(options.config);
+    if (!config.is_tuned) fail(options.config.string(), ": has no 'tune'; `ssrlab run` runs a study");
+    if (!config.source["tune"].contains("axes"))
+        fail(options.config.string(), ": 'tune' has no 'axes'; it can only be extended");
+    const std::filesystem::path out = options.out.empty() ? default_results(options.config) : options.out;
+    const json rules = tuning_of(config);
+    if (rules["is_estimated"]) find_chip(rules["time"]);  // or says why it cannot be asked
+    json points = json::array();
+    for (const VariantConfig& v : config.variants)
+        points.push_back({{"variant", named_in_configs(v)},
+                          {"preset", v.preset},
+                          {"parameters", v.parameters},
+                          {"swept", v.swept},
+                          {"point", v.point},
+                          {"label", v.label},
+                          {"baseline", v.is_baseline}});
+    const json asked = {
+        {"study", config.source},
+        {"tune", rules},
+        {"points", points},
+        {"parameters",
+         rules.contains("program") ? json::object() : config_schema(config.variants.front().variant)["properties"]},
+        {"folder", std::filesystem::absolute(options.config).parent_path().string()}};
+    create_folder(out);
+    write_text(out / "tune.json", asked.dump(1) + "\n");  // without comments, which Python does not read
+    std::vector<std::string> arguments = {"--out=" + out.string(), (out / "tune.json").string(), "--",
+                                          this_program().string()};
+    arguments.insert(arguments.end(), run_options.begin(), run_options.end());
+    return run_script("tune/tune.py", arguments);
+}
+
+/// A command whose options a script declares, --help among them.
+static void hand_on(CLI::App& command, int (*call)(const std::vector<std::string>&), CommandLine& line) {
+    command.prefix_command()->set_help_flag();
+    command.callback([&command, call, &line] { line.status = call(command.remaining()); });
+}
+
+void add_figures(CommandLine& line) {
+    hand_on(*line.app.add_subcommand(
+                "figures",
+                "Draw the figures of a paper (PDF, SVG, PNG) and animations of motion (GIF) from a results folder"),
+            figures_command, line);
+}
+
+void add_tables(CommandLine& line) {
+    hand_on(*line.app.add_subcommand("tables", "Make a study's tables (Markdown, LaTeX, CSV) from a results folder"),
+            tables_command, line);
+}
+
+void add_tradeoff(CommandLine& line) {
+    TradeoffOptions& tradeoff = line.keep<TradeoffOptions>();
+    CLI::App& command = *line.app.add_subcommand(
+        "tradeoff",
+        "Answer error against time: fronts, the best technique for a time budget, errors that no time removes");
+    command.add_option("results", tradeoff.results, "A folder that `ssrlab run` filled")->required()->type_name("DIR");
+    command.add_option("--out", tradeoff.out, "Default: tradeoff in the results folder")->type_name("DIR");
+    command
+        .add_option("--baseline", tradeoff.baseline,
+                    "Errors are multiples of this point's; default: none, else the study's first baseline")
+        ->type_name("VARIANT:POINT");
+    command.add_option("--times", tradeoff.times, "Time budgets, or budgets of what --cost counts or estimates")
+        ->check(positive())
+        ->capture_default_str()
+        ->type_name("MS");
+    command.add_option("--factors", tradeoff.factors, "Fractions of the baseline's error, for the time to reach them")
+        ->check(positive())
+        ->capture_default_str()
+        ->type_name("F");
+    command.add_option("--leave-out", tradeoff.left_out, "Scenes or shots to exclude")->type_name("SCENE");
+    add_margin(command, tradeoff.margin, "the study's `primary.margin`");
+    command.add_option("--metric", tradeoff.metric, "Default: that of the study's primary error");
+    command.add_option("--mask", tradeoff.mask, "Default: that of the study's primary error");
+    command.add_option("--target", tradeoff.target, "Default: that of the study's primary error");
+    command
+        .add_option("--cost", tradeoff.cost,
+                    "A counted quantity of costs.csv, or a chip of estimates.csv, in place of time")
+        ->type_name("QUANTITY|CHIP");
+    add_reading(command);
+    command.callback([&] { line.status = tradeoff_command(tradeoff); });
+}
+
+void add_tune(CommandLine& line) {
+    TuneOptions& tune = line.keep<TuneOptions>();
+    CLI::App& command = *line.app.add_subcommand(
+        "tune",
+        "Search a technique's parameters for the front of error against time, and evaluate them on other scenes");
+    command.add_option("config", tune.config, "A study with \"tune\" (experiments/README.md)")
+        ->required()
+        ->type_name("CONFIG.json");
+    command.add_option("--out", tune.out, "Default: results/<name of the config>")->type_name("DIR");
+    add_device(command, line.common), add_scene_path(command, line.common), add_cache(command, line.common);
+    add_reading(command);
+    command.callback([&] { line.status = tune_command(tune, run_options(command, line.common)); });
+}

@@ -1,0 +1,116 @@
+// ssrlab watch: a technique's folder, rendered and judged on every save.
+#include "core/shown_text.h"
+#include "experiments/cli/commands.h"
+#include "experiments/cli/frame_numbers.h"
+#include "experiments/live/watch/watch_session.h"
+
+#include <csignal>
+#include <cstdio>
+
+namespace {
+
+struct WatchOptions {
+    std::filesystem::path folder, out;
+    std::vector<std::string> scenes;
+    std::string against, camera, preset, frames = "0";  ///< a frame, or a range with both ends
+    std::vector<unsigned> size{480, 270};
+    unsigned samples = 256, seeds = 0;  ///< seeds 0: as studies have them
+    double patience = 30;
+};
+
+volatile std::sig_atomic_t is_ended = 0;
+
+/// While it lives, Ctrl-C and SIGTERM set is_ended.
+class EndingSignals {
+public:
+    EndingSignals() {
+        struct sigaction end {};
+        end.sa_handler = [](int) { is_ended = 1; };
+        for (size_t i = 0; i < 2; ++i) sigaction(signals[i], &end, &before_[i]);
+    }
+    ~EndingSignals() {
+        for (size_t i = 0; i < 2; ++i) sigaction(signals[i], &before_[i], nullptr);
+    }
+    EndingSignals(const EndingSignals&) = delete;
+    EndingSignals& operator=(const EndingSignals&) = delete;
+
+private:
+    static constexpr int signals[] = {SIGINT, SIGTERM};
+    struct sigaction before_[2];
+};
+
+}  // namespace
+
+static void watch_command(const WatchOptions& options, const std::vector<std::string>& run_options) {
+    constexpr size_t most_frames = 1000;
+    const std::filesystem::path folder =
+        std::filesystem::weakly_canonical(std::filesystem::absolute(options.folder));  // "my_ssr/", ".", a link
+    const EndingSignals signals;
+    WatchSession session(
+        {.folder = folder,
+         .preset = options.preset,
+         .scenes = options.scenes,
+         .camera = options.camera,
+         .extent = {options.size[0], options.size[1]},
+         .frames = frame_numbers({&options.frames, 1}, most_frames, "a watch"),
+         .against = options.against,
+         .samples = options.samples,
+         .seeds = options.seeds,
+         .patience = options.patience,
+         .out = options.out.empty() ? std::filesystem::path("results/watch") / folder.filename() : options.out,
+         .run_options = run_options});
+    session.run([] { return is_ended != 0; },
+                [](const std::string& text) {
+                    std::printf("%s\n", shown_text(text).c_str());
+                    std::fflush(stdout);
+                });
+}
+
+void add_watch(CommandLine& line) {
+    WatchOptions& watch = line.keep<WatchOptions>();
+    CLI::App& command = *line.app.add_subcommand(
+        "watch", "Render and judge a technique's folder whenever it is saved, and show it on a page of this machine");
+    command.add_option("folder", watch.folder, "With technique.json and shaders (ssrlab new makes one)")
+        ->required()
+        ->type_name("FOLDER");
+    command
+        .add_option("--scene", watch.scenes,
+                    "One or more, by name (see: ssrlab list scenes) or path; the first is shown first")
+        ->required()
+        ->type_name("SCENE...");
+    command
+        .add_option(
+            "--against", watch.against,
+            "Also compare with this technique, NAME or NAME:PRESET, or another folder; best: what errs least in "
+            "the included studies")
+        ->type_name("NAME");
+    command.add_option("--preset", watch.preset, "One of the technique's presets; default: its defaults")
+        ->type_name("NAME");
+    command.add_option("--camera", watch.camera, "Default: each scene's first")->type_name("NAME");
+    add_size(command, watch.size);
+    command
+        .add_option("--frames", watch.frames,
+                    "Frames of the camera's path and of the animation, for histories; the last is measured")
+        ->capture_default_str()
+        ->type_name("A-B");
+    command.add_option("--samples", watch.samples, "Of the truth, per pixel")
+        ->check(CLI::Range(32, 1 << 20))
+        ->capture_default_str()
+        ->type_name("N");
+    command.add_option("--seeds", watch.seeds, "Of techniques that draw random numbers; default: 8")
+        ->check(CLI::Range(1, 1000))
+        ->type_name("N");
+    command
+        .add_option("--patience", watch.patience,
+                    "Seconds without a sign of life after which rendering is ended, as of a loop without end")
+        ->check(real_in(15, 1e6, "a number from 15, as there is a sign every ten seconds, to 1000000"))
+        ->capture_default_str()
+        ->type_name("SECONDS");
+    command
+        .add_option("--out", watch.out,
+                    "Folder of kept versions and of what is rendered; default: results/watch/<name>")
+        ->type_name("DIR");
+    add_device(command, line.common), add_scene_path(command, line.common), add_cache(command, line.common);
+    add_reading(command);
+    command.callback([&] { watch_command(watch, run_options(command, line.common)); });
+}

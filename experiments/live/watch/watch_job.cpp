@@ -1,0 +1,81 @@
+#include "experiments/live/watch/watch_job.h"
+
+#include "core/elapsed.h"
+#include "core/files.h"
+#include "experiments/results/cells/host_info.h"
+#include "experiments/live/watch/watch_study.h"
+
+#include <limits>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string name_of(JobKind kind) {
+    switch (kind) {
+        case JobKind::truth:
+            return watch_folder::truth;
+        case JobKind::coarse:
+            return watch_folder::coarse;
+        case JobKind::now:
+            return watch_folder::now;
+        case JobKind::why:
+            return watch_folder::why;
+        case JobKind::times:
+            return watch_folder::times;
+        case JobKind::kept:
+            return watch_folder::kept;
+    }
+    return {};
+}
+
+/// With its config written.
+std::vector<std::string> arguments_of(JobKind kind, const WatchSettings& settings, const nlohmann::json& study,
+                                      bool prunes) {
+    const fs::path config = settings.out / (name_of(kind) + ".json");
+    write_text(config, study.dump(1) + "\n");
+    std::vector<std::string> arguments = {this_program().string(), "run", config.string(), "--replace"};
+    arguments.push_back("--out=" + (settings.out / name_of(kind)).string());
+    if (kind == JobKind::truth) arguments.push_back("--cells=references");
+    if (kind != JobKind::truth && kind != JobKind::kept) arguments.push_back("--no-report");
+    if (prunes) arguments.push_back("--prune");
+    arguments.insert(arguments.end(), settings.run_options.begin(), settings.run_options.end());
+    return arguments;
+}
+
+double patience_with(JobKind kind, double seconds) {
+    return kind == JobKind::truth   ? std::numeric_limits<double>::infinity()
+           : kind == JobKind::times ? 4 * seconds
+                                    : seconds;
+}
+
+}  // namespace
+
+WatchJob::WatchJob(JobKind kind, const WatchSettings& settings, const nlohmann::json& study, bool prunes)
+    : kind(kind),
+      results(settings.out / name_of(kind)),
+      output_(settings.out / (name_of(kind) + ".out")),
+      errors_(settings.out / (name_of(kind) + ".err")),
+      patience_(patience_with(kind, settings.patience)),
+      program_(arguments_of(kind, settings, study, prunes), output_, errors_) {}
+
+uintmax_t WatchJob::said() const {
+    std::error_code error;
+    uintmax_t bytes = 0;
+    for (const fs::path& file : {output_, errors_})
+        if (const uintmax_t size = fs::file_size(file, error); !error) bytes += size;
+    return bytes;
+}
+
+WatchJob::State WatchJob::state() {
+    if (const auto code = program_.exit_code()) return *code == 0 ? State::done : State::failed;
+    if (const uintmax_t now = said(); now != said_) said_ = now, since_ = std::chrono::steady_clock::now();
+    return seconds_since(since_) > patience_ ? State::hanging : State::running;
+}
+
+std::string WatchJob::error() const {
+    const std::string said = "\n" + read_text(errors_), mark = "\nerror: ";
+    const size_t at = said.find(mark);  // behind lines of progress
+    if (at != std::string::npos) return said.substr(at + mark.size());
+    return said == "\n" ? "rendering ended without a word" : said.substr(1);
+}

@@ -1,0 +1,90 @@
+#pragma once
+#include "experiments/live/watch/kept_versions.h"
+#include "experiments/live/watch/page_images.h"
+#include "experiments/live/watch/watch_job.h"
+#include "experiments/live/watch/watched_files.h"
+
+#include <functional>
+#include <future>
+#include <optional>
+#include <vector>
+
+/// A technique that is rendered and judged on every save, and the page that shows it.
+class WatchSession {
+public:
+    /// Fails with Error if the folder is none, or what is compared against does not exist.
+    explicit WatchSession(const WatchSettings& settings);
+    ~WatchSession();
+    WatchSession(const WatchSession&) = delete;
+    WatchSession& operator=(const WatchSession&) = delete;
+
+    /// Until `is_over` says so. `say` gets sentences for the user. Fails with Error where a scene cannot be path
+    /// traced.
+    void run(const std::function<bool()>& is_over, const std::function<void(const std::string&)>& say);
+
+private:
+    using Clock = std::chrono::system_clock;
+
+    std::string ask(const std::string& what, const nlohmann::json& value);  ///< by a thread of the server
+
+    // What there is to do, in the order of run().
+    void answer_requests();
+    std::string answer(const std::string& what, const nlohmann::json& value);
+    std::string keep();
+    std::string set_values(const nlohmann::json& values);
+    void begin(Clock::time_point since);
+    void look_for_picture();
+    void follow_truth();
+    void follow_job();
+    void finish_job();
+    std::optional<JobKind> next_job() const;
+    void start_job(JobKind kind);
+    void refuse(const std::string& error);
+    void give_up(const std::string& error);
+
+    // What studies are made of.
+    WatchedPoint point() const;
+    std::vector<WatchedPoint> compared() const;
+    bool has_truth() const { return truths_ > 0; }
+
+    void publish();
+    nlohmann::json news() const;
+
+    const WatchSettings settings_;
+    const std::filesystem::path copy_;  ///< of the folder, which is rendered
+    const std::optional<WatchedPoint> against_;
+    KeptVersions versions_;
+    WatchedFiles files_;
+
+    nlohmann::json values_ = nlohmann::json::object();  ///< of parameters, by the page's sliders
+    nlohmann::json parameters_ = nlohmann::json::array();
+    bool is_valid_ = false;  ///< the copy declares a technique
+
+    // How far the present state of the technique is.
+    unsigned state_ = 0;  ///< its number, of saves and changes of values
+    Clock::time_point since_, measured_;
+    size_t scenes_ = 0;  ///< measured with the full truth
+    bool is_coarse_done_ = false, is_why_done_ = false, are_times_done_ = false, is_kept_done_ = true,
+         has_picture_ = false;
+    std::unique_ptr<WatchJob> job_;
+
+    std::unique_ptr<WatchJob> truth_job_;
+    size_t truths_ = 0;  ///< scenes whose truth is there
+    Clock::time_point opened_;
+
+    /// What the page shows.
+    nlohmann::json problem_, result_, picture_, why_, times_, seconds_ = nlohmann::json::object();
+    bool has_news_ = true;
+
+    struct Request {
+        std::string what;
+        nlohmann::json value;
+        std::promise<std::string> answer;
+    };
+    std::mutex mutex_;  ///< of what follows
+    bool is_closed_ = false;
+    std::vector<std::unique_ptr<Request>> requests_;
+
+    PageImages images_;
+    WatchServer server_;  ///< the last: it asks the others
+};

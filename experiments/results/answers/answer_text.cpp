@@ -1,0 +1,56 @@
+#include "experiments/results/answers/answer_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+std::string shown(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return text;
+}
+
+std::string shown_ratio(double ratio, int least_digits) {
+    char text[32];
+    if (ratio < 9.95)
+        std::snprintf(text, sizeof text, "%.*g", std::max(least_digits, std::abs(ratio - 1) < 0.1 ? 3 : 2), ratio);
+    else
+        std::snprintf(text, sizeof text, "%.0f", ratio);
+    return std::string(text) + "x";
+}
+
+std::string interval_text(const std::optional<double>& low, const std::optional<double>& high) {
+    return low && high ? " [" + shown(*low) + ", " + shown(*high) + "]" : "";
+}
+
+std::string name_of(const AnswerPoint& p) {
+    if (!p.label.empty()) return p.label;
+    return p.point == "default" || p.point.empty() ? p.variant : p.variant + " " + p.point;
+}
+
+std::string listed(const std::vector<std::string>& names, size_t most) {
+    std::string text;
+    for (size_t i = 0; i < std::min(names.size(), most); ++i)
+        text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+    if (names.size() > most) text += " and " + std::to_string(names.size() - most) + " more";
+    return text;
+}
+
+std::string listed(const std::vector<AnswerPoint>& points, size_t most) {
+    std::vector<std::string> names;
+    for (const AnswerPoint& p : points) names.push_back(name_of(p));
+    return listed(names, most);
+}
+
+std::string shown(const Ratio& r) {
+    if (!r.low || !r.high) return shown_ratio(r.value);
+    const int digits = shown_ratio(*r.low) == shown_ratio(*r.high) ? 3 : 2;
+    return shown_ratio(r.value, digits) + " [" + shown_ratio(*r.low, digits) + ", " + shown_ratio(*r.high, digits) +
+           "]";
+}
+
+std::string percent_text(double share) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g %%", 100 * share);
+    return text;
+}

@@ -1,0 +1,207 @@
+#pragma once
+#include "core/gpu/chips/compiled_shader.h"
+#include "experiments/results/cells/reference_noise.h"
+#include "experiments/results/tables/columns.h"
+#include "metrics/seed_pairs.h"
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// One row of results.csv; the columns are explained in experiments/RESULTS.md.
+struct ResultRow {
+    std::string shot, scene, camera;
+    std::string frame;  ///< its number, or over_frames
+    unsigned width = 0, height = 0;
+    std::string variant, point;
+    unsigned seed = 0;
+    std::string target, metric, formula, mask;
+    std::optional<double> value;  ///< none where it is not finite, e.g. the PSNR of equal images
+    bool is_corrected = false;
+    std::optional<double> uncorrected, low, high, floor;
+    std::optional<double> lit_noise, lit_half_width;  ///< see LitNoise
+    size_t pixels = 0, non_finite = 0, negative = 0;
+    bool represents_shot = false;  ///< see mark_representative_rows(); false in cells
+    NoiseGrowth growth = {};       ///< no column: Score::growth while frames are measured; empty in cells
+
+    static constexpr auto columns() {
+        return std::tuple(
+            Column{"shot", &ResultRow::shot}, Column{"scene", &ResultRow::scene}, Column{"camera", &ResultRow::camera},
+            Column{"frame", &ResultRow::frame}, Column{"width", &ResultRow::width},
+            Column{"height", &ResultRow::height}, Column{"variant", &ResultRow::variant},
+            Column{"point", &ResultRow::point}, Column{"seed", &ResultRow::seed}, Column{"target", &ResultRow::target},
+            Column{"metric", &ResultRow::metric}, Column{"formula", &ResultRow::formula},
+            Column{"mask", &ResultRow::mask}, Column{"value", &ResultRow::value},
+            Column{"corrected", &ResultRow::is_corrected}, Column{"uncorrected", &ResultRow::uncorrected},
+            Column{"low", &ResultRow::low}, Column{"high", &ResultRow::high}, Column{"floor", &ResultRow::floor},
+            Column{"lit_noise", &ResultRow::lit_noise}, Column{"lit_half_width", &ResultRow::lit_half_width},
+            Column{"pixels", &ResultRow::pixels}, Column{"non_finite", &ResultRow::non_finite},
+            Column{"negative", &ResultRow::negative}, Column{"represents_shot", &ResultRow::represents_shot});
+    }
+};
+
+/// One row of splits.csv: the bias and the variance of an error.
+struct SplitRow {
+    std::string shot, frame, variant, point, target, mask;
+    unsigned seeds = 0;
+    double mse = 0, bias_squared = 0, variance = 0;
+    std::optional<double> variance_low, variance_high;
+    size_t pixels = 0;
+    std::optional<double> bias_squared_low, bias_squared_high;
+    // Kept in cells, for effects, but not in splits.csv.
+    std::vector<unsigned> seed_numbers;  ///< of `pairs`
+    SeedPairs pairs;
+    std::vector<float> reference_noise;  ///< of bias_squared, see ReferenceNoise::sums
+    /// In bias_squared, as ResultRow has them; empty where `mse` is not measured.
+    std::optional<double> lit_noise, lit_half_width;
+
+    static constexpr auto columns() {
+        return std::tuple(
+            Column{"shot", &SplitRow::shot}, Column{"frame", &SplitRow::frame}, Column{"variant", &SplitRow::variant},
+            Column{"point", &SplitRow::point}, Column{"target", &SplitRow::target}, Column{"mask", &SplitRow::mask},
+            Column{"seeds", &SplitRow::seeds}, Column{"mse", &SplitRow::mse},
+            Column{"bias_squared", &SplitRow::bias_squared}, Column{"variance", &SplitRow::variance},
+            Column{"variance_low", &SplitRow::variance_low}, Column{"variance_high", &SplitRow::variance_high},
+            Column{"pixels", &SplitRow::pixels}, Column{"bias_squared_low", &SplitRow::bias_squared_low},
+            Column{"bias_squared_high", &SplitRow::bias_squared_high});
+    }
+};
+
+/// One row of times.csv.
+struct TimeRow {
+    std::string shot, variant, point;
+    unsigned seed = 0;
+    std::string stage;
+    unsigned frame = 0;
+    double milliseconds = 0;
+    std::string clock;
+    std::optional<double> foreign_load = {};  ///< see CpuTimes; none where the system does not report it
+    bool is_disturbed = false;                ///< other programs took too much CPU time meanwhile
+
+    static constexpr auto columns() {
+        return std::tuple(Column{"shot", &TimeRow::shot}, Column{"variant", &TimeRow::variant},
+                          Column{"point", &TimeRow::point}, Column{"seed", &TimeRow::seed},
+                          Column{"stage", &TimeRow::stage}, Column{"frame", &TimeRow::frame},
+                          Column{"milliseconds", &TimeRow::milliseconds}, Column{"clock", &TimeRow::clock},
+                          Column{"foreign_load", &TimeRow::foreign_load}, Column{"disturbed", &TimeRow::is_disturbed});
+    }
+};
+
+/// One row of hits.csv: how the rays of one pass ended.
+struct HitRow {
+    std::string shot, frame, variant, point;
+    std::string stage;     ///< the pass
+    std::string mask;      ///< of the pixels that they start from
+    std::string quantity;  ///< a verdict of judged_hits.h; "correct": the sum of right ones; "miss: " and the outcome
+                           ///< that the tracer gave for an avoidable one; "distance_error"; "fetches", "fetches: " and
+                           ///< "median", "90 %" or "most"
+    unsigned seeds = 0;
+    double rays = 0;  ///< mean over the seeds
+    double value = 0;
+    std::optional<double> low, high;  ///< over the seeds; none with a single one
+
+    static constexpr auto columns() {
+        return std::tuple(
+            Column{"shot", &HitRow::shot}, Column{"frame", &HitRow::frame}, Column{"variant", &HitRow::variant},
+            Column{"point", &HitRow::point}, Column{"stage", &HitRow::stage}, Column{"mask", &HitRow::mask},
+            Column{"quantity", &HitRow::quantity}, Column{"seeds", &HitRow::seeds}, Column{"rays", &HitRow::rays},
+            Column{"value", &HitRow::value}, Column{"low", &HitRow::low}, Column{"high", &HitRow::high});
+    }
+};
+
+/// One row of costs.csv: what the passes of a stage do in the shot's last frame.
+struct CostRow {
+    std::string shot, variant, point, stage;
+    std::string quantity;  ///< a name of cost_quantities, core/gpu/pass_cost.h
+    size_t value = 0;
+
+    static constexpr auto columns() {
+        return std::tuple(Column{"shot", &CostRow::shot}, Column{"variant", &CostRow::variant},
+                          Column{"point", &CostRow::point}, Column{"stage", &CostRow::stage},
+                          Column{"quantity", &CostRow::quantity}, Column{"value", &CostRow::value});
+    }
+};
+
+/// One row of compiled.csv: what a GPU's compiler made of one shader of a stage.
+struct CompiledRow : CompilerNumbers {
+    std::string shot, variant, point, stage;
+    unsigned pipeline = 0;  ///< a stage may run several, for its mips or materials
+    std::string shader;     ///< "compute", "vertex" or "fragment"; "": refused
+    std::string chip, driver;
+    std::optional<double> waves, most_waves;  ///< see Occupancy, ...
+    std::string limit;                        ///< ... of the waves
+    std::string refusal;                      ///< why there are no numbers
+
+    static constexpr auto columns() {
+        const auto numbers = std::apply(
+            [](const auto&... number) {
+                return std::tuple(Column{number.name, number.member}...);
+            },
+            compiler_numbers);
+        return std::tuple_cat(
+            std::tuple(Column{"shot", &CompiledRow::shot}, Column{"variant", &CompiledRow::variant},
+                       Column{"point", &CompiledRow::point}, Column{"stage", &CompiledRow::stage},
+                       Column{"pipeline", &CompiledRow::pipeline}, Column{"shader", &CompiledRow::shader},
+                       Column{"chip", &CompiledRow::chip}, Column{"driver", &CompiledRow::driver},
+                       Column{"lanes", &CompiledRow::lanes}, Column{"waves", &CompiledRow::waves},
+                       Column{"most_waves", &CompiledRow::most_waves}, Column{"limit", &CompiledRow::limit}),
+            numbers, std::tuple(Column{"hash", &CompiledRow::hash}, Column{"refusal", &CompiledRow::refusal}));
+    }
+};
+
+/// One row of estimates.csv: how long a chip would take for a stage, see gpu_estimates.h. Microseconds; numbers are
+/// missing where there is a refusal.
+struct EstimateRow {
+    std::string shot, variant, point, stage;  ///< stage: also `total`
+    std::string chip, product;
+    std::optional<double> microseconds, low, high;
+    std::string bound;  ///< the part that takes longest, see ChipTime
+    std::optional<double> vector, scalar, shared_memory, textures, targets, memory, latency, caches;
+    std::optional<double> waves, active_lanes, unmatched, cut_lanes;
+    std::string refusal;  ///< why there are no numbers
+
+    static constexpr auto columns() {
+        return std::tuple(
+            Column{"shot", &EstimateRow::shot}, Column{"variant", &EstimateRow::variant},
+            Column{"point", &EstimateRow::point}, Column{"stage", &EstimateRow::stage},
+            Column{"chip", &EstimateRow::chip}, Column{"product", &EstimateRow::product},
+            Column{"microseconds", &EstimateRow::microseconds}, Column{"low", &EstimateRow::low},
+            Column{"high", &EstimateRow::high}, Column{"bound", &EstimateRow::bound},
+            Column{"vector", &EstimateRow::vector}, Column{"scalar", &EstimateRow::scalar},
+            Column{"shared_memory", &EstimateRow::shared_memory}, Column{"textures", &EstimateRow::textures},
+            Column{"targets", &EstimateRow::targets}, Column{"memory", &EstimateRow::memory},
+            Column{"latency", &EstimateRow::latency}, Column{"caches", &EstimateRow::caches},
+            Column{"waves", &EstimateRow::waves}, Column{"active_lanes", &EstimateRow::active_lanes},
+            Column{"unmatched", &EstimateRow::unmatched}, Column{"cut_lanes", &EstimateRow::cut_lanes},
+            Column{"refusal", &EstimateRow::refusal});
+    }
+};
+
+/// The results of one shot and variant point with all its seeds, of the times of a shot, or of its references: the
+/// unit of work that is done once and kept.
+struct Cell {
+    std::vector<ResultRow> rows;
+    std::vector<SplitRow> splits;
+    std::vector<ReferenceNoise> reference_noise;
+    std::vector<TimeRow> times;
+    std::vector<HitRow> hits;
+    std::vector<CostRow> costs;
+    std::vector<CompiledRow> compiled;
+    std::vector<EstimateRow> estimates;
+    nlohmann::json images = nlohmann::json::array();  ///< entries of manifest.json's `images`
+    nlohmann::json timing;                            ///< as timing_entry() gives it; null where nothing was timed
+    std::vector<std::string> notes;                   ///< sentences for the manifest: what is unknown, and why
+    std::string truth;    ///< ShotTruth::content_hash() of what its numbers were measured against
+    nlohmann::json shot;  ///< what the manifest says of the shot once its references are there; null in other cells
+    double seconds = 0;   ///< that making it took, with the opening of the shot for its references
+    nlohmann::json provenance;  ///< what made it, where and when, see experiments/results/cells/provenance.h
+    std::string name;           ///< as CellStore knows it
+};
+
+void to_json(nlohmann::json& json, const Cell& cell);
+/// Of what read_cell() has checked.
+void from_json(const nlohmann::json& json, Cell& cell);
+/// What to_json() made. Fails with Error, which names the member, where that has another type or length, is missing, or
+/// is not a cell's. `where`: file and place, for the message.
+Cell read_cell(const nlohmann::json& json, const std::string& where);

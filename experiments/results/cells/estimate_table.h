@@ -1,0 +1,23 @@
+#pragma once
+#include "core/gpu/chips/model_range.h"
+#include "experiments/results/cells/cell.h"
+
+/// A row of estimates.csv: an estimate, and between what its model leaves the time (model_range).
+struct EstimateTableRow : EstimateRow {
+    std::optional<double> model_low, model_high;
+
+    static constexpr auto columns() {
+        return std::tuple_cat(EstimateRow::columns(), std::tuple(Column{"model_low", &EstimateTableRow::model_low},
+                                                                 Column{"model_high", &EstimateTableRow::model_high}));
+    }
+};
+
+inline std::vector<EstimateTableRow> estimate_table(const std::vector<EstimateRow>& rows) {
+    std::vector<EstimateTableRow> table;
+    for (const EstimateRow& row : rows) {
+        EstimateTableRow& made = table.emplace_back(EstimateTableRow{row, std::nullopt, std::nullopt});
+        if (row.low) made.model_low = *row.low * model_range.low;
+        if (row.high) made.model_high = *row.high * model_range.high;
+    }
+    return table;
+}

@@ -1,0 +1,15 @@
+#pragma once
+#include "core/gpu/device.h"
+#include "experiments/results/cells/cell.h"
+
+#include <span>
+
+/// Who makes cells now: {"ssrlab": build_info(), "device": {"name", "driver", "api", "type", "memory_mib"}, "host":
+/// host_info()}.
+nlohmann::json maker_of_cells(const Device& device);
+
+/// Cell::provenance: the maker, {"what": for readers, "started", "finished"}.
+nlohmann::json cell_provenance(const nlohmann::json& maker, const std::string& what, const std::string& started);
+
+/// manifest.json's `provenance`: the makers of the cells, each once with the cells that it made, and when.
+nlohmann::json provenance_entries(std::span<const Cell> cells);

@@ -1,0 +1,16 @@
+#pragma once
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+/// The columns of parameters.csv before those of the parameters.
+inline constexpr const char* names_of_points[] = {"variant", "point", "label", "group", "preset"};
+
+/// A parameter that some techniques of a study have, as a column of parameters.csv.
+struct ParameterColumn {
+    std::string name, type, unit, doc;
+};
+
+/// What the columns of a results folder's CSV files are: a Data Package
+/// (https://specs.frictionlessdata.io/data-package), with type, unit and meaning of each. `parameters`: the study's.
+nlohmann::json results_schema(const std::vector<ParameterColumn>& parameters);

@@ -1,0 +1,104 @@
+#pragma once
+#include "core/files.h"
+#include "experiments/results/tables/csv.h"
+
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <tuple>
+
+/// A column of a table: its name in CSV files, in kept cells and in the report's data, and the member of a row that
+/// holds it: a text, a number (`std::optional<double>` where it may be missing), or a bool (1 or 0 in CSV files).
+template <class Row, class Value>
+struct Column {
+    const char* name;
+    Value Row::*member;
+};
+
+/// Calls `use(column)` for each column of a table, in order. A row declares them once, as a static constexpr function
+/// `columns()` that returns a tuple; files, cells and the report follow from that.
+template <class Row, class Use>
+void for_each_column(Use use) {
+    std::apply([&](const auto&... column) { (use(column), ...); }, Row::columns());
+}
+
+template <class Row>
+std::string csv_header() {
+    std::string line;
+    for_each_column<Row>([&](const auto& column) { line += std::string(column.name) + ","; });
+    line.back() = '\n';
+    return line;
+}
+
+template <class Row>
+std::string csv_row(const Row& row) {
+    std::string line;
+    for_each_column<Row>([&](const auto& column) { line += csv_field(row.*column.member) + ","; });
+    line.back() = '\n';
+    return line;
+}
+
+/// A table with its header; only that where there are no rows.
+template <class Rows>
+void write_rows(const std::filesystem::path& file, const Rows& rows) {
+    using Row = std::remove_cvref_t<decltype(*std::begin(rows))>;
+    std::string text = csv_header<Row>();
+    for (const Row& row : rows) text += csv_row(row);
+    write_text(file, text);
+}
+
+inline void read_field(const CsvReader& csv, const char* name, std::string& value) { value = csv.text(name); }
+inline void read_field(const CsvReader& csv, const char* name, double& value) { value = csv.number(name); }
+inline void read_field(const CsvReader& csv, const char* name, size_t& value) { value = csv.count(name); }
+inline void read_field(const CsvReader& csv, const char* name, bool& value) { value = csv.count(name) != 0; }
+inline void read_field(const CsvReader& csv, const char* name, std::optional<double>& value) {
+    value = csv.optional_number(name);
+}
+inline void read_field(const CsvReader& csv, const char* name, unsigned& value) {
+    value = unsigned(std::min<size_t>(csv.count(name), std::numeric_limits<unsigned>::max()));
+}
+
+/// Fails with Error on a file that cannot be read, lacks a column, or holds what is no value of it. Columns that the
+/// table does not have are passed over.
+template <class Row>
+std::vector<Row> read_rows(const std::filesystem::path& file) {
+    std::vector<Row> rows;
+    for (CsvReader csv(file); csv.next();) {
+        Row row{};
+        for_each_column<Row>([&](const auto& column) { read_field(csv, column.name, row.*column.member); });
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+inline nlohmann::json column_json(const std::optional<double>& value) {
+    return value ? nlohmann::json(*value) : nullptr;
+}
+template <class Value>
+nlohmann::json column_json(const Value& value) {
+    return value;
+}
+
+inline void read_json(const nlohmann::json& json, std::optional<double>& value) {
+    value = json.is_null() ? std::nullopt : std::optional(json.get<double>());
+}
+template <class Value>
+void read_json(const nlohmann::json& json, Value& value) {
+    json.get_to(value);
+}
+
+/// {column: value}, null where there is none.
+template <class Row>
+nlohmann::json row_json(const Row& row) {
+    nlohmann::json json = nlohmann::json::object();
+    for_each_column<Row>([&](const auto& column) { json[column.name] = column_json(row.*column.member); });
+    return json;
+}
+
+/// Fails with nlohmann::json::exception if a column is missing or of another type.
+template <class Row>
+Row row_from_json(const nlohmann::json& json) {
+    Row row{};
+    for_each_column<Row>([&](const auto& column) { read_json(json.at(column.name), row.*column.member); });
+    return row;
+}

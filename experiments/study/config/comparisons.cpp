@@ -1,0 +1,71 @@
+#include "experiments/study/config/comparisons.h"
+
+#include "core/error.h"
+#include "core/json.h"
+#include "experiments/study/config/points/point_name.h"
+#include "experiments/study/config/points/variant_of.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace {
+
+/// Of all parameters, with some values in place of the point's own.
+nlohmann::json values_of(const VariantConfig& v, const nlohmann::json& changed = nlohmann::json::object()) {
+    nlohmann::json parameters = v.parameters;
+    parameters.update(changed);
+    return variant_of(v, parameters)->params.values();
+}
+
+}  // namespace
+
+void find_against_points(std::vector<VariantConfig>& variants, const std::string& where) {
+    if (std::ranges::all_of(variants, [](const VariantConfig& v) { return v.against.is_null(); })) return;
+    std::map<std::pair<std::string, nlohmann::json>, std::string>
+        points;  // by variant and the values of all parameters
+    for (const VariantConfig& v : variants) points.try_emplace({v.variant, values_of(v)}, v.point);
+    for (VariantConfig& v : variants) {
+        if (v.against.is_null()) continue;
+        const nlohmann::json other = values_of(v, v.against);
+        if (other == values_of(v)) continue;
+        const auto found = points.find({v.variant, other});
+        if (found == points.end())
+            fail(where, ": variants: nothing is the same as '", v.variant, "' with the point '", v.point, "' but for ",
+                 shown(v.against), ", its 'against'; add that point");
+        v.against_point = found->second;
+    }
+}
+
+std::vector<ComparedPoint> compared_points(const std::vector<VariantConfig>& variants) {
+    std::vector<ComparedPoint> points;
+    for (const VariantConfig& v : variants)
+        points.push_back({.variant = v.variant,
+                          .point = v.point,
+                          .depends_on_seed = v.depends_on_seed,
+                          .is_baseline = v.is_baseline,
+                          .against = v.against_point.empty() ? "" : label_of(v.against),
+                          .against_point = v.against_point});
+    return points;
+}
+
+std::vector<SingleChange> single_changes(const std::vector<VariantConfig>& variants) {
+    std::vector<SingleChange> changes;
+    std::vector<std::pair<std::string, nlohmann::json>> baselines;  // variants and values
+    for (const VariantConfig& v : variants)
+        if (v.is_baseline) baselines.emplace_back(v.variant, values_of(v));
+    for (const VariantConfig& v : variants) {
+        if (v.is_baseline || v.swept.empty()) continue;  // a preset is compared as a whole
+        const nlohmann::json own = values_of(v);
+        for (const auto& [variant, other] : baselines) {
+            if (variant != v.variant) continue;
+            std::vector<std::string> differing;
+            for (const auto& [name, value] : own.items())
+                if (other.at(name) != value) differing.push_back(name);
+            if (differing.size() != 1) continue;
+            changes.push_back({v.variant, v.point, differing.front(), own.at(differing.front())});
+            break;
+        }
+    }
+    return changes;
+}

@@ -1,0 +1,22 @@
+#pragma once
+#include "experiments/study/config/config.h"
+
+#include <string>
+#include <vector>
+
+/// Finds what each point with VariantConfig::against is compared with, wherever in the study it stands. Fails where no
+/// point is the same but for these values; `where` names the config.
+void find_against_points(std::vector<VariantConfig>& variants, const std::string& where);
+
+/// The study's points, as verdicts know them.
+std::vector<ComparedPoint> compared_points(const std::vector<VariantConfig>& variants);
+
+/// A swept point that differs from a baseline of its variant in one parameter. A study may hold dozens: they belong
+/// into the list of effects, not into every table and chart.
+struct SingleChange {
+    std::string variant, point, parameter;
+    nlohmann::json value;
+};
+
+/// In the order of `variants`.
+std::vector<SingleChange> single_changes(const std::vector<VariantConfig>& variants);

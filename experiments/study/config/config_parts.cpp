@@ -1,0 +1,270 @@
+#include "experiments/study/config/config_parts.h"
+
+#include "core/error.h"
+#include "core/gpu/chips/chip_rates.h"
+#include "core/gpu/pass_cost.h"
+#include "core/near_miss.h"
+#include "experiments/study/config/points/conditions.h"
+#include "experiments/study/config/points/design.h"
+#include "experiments/study/config/points/read_variants.h"
+#include "experiments/study/config/shots/read_shots.h"
+#include "metrics/metric.h"
+#include "variants/registry.h"
+
+#include <algorithm>
+
+namespace {
+
+using nlohmann::json;
+
+const std::string milliseconds = "milliseconds";
+
+/// The one point that all others are compared with.
+void check_baseline(ConfigObject& study, std::vector<VariantConfig>& points) {
+    const auto baselines = std::ranges::count_if(points, &VariantConfig::is_baseline);
+    if (baselines > 1) fail(study.at("variants"), ": ", baselines, " points are baselines; 'tune' needs one");
+    if (baselines == 0) points.front().is_baseline = true;
+}
+
+/// One variant, points that run everywhere with the study's seeds, one of them the baseline.
+void check_tuned_points(ConfigObject& study, ConfigObject& tune, Config& config) {
+    std::vector<VariantConfig>& points = config.variants;
+    for (JsonObject& entry : study.elements("variants"))
+        for (const char* key : {"seeds", "only_if", "skip_if", "timing", "against"})
+            if (entry.has(key)) fail(entry.at(key), ": '", key, "' is not for points of a study with 'tune'");
+    std::vector<std::string> names;
+    for (const VariantConfig& point : points) {
+        if (point.variant != points.front().variant)
+            fail(study.at("variants"), ": 'tune' searches one variant, but here are '", points.front().variant,
+                 "' and '", point.variant, "'");
+        names.push_back(point.point);
+        if (point.depends_on_seed && point.seeds.size() < 2)
+            fail(study.at(study.has("seeds") ? "seeds" : "variants"), ": '", point.point,
+                 "' draws random numbers: a single seed gives no interval; name two seeds or more");
+    }
+    check_baseline(study, points);
+    if (tune.has("start")) tune.known_texts("start", names);
+}
+
+Keys axis_keys() {
+    const Values ends = range_values(0);
+    return joined({{"values", array_of({json::object(), "a value", {}}), none, "what is tried"},
+                   {"lin", ends, none, "a range"},
+                   {"log", ends, none, "a range, whose logarithm is sampled evenly"}},
+                  condition_keys());
+}
+
+Keys judge_keys() {
+    return {{"shots", list_of_shots(), required, "the scenes to judge on"},
+            {"seeds", seeds(), otherwise("the study's"), "of the points there"}};
+}
+
+void check_axes(ConfigObject& tune, const ParameterSet& declared) {
+    JsonObject axes = tune.plain("axes");
+    const json& written = tune["axes"];
+    if (written.empty()) fail(axes.where(), ": is empty; name parameters and what to try");
+    for (const auto& [name, axis] : written.items()) {
+        json plain = axis;
+        if (axis.is_object()) {
+            ConfigObject object(axes.object(name), axis_keys());
+            for (const PointCondition& condition : read_conditions(object, declared))
+                for (const auto& [what, test] : condition.tests.items())
+                    if (what.starts_with("shot."))
+                        fail(object.where(), ": '", what, "': an axis depends on parameters, not on shots");
+            plain.erase("only_if"), plain.erase("skip_if");
+            if (plain.size() == 1 && plain.contains("values")) plain = json(plain["values"]);
+        }
+        check_sample_axis(plain, declared, name, axes.at(name));
+    }
+}
+
+/// A search over the settings of somebody's program, which is compared with points of any techniques.
+void check_program(ConfigObject& study, ConfigObject& tune, Config& config) {
+    if (tune.texts("program").empty()) fail(tune.at("program"), ": is empty; name a program");
+    for (const char* key : {"start", "time", "budgets"})
+        if (tune.has(key))
+            fail(tune.at(key), ": '", key,
+                 "' is not for a search over a 'program', which begins at its defaults and whose time is not measured");
+    check_baseline(study, config.variants);
+    if (!tune.has("axes")) return;
+    JsonObject axes = tune.plain("axes");
+    for (const auto& [name, axis] : tune["axes"].items()) {
+        if (axis.is_array()) continue;
+        ConfigObject object(axes.object(name), axis_keys());
+        unsigned kinds = 0;
+        for (const char* kind : {"values", "lin", "log"})
+            if (object.has(kind)) static_cast<void>(object[kind]), ++kinds;
+        if (kinds != 1 || axis.size() != 1)
+            fail(object.where(), ": a setting of a program has one of 'values', 'lin' and 'log', and no conditions");
+        object.finish();
+    }
+}
+
+void check_technique(ConfigObject& study, ConfigObject& tune, Config& config) {
+    check_tuned_points(study, tune, config);
+    if (tune.has("axes"))  // which one that others extend may leave to them
+        check_axes(tune, make_variant(config.variants.front().variant)->params);
+    if (tune["time"] == milliseconds && config.timing.frames == 0)
+        fail(tune.where(),
+             ": needs 'timing' of 15 frames or more, a counted 'time', such as \"operations\", or an "
+             "estimated one, such as \"navi21\"");
+}
+
+}  // namespace
+
+Values names_of_metrics() { return some_of(named(one_of(metric_names()), "a name from `ssrlab list metrics`")); }
+
+Keys table_keys() {
+    const Values names = some_of(any_text()),
+                 name = {{{"type", "string"}, {"pattern", "^[A-Za-z0-9_]+$"}}, "letters, digits and _", {}};
+    const Values any_object = {{{"type", "object"}}, "an object", {}};
+    return {{"name", name, required, "of its files"},
+            {"caption", any_text(), required, "what stands above it"},
+            {"of",
+             one_of({"effects", "results", "splits", "times", "time_effects", "hits", "costs", "compiled", "estimates",
+                     "limits", "agreement", "eye", "variance", "at_cost", "changes", "over_scenes"}),
+             required, "where its numbers come from, below"},
+            {"where", any_object, otherwise("all rows"),
+             "column to the value, or array of values, of the rows that count; rows and columns of the table stand in "
+             "the order of such an array. `\"!value\"` leaves those rows out"},
+            {"rows", names, required,
+             "a column of the file, or several, names of parameters, or `group` and `shot_group` (of points and shots "
+             "that have one; else variant and scene): what each row of the table is named by. Points and shots with a "
+             "display name are called by it"},
+            {"columns", names, required, "the same of its columns"},
+            {"over", any_text(), otherwise("no mean"),
+             "in place of a cell for each `shot`, say, the geometric mean over them with their range, below"},
+            {"sort", any_text(), otherwise("as in the file"), "the column of the table that its rows are sorted by"},
+            {"best", one_of({"column", "row"}), otherwise("none is marked"),
+             "among which cells those that are the best of their shot are bold, and those that are tied or equivalent "
+             "italic, as "
+             "summary.csv says (`standing`). Of `results` and `limits`, without `over`"},
+            {"labels", any_object, none,
+             "names in the table to better ones: `{\"lobe = normals\": \"normals\"}`; \"\" leaves one out"}};
+}
+
+void check_tables(ConfigObject& study, const Config& config) {
+    std::set<std::string> names;
+    for (JsonObject& entry : study.elements("tables")) {
+        ConfigObject table(std::move(entry), table_keys());
+        const auto name = table.get<std::string>("name"), of = table.get<std::string>("of");
+        if (!names.insert(name).second) fail(table.where(), ": two tables are called '", name, "'");
+        if (of == "costs" && !config.counts_costs)
+            fail(table.at("of"), ": the study counts no costs; add \"costs\": true");
+        if (of == "compiled" && config.gpu_compilers.empty())
+            fail(table.at("of"), ": the study asks no compiler; add \"gpu_compilers\": [\"navi21\"]");
+        if (of == "estimates" && !(config.counts_costs && !config.gpu_compilers.empty()))
+            fail(table.at("of"),
+                 ": the study estimates no GPU's times; add \"costs\": true and \"gpu_compilers\": "
+                 "[\"navi21\"]");
+        if (table.has("best") && of != "results" && of != "limits")
+            fail(table.at("best"), ": 'best' is of 'results' and 'limits', which have a standing, not of '", of, "'");
+        if (table.has("best") && table.has("over"))
+            fail(table.at("best"), ": means over ", table["over"].dump(),
+                 " have no 'best': `ssrlab tradeoff` compares over scenes");
+        if (of == "hits" && !config.hits) fail(table.at("of"), ": the study judges no rays; add \"hits\": {}");
+    }
+}
+
+Keys frozen_keys() {
+    const Values points = {
+        {{"type", "object"}, {"additionalProperties", {{"type", "string"}}}}, "an object of texts", {}};
+    return {{"cost",
+             {{{"type", "number"}, {"exclusiveMinimum", 0}}, "a number above 0", {}},
+             required,
+             "milliseconds, or what `ssrlab tradeoff --cost` counts or estimates"},
+            {"points", points, required, "technique to the name of one of its points"}};
+}
+
+void check_frozen(ConfigObject& study, const Config& config) {
+    for (JsonObject& entry : study.elements("frozen")) {
+        ConfigObject frozen(std::move(entry), frozen_keys());
+        frozen.get<double>("cost");
+        for (const auto& [variant, point] : frozen["points"].items()) {
+            std::vector<std::string> points;
+            for (const VariantConfig& v : config.variants)
+                if (v.variant == variant) points.push_back(v.point);
+            if (points.empty()) fail(frozen.at("points"), ": the study has no variant '", variant, "'");
+            if (std::ranges::count(points, point.get<std::string>()) == 0)
+                fail(frozen.at("points"), ": the study has no point '", point.get<std::string>(), "' of ", variant,
+                     suggestion(point.get<std::string>(), points));
+        }
+        frozen.finish();
+    }
+}
+
+Keys tune_keys() {
+    std::vector<std::string> times = {milliseconds};
+    for (const CostQuantity& quantity : cost_quantities) times.push_back(quantity.name);
+    for (const std::string& chip : chips_with_rates()) times.push_back(chip);
+    const Values values = array_of({json::object(), "a value", {}});
+    const Values axis = either(values, object_of(axis_keys()));
+    Values budget = {{{"type", "number"}, {"exclusiveMinimum", 0}}, "a number above 0", {}};
+    return {
+        {"axes",
+         {{{"type", "object"}, {"additionalProperties", axis.schema}}, "an object of axes", {}, {{"type", "object"}}},
+         otherwise("required, but for a config that others extend"),
+         "parameter to what is tried: an array of values, `{\"lin\": [from, to]}` or `{\"log\": [from, to]}`, or an "
+         "object of `values`, `lin` or `log` with `only_if` and `skip_if`, conditions on parameters: where they leave "
+         "an axis out, the parameter keeps the value that it has at the start"},
+        {"program", some_of(any_text()), none,
+         "a program that renders in place of a technique, and its first arguments: axes are then settings of it, "
+         "below"},
+        {"start", any_text(), otherwise("the baseline"), "the point that the axes change, by its name"},
+        {"time", one_of(times), milliseconds,
+         "what a point takes: the clock's, a quantity of `costs.csv`, which is exact and needs no quiet machine, or a "
+         "GPU's "
+         "estimated `total` in `estimates.csv`, which needs none either"},
+        {"budgets", array_of(budget), json::array({0.5, 1, 2}),
+         "of each the point of least error is found that takes no more than so many times the baseline's time"},
+        {"metrics", names_of_metrics(), otherwise("the study's `primary`"),
+         "the error: geometric mean over shots and metrics of the ratio to the baseline's"},
+        {"target", one_of(target_names()), otherwise("the study's `primary`"), "of that error"},
+        {"mask", any_text(), otherwise("the study's `primary`"), "of that error"},
+        {"judge", object_of(judge_keys()), otherwise("none: nothing is judged"),
+         "other scenes, which the search does not see"},
+        {"most_runs", whole(1, 1 << 30), 1000, "where the search ends; a run is one seed of one point in one shot"},
+        {"most_minutes", number(0, 1e7), Default(1e7, "no limit"), "where the search ends"},
+        {"batch", whole(1, 256), 8, "points that are proposed together"},
+        {"seed", whole(0, 1 << 30), 0, "of the optimiser's random numbers"}};
+}
+
+void check_tune(ConfigObject& study, Config& config) {
+    if (!study.has("tune")) return;
+    ConfigObject tune(study.plain("tune"), tune_keys());
+    config.is_tuned = true;
+    if (config.variants.empty()) return;  // of which read_config() complains
+    if (tune.has("program"))
+        check_program(study, tune, config);
+    else
+        check_technique(study, tune, config);
+    if (tune.has("metrics")) tune.known_texts("metrics", config.metrics);
+    if (tune.has("target")) tune.known_texts("target", config.targets);
+    if (tune.has("mask")) tune.known_texts("mask", config.masks);
+    if (!tune.has("judge")) return;
+    ConfigObject judge = tune.object("judge");
+    if (read_shots(judge, study, config.file.parent_path()).empty())
+        fail(judge.where(), ": names no shots to judge on");
+    read_seeds(judge);
+}
+
+json tuning_of(const Config& config) {
+    const std::string where = config.file.string();
+    const auto start = std::ranges::find_if(config.variants, &VariantConfig::is_baseline);
+    json rules = {{"metrics", json::array({config.primary.metric})},
+                  {"target", config.primary.target},
+                  {"mask", config.primary.mask},
+                  {"start", start->point},
+                  {"judge", {{"shots", json::array()}}}};
+    rules.update(ConfigObject(JsonObject(config.source.at("tune"), where), tune_keys()).values());
+    if (rules["metrics"].is_string()) rules["metrics"] = json::array({rules["metrics"]});
+    const json seeds = config.source.value("seeds", json(default_seeds));
+    if (rules.contains("program")) {
+        if (rules["program"].is_string()) rules["program"] = json::array({rules["program"]});
+        rules["budgets"] = json::array({1});
+    }
+    rules["is_estimated"] = chip_rates(rules["time"]).has_value();
+    rules["seeds"] = numbers_of(seeds, where);
+    rules["judge"]["seeds"] = numbers_of(rules["judge"].value("seeds", seeds), where);
+    return rules;
+}

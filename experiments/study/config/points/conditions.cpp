@@ -1,0 +1,118 @@
+#include "experiments/study/config/points/conditions.h"
+
+#include "core/error.h"
+#include "core/near_miss.h"
+#include "core/value_condition.h"
+#include "experiments/study/config/points/external_images.h"
+#include "experiments/study/config/shots/read_shots.h"
+
+#include <algorithm>
+
+namespace {
+
+using nlohmann::json;
+
+const std::string shot_prefix = "shot.";
+
+json values_of(const Shot& shot) {
+    const SceneFacts& facts = shot.facts;
+    json values = {{"shot.scene", shot.scene.name},
+                   {"shot.camera", shot.camera.name},
+                   {"shot.width", shot.config.extent.x},
+                   {"shot.height", shot.config.extent.y},
+                   {"shot.frames", shot.config.frames.size()},
+                   {"shot.has_geometry", facts.has_geometry},
+                   {"shot.has_reflective", facts.has_reflective},
+                   {"shot.has_matte", facts.has_matte},
+                   {"shot.min_roughness", json_number(facts.min_roughness)},
+                   {"shot.max_roughness", json_number(facts.max_roughness)},
+                   {"shot.camera_moves", facts.camera_moves},
+                   {"shot.objects_move", facts.objects_move},
+                   {"shot.is_still", facts.is_still()},
+                   {"shot.has_environment", facts.has_environment},
+                   {"shot.has_textures", facts.has_textures},
+                   {"shot.has_alpha_masks", facts.has_alpha_masks},
+                   {"shot.has_normal_maps", facts.has_normal_maps},
+                   {"shot.has_vertex_colors", facts.has_vertex_colors},
+                   {"shot.has_faulty_inputs", facts.has_faulty_inputs}};
+    const json settings = shot_settings(shot.config);
+    for (const auto& [setting, word] : settings.items()) values[shot_prefix + setting] = word;
+    return values;
+}
+
+std::string text_of(const PointCondition& condition) {
+    return (condition.skips ? "skip_if " : "only_if ") + condition.tests.dump();
+}
+
+}  // namespace
+
+Keys condition_keys() {
+    const Values tests = {{{"type", "object"}}, "an object of conditions", {}};
+    return {{"only_if", tests, otherwise("everywhere"), "where it is: all conditions hold"},
+            {"skip_if", tests, otherwise("nowhere"), "where it is left out: all conditions hold"}};
+}
+
+std::vector<PointCondition> read_conditions(ConfigObject& entry, const ParameterSet& declared) {
+    if (!entry.has("only_if") && !entry.has("skip_if")) return {};
+    json samples = values_of(Shot{});
+    samples.update(declared.values());
+    std::vector<std::string> known;
+    for (const auto& [name, value] : samples.items()) known.push_back(name);
+    std::vector<PointCondition> conditions;
+    for (const char* key : {"only_if", "skip_if"}) {
+        if (!entry.has(key)) continue;
+        const JsonObject tests = entry.plain(key);
+        for (const auto& [name, test] : entry[key].items()) {
+            if (!samples.contains(name))
+                fail(tests.at(name), ": '", shortened(name), "' is no parameter and nothing of a shot",
+                     suggestion(name, known));
+            check_condition(test, samples[name], tests.at(name) + ": '" + name + "'");
+        }
+        conditions.push_back({.skips = key == std::string("skip_if"), .tests = entry[key]});
+    }
+    return conditions;
+}
+
+bool is_wanted(std::vector<PointCondition>& conditions, const json& parameters) {
+    std::vector<PointCondition> left;
+    for (PointCondition& condition : conditions) {
+        bool all_hold = true;
+        json of_shots = json::object();
+        for (const auto& [name, test] : condition.tests.items()) {
+            if (name.starts_with(shot_prefix))
+                of_shots[name] = test;
+            else
+                all_hold &= holds(test, parameters.at(name));
+        }
+        if (condition.skips && !all_hold) continue;
+        if (!condition.skips && !all_hold) return false;
+        if (of_shots.empty() && condition.skips) return false;
+        if (!of_shots.empty()) left.push_back({condition.skips, std::move(of_shots)});
+    }
+    conditions = std::move(left);
+    return true;
+}
+
+std::string why_skipped(const VariantConfig& variant, const Shot& shot) {
+    if (variant.external) {
+        if (const std::string why = why_not_external(shot); !why.empty()) return why;
+        if (!variant.external->has_view(shot))
+            return variant.external->folder.string() + " holds no " + ExternalImages::view_name(shot);
+    }
+    if (variant.conditions.empty()) return "";
+    const json values = values_of(shot);
+    for (const PointCondition& condition : variant.conditions) {
+        const bool all_hold = std::ranges::all_of(
+            condition.tests.items(), [&](const auto& test) { return holds(test.value(), values.at(test.key())); });
+        if (all_hold == condition.skips) return text_of(condition);
+    }
+    return "";
+}
+
+bool runs_on(const VariantConfig& variant, const Shot& shot) { return why_skipped(variant, shot).empty(); }
+
+Config config_on(const Config& study, const Shot& shot) {
+    Config config = study;
+    std::erase_if(config.variants, [&](const VariantConfig& variant) { return !runs_on(variant, shot); });
+    return config;
+}

@@ -1,0 +1,279 @@
+#include "experiments/study/config/points/read_variants.h"
+
+#include "core/error.h"
+#include "core/near_miss.h"
+#include "experiments/study/config/points/conditions.h"
+#include "experiments/study/config/points/design.h"
+#include "experiments/study/config/points/external_images.h"
+#include "experiments/study/config/points/point_name.h"
+#include "variants/registry.h"
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <numeric>
+#include <set>
+#include <span>
+
+namespace {
+
+/// A variant's own are obeyed to the letter. Of those that a study names for all, a point that does not depend on them
+/// needs one.
+std::vector<unsigned> seeds_of(const std::optional<std::vector<unsigned>>& own,
+                               const std::optional<std::vector<unsigned>>& of_study, bool depends_on_seed) {
+    if (own) return *own;
+    if (of_study) return depends_on_seed ? *of_study : std::vector{of_study->front()};
+    std::vector<unsigned> seeds(depends_on_seed ? default_seeds : 1);
+    std::iota(seeds.begin(), seeds.end(), 0u);
+    return seeds;
+}
+
+/// The variant; fails with the place in the file if there is none such.
+std::unique_ptr<Variant> make_checked(const std::string& where, const std::string& name,
+                                      const nlohmann::json& parameters = nlohmann::json::object(),
+                                      const std::string& preset = "") {
+    try {
+        return make_variant(name, parameters, preset);
+    } catch (const Error& e) {
+        fail(where, ": ", e.what());
+    }
+}
+
+/// An object of parameter values; null if the key is absent.
+nlohmann::json read_values(ConfigObject& entry, const std::string& key, const ParameterSet& declared) {
+    if (!entry.has(key)) return {};
+    const JsonObject object = entry.plain(key);
+    nlohmann::json values = entry[key];
+    for (auto& [name, value] : values.items()) value = checked_value(declared, name, value, object.at(name));
+    return values;
+}
+
+nlohmann::json with_values(nlohmann::json parameters, const nlohmann::json& changed) {
+    parameters.update(changed);
+    return parameters;
+}
+
+/// What the points of an entry have in common.
+struct Shared {
+    std::string where, label, group;
+    std::optional<std::vector<unsigned>> own_seeds, study_seeds;
+    bool is_timed = true;
+    std::vector<PointCondition> conditions;
+};
+
+/// The rest of a point that has its variant, preset and values. False if a condition leaves it out.
+bool complete_point(VariantConfig& point, const Shared& shared, ConfigObject& object) {
+    const auto made = make_checked(shared.where, point.variant, point.parameters, point.preset);
+    nlohmann::json values = made->params.values();
+    point.conditions = shared.conditions;
+    if (!is_wanted(point.conditions, values)) return false;
+    point.point = point_name(point.preset, point.swept);
+    values["preset"] = point.preset;
+    point.label = fill_in(shared.label, values, object.at("label") + ": 'label'");
+    point.group = fill_in(shared.group, values, object.at("group") + ": 'group'");
+    point.depends_on_seed = made->depends_on_seed();
+    point.is_timed = shared.is_timed && !made->uses_scene_data();
+    point.seeds = seeds_of(shared.own_seeds, shared.study_seeds, point.depends_on_seed);
+    if (!point.against.is_null())
+        make_checked(object.at("against"), point.variant, with_values(point.parameters, point.against), point.preset);
+    return true;
+}
+
+/// The parameter of a chosen tracer or resolve whose name is like that of another's; "" if there is none.
+std::string meant_by(const std::string& name, const ParameterSet& params) {
+    const auto leaf = [](const std::string& whole) { return whole.substr(whole.find('.') + 1); };
+    std::vector<std::string> leaves;
+    std::map<std::string, std::string> names;
+    for (const Parameter& p : params)
+        if (!p.part().empty() && is_read(params, p.name))
+            if (names.try_emplace(leaf(p.name), p.name).second) leaves.push_back(leaf(p.name));
+    std::string near = nearest_name(leaf(name), leaves);
+    for (const std::string& other : leaves)  // "thickness" of "depth_buffer_thickness"
+        if (near.empty() && leaf(name).ends_with("_" + other)) near = other;
+    return near.empty() ? "" : names.at(near);
+}
+
+/// Fails if a design varies a parameter that none of its points reads: all its values would be one point.
+void refuse_unread(std::span<const VariantConfig> points, const std::string& where) {
+    std::set<std::string> read, varied;
+    for (const VariantConfig& point : points) {
+        std::vector<std::string> names;  // that are not known to be read
+        for (const auto& [name, value] : point.swept.items())
+            if (!read.contains(name)) names.push_back(name);
+        if (names.empty()) continue;
+        varied.insert(names.begin(), names.end());
+        const auto made = make_variant(point.variant, point.parameters, point.preset);
+        for (const std::string& name : names)
+            if (is_read(made->params, name)) read.insert(name);
+    }
+    for (const std::string& name : varied) {
+        if (read.contains(name)) continue;
+        const VariantConfig& first = points.front();
+        const std::string meant = meant_by(name, make_variant(first.variant, first.parameters, first.preset)->params);
+        fail(where, ": no point reads '", name, "', a parameter of a tracer or resolve that none of them uses",
+             meant.empty() ? "" : "; did you mean '" + meant + "'?");
+    }
+}
+
+/// variant_keys() of the technique with its defaults, made once: they hold the schemas of all its parameters several
+/// times, and took most of the time in which a study of many entries was read.
+std::shared_ptr<const Keys> kept_keys(const std::string& name, const Variant& plain) {
+    static std::mutex mutex;
+    static std::map<std::string, std::shared_ptr<const Keys>> kept;
+    const VariantEntry& entry = find_variant(name);
+    const std::lock_guard lock(mutex);
+    std::shared_ptr<const Keys>& keys = kept[name + (entry.folder ? entry.folder->content_hash : "")];
+    if (!keys) keys = std::make_shared<const Keys>(variant_keys(plain));
+    return keys;
+}
+
+/// The name of the technique that an entry names; where that is a folder, from the config's, it is added to the table.
+std::string read_technique_name(JsonObject& entry, const std::filesystem::path& folder) {
+    const std::string named = entry.text("variant");
+    try {
+        return technique_name(named, folder);
+    } catch (const Error& error) {
+        fail(entry.at("variant"), ": ", error.what());
+    }
+}
+
+/// `folder`: of the config.
+void read_entry(JsonObject entry, const std::optional<std::vector<unsigned>>& study_seeds,
+                const std::filesystem::path& folder, std::vector<VariantConfig>& variants) {
+    const std::string name = read_technique_name(entry, folder);
+    const auto plain = make_checked(entry.at("variant"), name);
+    ConfigObject object(std::move(entry), kept_keys(name, *plain));
+    if (object.has("remove")) fail(object.at("remove"), ": 'remove' is for a config that 'extends' another");
+    object.has("variant");
+    const std::vector<std::string> presets = object.texts("preset");
+    for (const std::string& preset : presets) make_checked(object.at("preset"), name, {}, preset);
+    nlohmann::json parameters = read_values(object, "parameters", plain->params);
+    if (parameters.is_null()) parameters = nlohmann::json::object();
+    const std::vector<nlohmann::json> points = read_design(object, plain->params);
+    const nlohmann::json against = read_values(object, "against", plain->params);
+    if (object.has("against") && against.empty())
+        fail(object.at("against"), ": 'against' must be an object of parameter values, not ", shown(against));
+    const auto is_baseline = object.get<bool>("baseline");
+    const Shared shared{.where = object.where(),
+                        .label = object.get<std::string>("label"),
+                        .group = object.get<std::string>("group"),
+                        .own_seeds = read_seeds(object),
+                        .study_seeds = study_seeds,
+                        .is_timed = object.get<bool>("timing"),
+                        .conditions = read_conditions(object, plain->params)};
+    object.finish();
+    if (variants.size() + presets.size() * points.size() > most_points)
+        fail(object.where(), ": with it the study has ", variants.size() + presets.size() * points.size(),
+             " points; allowed are ", most_points);
+    const size_t before = variants.size();
+    for (const std::string& preset : presets)
+        for (const nlohmann::json& values : points) {
+            VariantConfig point{.variant = name,
+                                .preset = preset,
+                                .parameters = with_values(parameters, values),
+                                .swept = values,
+                                .point = "",
+                                .seeds = {},
+                                .is_baseline = is_baseline,
+                                .against = against};
+            if (complete_point(point, shared, object)) variants.push_back(std::move(point));
+        }
+    if (variants.size() == before) fail(object.where(), ": its conditions leave none of its points");
+    refuse_unread(std::span(variants).subspan(before), object.where());
+}
+
+/// `folder`: of the config.
+void read_external_entry(JsonObject entry, const std::filesystem::path& folder, std::vector<VariantConfig>& variants) {
+    ConfigObject object(std::move(entry), external_keys());
+    if (object.has("remove")) fail(object.at("remove"), ": 'remove' is for a config that 'extends' another");
+    const std::shared_ptr<const ExternalImages> images =
+        read_external_images(folder / object.get<std::string>("external"), object.at("external"));
+    VariantConfig point{.variant = images->name,
+                        .preset = "",
+                        .parameters = nlohmann::json::object(),
+                        .swept = nlohmann::json::object(),
+                        .point = images->point,
+                        .label = object.get<std::string>("label"),
+                        .group = object.get<std::string>("group"),
+                        .seeds = std::vector<unsigned>(images->seeds),
+                        .depends_on_seed = images->seeds > 1,
+                        .is_baseline = object.get<bool>("baseline"),
+                        .is_timed = false,
+                        .external = images};
+    if (object.has("point")) point.point = object.get<std::string>("point");
+    std::iota(point.seeds.begin(), point.seeds.end(), 0u);
+    object.finish();
+    variants.push_back(std::move(point));
+}
+
+/// The pairs (variant, point) name cells and rows, so they must differ, and one label for two would hide which is
+/// which.
+void refuse_repetition(const std::vector<VariantConfig>& variants, const std::string& where) {
+    std::set<std::pair<std::string, std::string>> points;
+    std::set<std::string> labels;
+    for (const VariantConfig& v : variants) {
+        if (!points.insert({v.variant, v.point}).second)
+            fail(where, ": variants: '", v.variant, "' comes twice with the point '", v.point,
+                 "'; give the second a preset or a sweep that distinguishes them");
+        if (!v.label.empty() && !labels.insert(v.label).second)
+            fail(where, ": variants: two points have the label '", v.label,
+                 "'; distinguish them by {preset} or the name of a parameter in braces");
+    }
+}
+
+}  // namespace
+
+Keys variant_keys(const Variant& variant) {
+    const Values parameters = {variant.params.schema(), "an object of parameter values", {}, {{"type", "object"}}};
+    const Keys keys = {
+        {"variant", any_text(), required,
+         "a name from `ssrlab list variants`, or with a `/` in it the folder of a technique of your own, from the "
+         "config's: "
+         "`./my_ssr`"},
+        {"preset", some_of(any_text()), Default("", "none"),
+         "what its points start from: names from `ssrlab list presets`"},
+        {"parameters", parameters, none,
+         "values in place of the preset's or default ones: `ssrlab describe VARIANT` explains them"},
+        {"label", any_text(), Default("", "its name"),
+         "how report, figures and tables show a point, with parameters and `{preset}` filled in"},
+        {"group", any_text(), Default("", "none"), "what several points belong to, with the same braces"},
+        {"seeds", seeds(), otherwise("the study's"), "in place of the study's, and obeyed to the letter"},
+        {"baseline", flag(), false,
+         "every other point is compared with this one, over the seeds that both have, in `effects.csv`"},
+        {"against", parameters, otherwise("nothing"),
+         "such as `{\"estimator\": \"a\"}`: each of its points is compared with the point that has these values and is "
+         "otherwise the same"},
+        {"timing", flag(), true, "false: results only, no times"},
+        {"remove", flag(), otherwise("false"), "takes the entry away from what the config `extends`"}};
+    return joined(joined(keys, design_keys(variant.params)), condition_keys());
+}
+
+Keys external_keys() {
+    return {{"external", any_text(), required,
+             "a folder of images that another program rendered, by its path from the config's: see \"Images of other "
+             "programs\""},
+            {"point", any_text(), otherwise("what external.json says"), "what results call these images"},
+            {"label", any_text(), Default("", "its name"), "how report, figures and tables show them"},
+            {"group", any_text(), Default("", "none"), "what several points belong to"},
+            {"baseline", flag(), false, "as of a technique"},
+            {"remove", flag(), otherwise("false"), "takes the entry away from what the config `extends`"}};
+}
+
+Values seeds() { return counts(100000); }
+
+std::optional<std::vector<unsigned>> read_seeds(ConfigObject& object) {
+    if (!object.has("seeds")) return {};
+    return numbers_of(object["seeds"], object.at("seeds") + ": 'seeds'");
+}
+
+std::vector<VariantConfig> read_variants(ConfigObject& study, const std::filesystem::path& folder) {
+    const std::optional<std::vector<unsigned>> seeds = read_seeds(study);
+    std::vector<VariantConfig> variants;
+    for (JsonObject& entry : study.elements("variants"))
+        if (entry.has("external"))
+            read_external_entry(std::move(entry), folder, variants);
+        else
+            read_entry(std::move(entry), seeds, folder, variants);
+    refuse_repetition(variants, study.where());
+    return variants;
+}

@@ -1,0 +1,56 @@
+#include "experiments/study/measuring/costs/traced_frame.h"
+
+#include "core/gpu/device.h"
+#include "core/gpu/waves/traced_shader.h"
+#include "experiments/study/measuring/costs/played_shot.h"
+#include "variants/registry.h"
+
+#include <tbb/parallel_for.h>
+
+namespace {
+
+constexpr std::array wave_widths = {32u, 64u};
+
+TracedFrame::Pass traced_pass(const PassTrace& trace) {
+    TracedFrame::Pass pass{.stage = trace.stage,
+                           .recipe = trace.recipe,
+                           .flow = flow_of(trace.recipe),
+                           .groups = trace.layout.groups,
+                           .traced = {}};
+    for (const unsigned width : wave_widths) {
+        std::vector<WaveCounts>& groups = pass.traced[width];
+        groups.resize(trace.layout.chosen);
+        tbb::parallel_for(0u, trace.layout.chosen, [&](unsigned place) {
+            groups[place] = replay(pass.flow, lanes_of(trace.layout, trace.content, place), width);
+        });
+    }
+    return pass;
+}
+
+}  // namespace
+
+TracedFrame trace_last_frame(Device& device, const Shot& shot, FrameStore& store,
+                             const std::function<const HostImage&(const FrameStep&)>& lit, const VariantConfig& point,
+                             bool keep_all, const std::function<void(double)>& report) {
+    TracedFrame result;
+    for (const bool is_traced : {false, true}) {
+        const std::unique_ptr<Variant> variant = make_variant(point.variant, point.parameters, point.preset);
+        if (variant->uses_scene_data()) return {};
+        if (!keep_all) variant->leave_out(shot.facts);
+        PipelineRecipe original;  // of the pass that is traced next
+        PassGraph graph(device, shot.config.extent);
+        graph.use_gpu_forms(true);
+        const auto watch = [&] {
+            if (!is_traced) return graph.count_costs(true);
+            graph.observe_pipelines([&](const std::string&, const PipelineRecipe& recipe) { original = recipe; });
+            graph.trace([&](const PassTrace& trace) {
+                result.passes.push_back(traced_pass(trace));
+                result.passes.back().original = original;
+            });
+        };
+        play_shot(graph, *variant, shot, store, lit, point, watch,
+                  [&](double share) { report((double(is_traced) + share) / 2); });
+        if (!is_traced) result.costs = graph.costs();
+    }
+    return result;
+}

@@ -1,0 +1,134 @@
+#include "core/error.h"
+#include "core/files.h"
+#include "experiments/study/measuring/times/timing.h"
+#include "experiments/study/run.h"
+#include "experiments/study/study_results.h"
+#include "experiments/study/folder_owner.h"
+#include "experiments/results/cells/image_path.h"
+
+#include <algorithm>
+#include <map>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The devices that made the cells of the parts, by name and driver.
+std::map<std::string, DeviceInfo> devices_of(const std::vector<fs::path>& folders) {
+    std::map<std::string, DeviceInfo> devices;
+    for (const fs::path& folder : folders) {
+        const CellStore store(folder, [](const std::string&) {});
+        for (const std::string& name : store.names())
+            if (const std::optional<Cell> cell = store.read(name)) {
+                const nlohmann::json& made_by = cell->provenance.at("device");
+                const DeviceInfo device{.name = made_by.at("name"), .driver = made_by.at("driver")};
+                devices.emplace(device.name + ", " + device.driver, device);
+            }
+    }
+    return devices;
+}
+
+/// Cells are named by the device that made them, which need not be one of this machine: the only one of the parts, or
+/// the one that `choice` names. Nothing if that is none of them, or several, or an index: then this machine's counts.
+std::optional<DeviceInfo> device_of_parts(const std::map<std::string, DeviceInfo>& devices, const std::string& choice) {
+    std::optional<DeviceInfo> found;
+    if (is_device_index(choice)) return found;
+    for (const auto& [shown, device] : devices)
+        if (device.fits(choice)) {
+            if (found) return {};
+            found = device;
+        }
+    return found;
+}
+
+/// A cell of one of the folders.
+struct FoundCell {
+    Cell cell;
+    fs::path folder;
+};
+
+/// The best that any folder holds of a cell.
+std::optional<FoundCell> find_cell(const PlannedCell& planned, const std::vector<fs::path>& folders,
+                                   const std::function<void(const std::string&)>& say) {
+    std::optional<FoundCell> best;
+    for (const fs::path& folder : folders)
+        if (std::optional<Cell> cell = CellStore(folder, say).load_strictly(planned.name)) {
+            if (best && best->cell.truth != cell->truth)
+                fail("the truth of ", planned.shot, " is not the same pixels in ", best->folder.string(), " and ",
+                     folder.string(), " (cell ", planned.name, ", ", planned.what,
+                     "): references differ between processors and libraries. Run them once, with `--cells references`, "
+                     "and let all other processes use that --cache");
+            if (!best || disturbed_share(cell->timing) < disturbed_share(best->cell.timing))
+                best = {std::move(*cell), folder};
+        }
+    return best;
+}
+
+/// Puts a file of another folder into this one, as a hard link where the file system can.
+void take_over(const fs::path& from, const fs::path& to) {
+    std::error_code error;
+    create_folder(to.parent_path());
+    fs::remove(to, error);
+    fs::create_hard_link(from, to, error);
+    if (!error) return;
+    error.clear();
+    fs::copy_file(from, to, fs::copy_options::overwrite_existing, error);
+    if (error) fail_machine("cannot copy ", from.string(), " to ", to.string(), ": ", error.message());
+}
+
+void take_over(const FoundCell& found, const fs::path& out) {
+    std::error_code error;
+    if (fs::equivalent(found.folder, out, error)) return;
+    for (const nlohmann::json& image : found.cell.images)
+        for (const char* kind : {"exr", "png"}) {
+            const std::string file = image.at(kind);
+            take_over(image_path(found.folder, file), image_path(out, file));
+        }
+    const auto nowhere = [](const std::string&) {};
+    take_over(CellStore(found.folder, nowhere).file(found.cell.name), CellStore(out, nowhere).file(found.cell.name));
+}
+
+}  // namespace
+
+size_t merge_study(const Config& config, const RunSettings& settings, const std::vector<fs::path>& folders) {
+    for (const fs::path& folder : folders) check_owner(folder, config, settings.keep_all);
+    const std::map<std::string, DeviceInfo> devices = devices_of(folders);
+    const std::optional<DeviceInfo> of_parts = device_of_parts(devices, settings.device);
+    RunSettings here = settings;
+    if (of_parts) here.device = "";  // nothing is rendered
+    StudySession study(config, here);
+    const auto say = [&](const std::string& text) { study.progress.say(text); };
+    const DeviceInfo device = of_parts.value_or(study.device.info());
+    study.plan = plan_study(config, device, settings.search_path, settings.keep_all);
+    const FolderOwner owner(settings.out, config, settings.keep_all, settings.replaces, say);
+    std::vector<std::string> missing;
+    for (const PlannedShot& shot : study.plan.shots) {
+        std::optional<std::string> truth;  // of the shot's references, which come first: without them no cell counts
+        for (const PlannedCell& planned : shot.cells) {
+            std::optional<FoundCell> found = find_cell(planned, folders, say);
+            if (found && planned.kind == CellKind::references) truth = found->cell.truth;
+            if (found && truth && found->cell.truth != truth)
+                say("note: " + planned.what + " in " + found->folder.string() +
+                    " was measured against another truth than the shot's references are; it is not used");
+            if (!found || found->cell.truth != truth) {
+                missing.push_back(planned.what);
+                continue;
+            }
+            take_over(*found, settings.out);
+            study.finished.push_back(std::move(found->cell));
+        }
+    }
+    if (study.finished.empty())
+        fail("none of the ", study.plan.cell_count(), " cells of this study is in ", folders.front().string(),
+             folders.size() > 1 ? " or the folders beside it" : "", "; were they made by this version of ssrlab, on ",
+             device.name, "?",
+             devices.size() > 1 ? " They hold cells of several devices: --device NAME says whose are merged" : "");
+    write_results(study, missing.empty(), {});
+    say(counted(study.finished.size(), "cell") + " merged, " + std::to_string(missing.size()) + " missing");
+    for (size_t i = 0; i < std::min<size_t>(missing.size(), 5); ++i) say("  missing: " + missing[i]);
+    if (!missing.empty()) {
+        say("They are done by:");
+        say("  " + command_line("run", config, settings));
+    }
+    return missing.size();
+}

@@ -1,0 +1,348 @@
+#include "experiments/study/plan/estimate.h"
+
+#include "core/elapsed.h"
+#include "experiments/study/measuring/render_variant.h"
+#include "experiments/study/measuring/times/timed_rounds.h"
+#include "experiments/study/plan/growth.h"
+#include "experiments/study/shots/open_shot.h"
+#include "experiments/study/shots/point_renders.h"
+#include "groundtruth/reference/reference.h"
+#include "variants/registry.h"
+
+#include <unistd.h>
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <set>
+#include <utility>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Frames are rendered at all of these sizes, all else is measured at the first two.
+constexpr std::array<glm::uvec2, 3> calibration_extents = {glm::uvec2(64, 36), glm::uvec2(160, 90),
+                                                           glm::uvec2(320, 180)};
+using OfTwoSizes = std::array<double, 2>;
+using OfAllSizes = std::array<double, calibration_extents.size()>;
+constexpr unsigned few_samples = 32, many_samples = 128;
+/// Shares of a reference's time without its guide that its lit colour alone and its specular light alone take; of the
+/// rays of three rooms the latter has 0.46 to 0.54. Both trace the first hits.
+constexpr double lit_share = 0.6, specular_share = 0.5;
+constexpr double clock_proof_seconds = 5, compiling_seconds = 0.3, counting_factor = 5;
+constexpr double chip_seconds = 1;               // of one chip's compiler for the passes of a point
+constexpr double external_pixel_seconds = 2e-6;  // of a frame of another program, read and measured
+constexpr double tracing_factor = 15;            // a traced frame, with the replay of its waves, takes so many others
+
+double seconds_of(const std::function<void()>& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return seconds_since(start);
+}
+
+double pixels_of(glm::uvec2 extent) { return double(extent.x) * double(extent.y); }
+
+/// Seconds that grow with the number of pixels.
+struct Line {
+    double fixed = 0, per_pixel = 0;
+    double at(double pixels) const { return fixed + per_pixel * pixels; }
+};
+
+Line line_through(const OfTwoSizes& seconds) {
+    const double few = pixels_of(calibration_extents[0]), many = pixels_of(calibration_extents[1]);
+    const double slope = std::max(seconds[1] - seconds[0], 0.0) / (many - few);
+    return {std::max(seconds[0] - slope * few, 0.0), slope};
+}
+
+/// Points that are alike but for what a design varies.
+std::string kind_of(const VariantConfig& variant) { return variant.variant + " " + variant.preset; }
+
+/// What a point of a kind takes.
+struct PointRates {
+    Line once;     ///< images, and what is measured of the point as a whole
+    Line measure;  ///< a frame of a seed
+    Growth frame;  ///< rendered: the mean of the first and the last point of the kind
+};
+
+/// How often a point is played besides its seeds: with the light of each half of a reference (point_run.cpp).
+unsigned plays_of_lit_noise(const Config& config, const ShotConfig& shot) {
+    return config.measures_lit_noise && config.has_reference && !shot.direct_lit && shot.gbuffer.empty() ? 2 : 0;
+}
+
+/// What was measured on small images.
+struct Rates {
+    Line opening;                              ///< a shot: its scene, its first frame, what is measured of the truth
+    Line guide;                                ///< what a reference does before its samples
+    double per_sample = 0;                     ///< seconds per pixel and sample of a reference
+    std::map<std::string, PointRates> points;  ///< by kind_of()
+};
+
+/// Measures on a folder of its own, which it removes.
+class Calibration {
+public:
+    Calibration(Device& device, const Config& config, const RunSettings& settings)
+        : device_(device), settings_(settings), config_(config) {
+        folder_ = fs::temp_directory_path() / ("ssrlab-plan-" + std::to_string(getpid()));
+        for (const VariantConfig& variant : config.variants) {
+            if (variant.external) continue;
+            auto [ends, is_new] = ends_of_kinds_.try_emplace(kind_of(variant), variant, variant);
+            ends->second.second = variant;
+        }
+        config_.reference = {.max_samples = few_samples,
+                             .max_depth = config.reference.max_depth,
+                             .guide_samples = config.reference.guide_samples};
+    }
+    ~Calibration() {
+        std::error_code error;
+        fs::remove_all(folder_, error);
+    }
+
+    Rates measure(const ShotConfig& shot) {
+        OfTwoSizes opening{}, rendered{};
+        std::map<std::string, PointSeconds> points;
+        for (size_t i = 0; i < opening.size(); ++i) {
+            rendered[i] = seconds_of([&] { open(shot, i); });
+            std::unique_ptr<OpenShot> run;
+            opening[i] = seconds_of([&] { run = open(shot, i); });
+            for (const auto& [kind, ends] : ends_of_kinds_) {
+                measure_frames(*run, i, ends, points[kind]);
+                measure_point(*run, i, ends.first, points[kind]);
+            }
+        }
+        {
+            const std::unique_ptr<OpenShot> largest = open(shot, 2);
+            for (const auto& [kind, ends] : ends_of_kinds_) measure_frames(*largest, 2, ends, points[kind]);
+        }
+        config_.reference.max_samples = many_samples;
+        const double longer = seconds_of([&] { open(shot, 1); });
+        Rates rates{.opening = line_through(opening), .guide = {}, .points = {}};
+        rates.per_sample =
+            std::max(longer - rendered[1], 0.0) / (pixels_of(calibration_extents[1]) * (many_samples - few_samples));
+        OfTwoSizes guide{};
+        for (size_t i = 0; i < guide.size(); ++i)
+            guide[i] = rendered[i] - opening[i] - rates.per_sample * few_samples * pixels_of(calibration_extents[i]);
+        rates.guide = line_through(guide);
+        for (const auto& [kind, seconds] : points) rates.points[kind] = rates_of(seconds, shot);
+        return rates;
+    }
+
+private:
+    struct PointSeconds {
+        OfTwoSizes of_a_seed{}, of_two_seeds{};
+        OfAllSizes first_frame{}, last_frame{};
+    };
+
+    PointRates rates_of(const PointSeconds& seconds, const ShotConfig& shot) const {
+        OfTwoSizes once{}, measure{};
+        for (size_t i = 0; i < once.size(); ++i) {
+            const double seed = seconds.of_two_seeds[i] - seconds.of_a_seed[i];
+            once[i] = seconds.of_a_seed[i] - seed - plays_of_lit_noise(config_, shot) * seconds.first_frame[i];
+            measure[i] = seed - seconds.first_frame[i];
+        }
+        OfAllSizes frame{}, pixels{};
+        for (size_t i = 0; i < frame.size(); ++i) {
+            frame[i] = (seconds.first_frame[i] + seconds.last_frame[i]) / 2;
+            pixels[i] = pixels_of(calibration_extents[i]);
+        }
+        return {line_through(once), line_through(measure), growth_through(pixels, frame)};
+    }
+
+    /// A still frame of the shot; of a capture its own size.
+    std::unique_ptr<OpenShot> open(const ShotConfig& shot, size_t size) {
+        ShotConfig small = shot;
+        small.extent = calibration_extents[size], small.frames = {shot.frames.front()};
+        small.warm_up = 0, small.repeat = 1, small.measure_from = shot.frames.front();
+        small.change.reset();
+        return open_shot(device_, small, config_,
+                         {.out = folder_,
+                          .cache = folder_ / ("cache" + std::to_string(size)),
+                          .search_path = settings_.search_path,
+                          .keep_all = settings_.keep_all,
+                          .say = [](const std::string&) {},
+                          .report = [](double, const std::string&) {}});
+    }
+
+    void measure_point(OpenShot& run, size_t size, VariantConfig variant, PointSeconds& seconds) {
+        const bool is_first_size = size == 0;  // compiles
+        const auto play = [&](std::vector<unsigned> seeds) {
+            variant.seeds = std::move(seeds);
+            return seconds_of([&] {
+                SpentTime unused;
+                render_point(device_, run.shot, run.truth, *run.store, config_, variant,
+                             {.out = folder_,
+                              .image_suffix = "plan",
+                              .keep_all = settings_.keep_all,
+                              .report = [](double) {},
+                              .spent = unused});
+            });
+        };
+        if (is_first_size) play({0});
+        seconds.of_a_seed[size] = play({0});
+        seconds.of_two_seeds[size] = play({0, 1});
+    }
+
+    void measure_frames(OpenShot& run, size_t size, const std::pair<VariantConfig, VariantConfig>& ends,
+                        PointSeconds& seconds) {
+        seconds.first_frame[size] = seconds_of_frame(run, ends.first);
+        seconds.last_frame[size] =
+            ends.second.point == ends.first.point ? seconds.first_frame[size] : seconds_of_frame(run, ends.second);
+    }
+
+    double seconds_of_frame(OpenShot& run, const VariantConfig& config) {
+        const FrameStep& step = run.shot.steps.front();
+        const FrameStore::Frame frame = run.store->frame(step, run.truth.lit(step));
+        PassGraph graph(device_, run.shot.config.extent);
+        const std::unique_ptr<Variant> variant = make_variant(config.variant, config.parameters, config.preset);
+        RayProbe probe;  // exact_scene uses scene data, at a cost of its own: here it meets nothing
+        probe.exact_hits = [](const RecordedRays& recorded) { return std::vector<ExactHit>(recorded.rays.size()); };
+        probe.answers = [](const RecordedRays& marched, const AskedRays&) {
+            return std::vector<ExactHit>(marched.rays.size());
+        };
+        variant->ray_probe = &probe;
+        if (!settings_.keep_all) variant->leave_out(run.shot.facts);
+        const auto render = [&] {
+            render_variant(graph, *variant, frame.camera, 0, frame.gbuffer);
+            graph.times();  // waits
+        };
+        render();  // compiles, and allocates
+        std::array<double, 3> seconds{};
+        for (double& s : seconds) s = seconds_of(render);
+        std::ranges::sort(seconds);
+        return seconds[1];
+    }
+
+    Device& device_;
+    const RunSettings& settings_;
+    Config config_;
+    std::map<std::string, std::pair<VariantConfig, VariantConfig>> ends_of_kinds_;  ///< first and last point
+    fs::path folder_;
+};
+
+/// What the process holds at most that does a cell of the shot: device, scene, G-buffer and truth; then either copies
+/// that are timed, each with its images and compiled shaders, or a point's images with what is measured of them, and
+/// the compiled shaders of all points, which the driver keeps. Fitted above what was held:
+///
+/// | | said (MiB) | held |
+/// |---|---|---|
+/// | 640x360: rendering 1 (`none`) and 4 points, timing 12 copies | 643, 748, 917 | 460, 628, 796 |
+/// | 1920x1080: rendering 1, 4 and 7 points, timing 21 copies | 4071, 4176, 4281, 8261 | 3162, 3704, 3710, 6228 |
+/// | 256x144, `quickstart`: rendering, timing | 783, 871 | 687, 764 |
+/// | 192x108, `quality`: counting, timing | 1288, 2107 | 823, 2013 |
+double memory_of(const ShotConfig& shot, const Config& config, size_t timed_copies) {
+    constexpr double base_mib = 180, copy_mib = 10, point_mib = 10, kind_mib = 25, most_kept_mib = 1024;
+    constexpr double truth_bytes = 1250, render_bytes = 700, frame_bytes = 250, copy_bytes = 130;  // per pixel
+    const double mib_of_byte = pixels_of(shot.extent) / 1048576;
+    const double kept_mib = std::min(mib_of_byte * double(shot.frames.size() - 1) * frame_bytes, most_kept_mib);
+    const double held_mib = base_mib + kept_mib + mib_of_byte * truth_bytes;
+    if (timed_copies > 0) return held_mib + double(timed_copies) * (copy_mib + mib_of_byte * copy_bytes);
+    std::set<std::string> kinds;
+    for (const VariantConfig& variant : config.variants) kinds.insert(kind_of(variant));
+    return held_mib + mib_of_byte * render_bytes + point_mib * double(config.variants.size()) +
+           kind_mib * double(kinds.size());
+}
+
+/// Seconds of a study's cells.
+class CellSeconds {
+public:
+    CellSeconds(const Rates& rates, const Config& config) : rates_(rates), config_(config) {}
+
+    /// In the order of the plan: the first times come with the proof of the clock. `others`: of the shot's cells
+    /// before.
+    double of(const PlannedCell& cell, const ShotConfig& shot, double others) {
+        const double pixels = pixels_of(shot.extent);
+        switch (cell.kind) {
+            case CellKind::references:
+                return rates_.opening.at(pixels) + of_references(shot, cell.units);
+            case CellKind::renders:
+                return of_renders(*cell.variant, shot);
+            case CellKind::costs:
+                return of_costs(cell, shot);
+            case CellKind::times:
+                return rates_.opening.at(pixels) + of_times(shot, others) + std::exchange(proof_seconds_, 0.0);
+        }
+        return 0;
+    }
+
+    /// Two copies of each point, and, of those that leave anything out, one that does not.
+    unsigned copies_timed() const { return config_.timing.has_copies ? 3 : 1; }
+
+private:
+    double of_costs(const PlannedCell& cell, const ShotConfig& shot) const {
+        const double frame = frame_of(*cell.variant, shot), chips = double(config_.gpu_compilers.size());
+        // Frames before the last are rendered as they are; counting takes several times a frame.
+        const double counted = frame * (cell.units + counting_factor) + compiling_seconds;
+        double seconds = config_.counts_costs ? counted : 0;
+        if (chips > 0) seconds += 2 * frame + chips * chip_seconds;
+        // Once more counted, and once traced.
+        if (config_.counts_costs && chips > 0)
+            seconds += 2 * counted + frame * tracing_factor + chips * 2 * chip_seconds;
+        return seconds;
+    }
+
+    double of_references(const ShotConfig& shot, double frames) const {
+        if (!config_.has_reference || !shot.gbuffer.empty()) return 0;
+        const double compared = double(compared_frames({.config = shot, .steps = timeline(shot)}).size());
+        const double pixels = pixels_of(shot.extent);
+        return compared * (rates_.guide.at(pixels) + of_samples(config_.reference, pixels)) +
+               std::max(frames - compared, 0.0) * lit_share * of_samples(settings_of(config_, {}, false), pixels);
+    }
+
+    /// Of one reference, without its guide.
+    double of_samples(const ReferenceSettings& settings, double pixels) const {
+        const auto [samples, seconds] = std::pair(settings.max_samples, settings.max_seconds);
+        if (samples == 0 && seconds > 0) return seconds;
+        // How many samples an error takes is not known: then those that a reference has by default.
+        const unsigned of_specular = samples > 0 ? samples : ReferenceSettings::default_samples;
+        const unsigned of_both = settings.lit_samples > 0 ? std::min(settings.lit_samples, of_specular) : of_specular;
+        const double traced = rates_.per_sample * pixels * (of_both + specular_share * (of_specular - of_both));
+        return seconds > 0 ? std::min(traced, double(seconds)) : traced;
+    }
+
+    double of_renders(const VariantConfig& variant, const ShotConfig& shot) const {
+        const double pixels = pixels_of(shot.extent), seeds = double(variant.seeds.size());
+        const std::vector<FrameStep> steps = timeline(shot);
+        const auto measured = double(std::ranges::count_if(steps, &FrameStep::is_measured));
+        if (variant.external) return external_pixel_seconds * pixels * measured * seeds;
+        const PointRates& rates = rates_.points.at(kind_of(variant));
+        return rates.once.at(pixels) + rates.measure.at(pixels) * measured * seeds +
+               rates.frame.at(pixels) * double(steps.size()) * (seeds + plays_of_lit_noise(config_, shot));
+    }
+
+    double of_times(const ShotConfig& shot, double others) const {
+        double round = 0;
+        for (const VariantConfig& variant : config_.variants)
+            if (variant.is_timed) round += frame_of(variant, shot);
+        const double all = round * copies_timed() * (config_.timing.frames + config_.timing.warm_up),
+                     least = round * (least_rounds + copies_timed() * config_.timing.warm_up);
+        return std::min(all, std::max(least, config_.timing.most_share * others));
+    }
+
+    double frame_of(const VariantConfig& variant, const ShotConfig& shot) const {
+        return rates_.points.at(kind_of(variant)).frame.at(pixels_of(shot.extent));
+    }
+
+    const Rates& rates_;
+    const Config& config_;
+    double proof_seconds_ = clock_proof_seconds;
+};
+
+}  // namespace
+
+std::map<std::string, CellEstimate> estimate_cells(Device& device, const Config& config, const StudyPlan& plan,
+                                                   const RunSettings& settings) {
+    const Rates rates = Calibration(device, config, settings).measure(config.shots.front());
+    CellSeconds seconds(rates, config);
+    const auto timed = size_t(std::ranges::count_if(config.variants, &VariantConfig::is_timed));
+    std::map<std::string, CellEstimate> estimates;
+    for (const PlannedShot& shot : plan.shots) {
+        double others = 0;
+        for (const PlannedCell& cell : shot.cells) {
+            estimates[cell.name] = {
+                .seconds = seconds.of(cell, shot.config, others),
+                .memory_mib =
+                    memory_of(shot.config, config, cell.kind == CellKind::times ? seconds.copies_timed() * timed : 0)};
+            others += estimates[cell.name].seconds;
+        }
+    }
+    return estimates;
+}

@@ -1,0 +1,85 @@
+#include "experiments/study/progress.h"
+
+#include "core/shown_text.h"
+
+#include <unistd.h>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace {
+
+double seconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
+
+}  // namespace
+
+void ProgressEstimate::update(double elapsed, double share_done) {
+    share_ = std::max(share_, share_done);
+    const double passed = elapsed - elapsed_;
+    elapsed_ = elapsed;
+    if (share_done < 0.02) return;  // an estimate would only mislead
+    const double now = elapsed * (1 - share_done) / share_done;
+    if (!left_) {
+        left_ = now;
+        return;
+    }
+    const double expected = std::max(*left_ - passed, 0.0);
+    takes_longer_ = now > 1.3 * expected + 10;
+    left_ = expected + (now - expected) * (1 - std::exp(-passed / smoothing));
+}
+
+std::string format_duration(double seconds) {
+    const long long whole = std::llround(std::max(seconds, 0.0));
+    char text[32];
+    if (whole >= 3600)
+        std::snprintf(text, sizeof text, "%lld h %02lld min", whole / 3600, whole / 60 % 60);
+    else if (whole >= 60)
+        std::snprintf(text, sizeof text, "%lld min %02lld s", whole / 60, whole % 60);
+    else
+        std::snprintf(text, sizeof text, "%lld s", whole);
+    return text;
+}
+
+std::string counted(size_t count, const std::string& what) {
+    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+Progress::Progress(double total_work)
+    : total_(std::max(total_work, 1e-9)),
+      is_terminal_(isatty(STDERR_FILENO)),
+      start_(std::chrono::steady_clock::now()),
+      last_(start_ - std::chrono::hours(1)) {}
+
+Progress::~Progress() { clear(); }
+
+void Progress::clear() {
+    if (drawn_) std::fprintf(stderr, "\r%*s\r", int(drawn_), "");
+    drawn_ = 0;
+}
+
+void Progress::update(double done_work, const std::string& what) {
+    const auto now = std::chrono::steady_clock::now();
+    if (seconds(now - last_) < (is_terminal_ ? 0.2 : 10.0)) return;
+    last_ = now;
+    const double elapsed = seconds(now - start_);
+    estimate_.update(elapsed, std::clamp(done_work / total_, 0.0, 1.0));
+    std::string left;
+    if (estimate_.left()) left = ", " + format_duration(*estimate_.left()) + " left";
+    if (estimate_.takes_longer()) left += ", rising: this takes longer than what came before";
+    char head[64];
+    std::snprintf(head, sizeof head, "[%3.0f %%, %s", 100.0 * estimate_.share(), format_duration(elapsed).c_str());
+    const std::string line = head + left + "] " + shown_text(what);
+    if (!is_terminal_) {
+        std::fprintf(stderr, "%s\n", line.c_str());
+        return;
+    }
+    clear();
+    std::fputs(line.c_str(), stderr);
+    drawn_ = line.size();
+}
+
+void Progress::say(const std::string& line) {
+    clear();
+    std::printf("%s\n", shown_text(line).c_str());
+    std::fflush(stdout);
+}

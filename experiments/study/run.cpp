@@ -1,0 +1,250 @@
+#include "experiments/study/run.h"
+
+#include "core/elapsed.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "core/json.h"
+#include "core/scene/load_scene.h"
+#include "experiments/study/measuring/costs/gpu_estimates.h"
+#include "experiments/study/plan/ranking_warnings.h"
+#include "experiments/study/shots/shot_cells.h"
+#include "experiments/study/study_results.h"
+#include "experiments/results/cells/finished_run.h"
+#include "experiments/study/folder_owner.h"
+#include "experiments/results/cells/host_info.h"
+#include "experiments/study/manifest_entries.h"
+
+#include <unistd.h>
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <csignal>
+#include <cstring>
+
+namespace {
+
+/// A first guess of what a unit of a cell takes, in seconds; what is measured corrects it (workload.h).
+double guessed_seconds(const PlannedCell& cell) {
+    constexpr double reference_seconds = 200, render_seconds = 1.5;  // of a million pixels
+    return 1e-6 * double(cell.pixels) * (cell.kind == CellKind::references ? reference_seconds : render_seconds);
+}
+
+/// What a run before left, which may be of any version; null if it cannot be read.
+nlohmann::json read_manifest_before(const std::filesystem::path& file) {
+    std::error_code error;
+    if (!std::filesystem::exists(file, error)) return {};
+    try {
+        return read_json(file);
+    } catch (const MachineError&) {
+        throw;
+    } catch (const Error&) {
+        return {};
+    }
+}
+
+/// What a reader wants to know first.
+std::vector<std::string> lines_of(const StudyAnswers& answers) {
+    std::vector<std::string> lines;
+    for (const std::string& sentence : {answers.in_these_scenes, answers.in_scenes_like_these})
+        if (!sentence.empty()) lines.insert(lines.end(), {"", sentence});
+    for (const ShotAnswer& answer : answers.shots)
+        lines.insert(lines.end(),
+                     {"", answer.shot + ": " + answer.sentence +
+                              (answer.perceptual_sentence.empty() ? "" : " " + answer.perceptual_sentence)});
+    return lines;
+}
+
+std::string report_file(const StudySession& study) {
+    return std::filesystem::absolute(study.settings.out / "report.html").lexically_normal().string();
+}
+
+void say_end(StudySession& study, const std::vector<std::string>& lines) {
+    for (const std::string& line : lines) study.progress.say(line);
+    if (!study.settings.write_report) return;
+    study.progress.say("");
+    study.progress.say("Report: " + report_file(study));
+}
+
+/// All that decides what a run of the whole study leaves.
+std::string key_of_run(const StudySession& study) {
+    ContentHash hash;
+    hash.add(study.maker.dump()), hash.add(study.config.source.dump()), hash.add(int(study.settings.keep_all));
+    hash.add(int(bool(study.settings.write_report)));
+    for (const PlannedShot& shot : study.plan.shots)
+        for (const PlannedCell& cell : shot.cells) hash.add(cell.name);
+    return hash.hex();
+}
+
+/// The selected cells of all shots, and the work that they are.
+void plan_work(StudySession& study, const CellSelection& selection) {
+    const SpentTime::Span span(study.spent, "planning");
+    study.plan = plan_study(study.config, study.device.info(), study.settings.search_path, study.settings.keep_all);
+    size_t selected = 0;
+    for (const PlannedShot& shot : study.plan.shots) {
+        double others = 0;
+        for (const PlannedCell& cell : shot.cells) {
+            const bool is_times = cell.kind == CellKind::times;
+            // A budget of nothing is not kept, and one of more than all is hardly used.
+            const double share = std::clamp(double(study.config.timing.most_share), 0.1, 1.0);
+            const double guess = is_times ? share * others : guessed_seconds(cell);
+            others += cell.units * guess;
+            if (!selection.holds(cell)) continue;
+            ++selected;
+            study.work.plan(name_of(cell.kind), kind_of_work(cell), cell.units, guess);
+        }
+    }
+    if (selected == 0 && selection.is_shard())
+        study.progress.say("note: this part of the study has no cell");
+    else if (selected == 0)
+        fail("--cells selects none of the ", study.plan.cell_count(), " cells of this study; `",
+             command_line("plan", study.config, study.settings), " --list` names them");
+}
+
+/// Runs the cells of one study after another, and lets results be read meanwhile.
+class Runner {
+public:
+    Runner(StudySession& study, const CellSelection& selection)
+        : study_(study), selection_(selection), before_(read_manifest_before(study.settings.out / "manifest.json")) {}
+
+    void run() {
+        if (const auto said = find_finished()) return say_end(study_, *said);
+        for (const PlannedShot& shot : study_.plan.shots) {
+            do_cells(study_, shot, selection_, [&] {
+                if (selection_.is_all() && are_results_due()) write_meanwhile();
+            });
+        }
+        if (selection_.is_all()) {
+            const std::vector<std::string> lines = lines_of(write(true));
+            keep_finished(lines);
+            return say_end(study_, lines);
+        }
+        study_.progress.say(std::to_string(study_.made) + " cells done, " +
+                            std::to_string(study_.finished.size() - study_.made) +
+                            " found done before; once all are there, tables and report are made by:");
+        study_.progress.say("  " + command_line("merge", study_.config, study_.settings));
+    }
+
+private:
+    /// Tables and report are of all cells so far: soon after the start for who looks on, then for a twenty-fifth of the
+    /// time in the first ten minutes, and for half a hundredth of a long study's. Where nothing was made, those that
+    /// are there will do.
+    bool are_results_due() const {
+        const double pause = took_ * (seconds_since(start_) < 600 ? 25 : 200);
+        return study_.made > 0 && seconds_since(written_) > std::max(study_.settings.report_after, pause);
+    }
+
+    void write_meanwhile() {
+        write(false);
+        if (study_.settings.write_report && !std::exchange(has_said_where_, true))
+            study_.progress.say("The report so far: " + report_file(study_) + " (it fills while the study runs)");
+    }
+
+    /// What the run said that left the folder as it is; nothing if there is something to do, or to ask for.
+    std::optional<std::vector<std::string>> find_finished() const {
+        const RunSettings& settings = study_.settings;
+        if (!selection_.is_all() || settings.prunes || settings.takes_times_here || settings.takes_times_again)
+            return {};
+        return find_finished_run(settings.out, key_of_run(study_));
+    }
+
+    /// Not with times of another machine, of which every run says so, nor where every run asks a compiler again.
+    void keep_finished(const std::vector<std::string>& lines) const {
+        const bool has_more_to_say = std::ranges::any_of(study_.finished, [&](const Cell& cell) {
+            return (!cell.timing.is_null() && cell.provenance.at("host") != study_.maker.at("host")) ||
+                   !refusal_in(cell.compiled).empty() || !refusal_in(cell.estimates).empty();
+        });
+        if (!has_more_to_say) keep_finished_run(study_.settings.out, key_of_run(study_), lines);
+    }
+
+    StudyAnswers write(bool is_complete) {
+        const auto start = std::chrono::steady_clock::now();
+        StudyAnswers answers = write_results(study_, is_complete, before_);
+        took_ = seconds_since(start), written_ = std::chrono::steady_clock::now();
+        study_.work.add_overhead(took_);
+        return answers;
+    }
+
+    StudySession& study_;
+    const CellSelection& selection_;
+    nlohmann::json before_;
+    const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    std::chrono::steady_clock::time_point written_ = start_;  ///< when results were last written ...
+    double took_ = 0;                                         ///< ... and the seconds that it took
+    bool has_said_where_ = false;                             ///< the report of a study that is not done yet
+};
+
+/// While it lives Ctrl-C, and SIGTERM as batch systems send it at a job's time limit, end the program with a sentence,
+/// unless whoever started it ignores them. Nothing is lost: cells are written as a whole.
+class ExplainedInterrupt {
+public:
+    ExplainedInterrupt() {
+        struct sigaction explain {};
+        explain.sa_handler = [](int signal) {
+            constexpr char text[] = "\nstopped; the same command continues where it was\n";
+            [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text, sizeof text - 1);
+            _exit(128 + signal);
+        };
+        for (size_t i = 0; i < signals.size(); ++i) {
+            sigaction(signals[i], nullptr, &before_[i]);
+            if (before_[i].sa_handler != SIG_IGN) sigaction(signals[i], &explain, nullptr);
+        }
+    }
+    ~ExplainedInterrupt() {
+        for (size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &before_[i], nullptr);
+    }
+    ExplainedInterrupt(const ExplainedInterrupt&) = delete;
+    ExplainedInterrupt& operator=(const ExplainedInterrupt&) = delete;
+
+private:
+    static constexpr std::array signals = {SIGINT, SIGTERM};
+    std::array<struct sigaction, signals.size()> before_{};
+};
+
+/// As a POSIX shell takes it for one word.
+std::string quoted(const std::string& text) {
+    const auto is_plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("_-./:=,@%+", c); };
+    if (!text.empty() && std::ranges::all_of(text, is_plain)) return text;
+    std::string word = "'";
+    for (const char c : text) word += c == '\'' ? "'\\''" : std::string(1, c);
+    return word + "'";
+}
+
+}  // namespace
+
+std::string command_line(const std::string& command, const Config& config, const RunSettings& settings) {
+    const auto whole = [](const std::filesystem::path& path) {
+        return std::filesystem::absolute(path).lexically_normal().string();
+    };
+    std::vector<std::string> words = {this_program().string(), command, whole(config.file),
+                                      "--out=" + whole(settings.out)};
+    if (settings.keep_all) words.push_back("--keep-all");
+    if (!settings.device.empty()) words.push_back("--device=" + settings.device);
+    const std::vector<std::filesystem::path> usual = scene_search_path();
+    for (const std::filesystem::path& folder : settings.search_path)
+        if (!std::ranges::count(usual, folder)) words.push_back("--scene-path=" + whole(folder));
+    if (command == "run" && !settings.cells.empty()) {
+        words.push_back("--cells=");
+        for (const std::string& term : settings.cells)
+            words.back() += (&term == &settings.cells.front() ? "" : ",") + term;
+    }
+    std::string line;
+    for (const std::string& word : words) line += (line.empty() ? "" : " ") + quoted(word);
+    return line;
+}
+
+void run_study(const Config& config, const RunSettings& settings) {
+    const ExplainedInterrupt explained;
+    const CellSelection selection(settings.cells);
+    StudySession study(config, settings);
+    const auto say = [&](const std::string& text) { study.progress.say(text); };
+    const SpentTime::Span span(study.spent, "else");
+    const nlohmann::json entry = study_entry(config);
+    for (const auto& warning : entry["warnings"]) say("warning: " + warning.get<std::string>());
+    plan_work(study, selection);
+    for (const std::string& warning : ranking_warnings(config, study.plan)) say("warning: " + warning);
+    for (const GpuCompilers::Entry& compiler : study.plan.compilers.entries)
+        if (!compiler.refusal.empty())
+            say("warning: compiled.csv gets no numbers of " + compiler.chip.name + ": " + compiler.refusal);
+    const FolderOwner owner(settings.out, config, settings.keep_all, settings.replaces, say);
+    Runner(study, selection).run();
+}

@@ -1,0 +1,149 @@
+#include "experiments/study/shots/point_errors.h"
+
+#include "metrics/ghost.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace {
+
+/// Those that mean the same in every frame: a mask of one frame's confidence says nothing over several.
+std::vector<Mask> masks_of_surfaces(const FrameTruth& truth) {
+    std::vector<Mask> masks;
+    for (const Mask& mask : truth.masks)
+        if (!mask.inside.empty()) masks.push_back(mask);
+    return masks;
+}
+
+}  // namespace
+
+/// The full measure of the shot's last frame, and its part in the split over seeds.
+void PointErrors::measure_last(const FrameTruth& truth, const CompositedImages& images, const ResultRow& row,
+                               std::span<const Mask> masks) {
+    std::vector<ResultRow> rows = measure_targets(*truth.pose, images, masks, row);
+    lit_noise_.set(rows);
+    keep_growth(rows, row.frame);
+    rows_.insert(rows_.end(), rows.begin(), rows.end());
+    const HostImage image = composited_image(*truth.pose, images);
+    for (const auto& [target, reference] : truth.pose->targets) {
+        const HostImage& tested = tested_image(target, images, image);
+        if (tested.values.empty()) continue;
+        splits_.try_emplace(target, reference).first->second.add(row.seed, tested);
+        noise_.add(row.frame, target, reference, tested, masks);
+    }
+}
+
+/// Moves it from the rows to what effects are made of.
+void PointErrors::keep_growth(std::vector<ResultRow>& rows, const std::string& frame) {
+    for (ResultRow& r : rows) noise_.add(frame, r.target, r.metric, r.mask, std::exchange(r.growth, {}));
+}
+
+/// Whether the full measure of the last frame holds this row already.
+bool PointErrors::is_in_full_measure(const ResultRow& row) const {
+    return row.frame == std::to_string(point_.last_step().frame) &&
+           std::ranges::count(point_.config.targets, "specular") > 0 &&
+           std::ranges::count(point_.config.metrics, row.metric) > 0;
+}
+
+/// A frame of several.
+void PointErrors::measure_in_passing(SeedErrors& seed, const PoseTruth& truth, const HostImage& specular,
+                                     std::span<const Mask> masks, const ResultRow& row) {
+    FrameRows frame = measure_frame(truth, specular, masks, row);
+    lit_noise_.set(frame.rows);
+    const bool makes_means = !point_.shot.config.measures_last_only;
+    if (makes_means) seed.means.add(frame), keep_growth(frame.rows, over_frames);
+    seed.frame_rows.insert(seed.frame_rows.end(), frame.rows.begin(), frame.rows.end());
+    if (!makes_means) return;
+    noise_.add(over_frames, "specular", *truth.frame_reference, specular, masks);
+}
+
+void PointErrors::add(SeedErrors& seed, const FrameStep& step, const CompositedImages& images) {
+    const HostImage before = std::exchange(seed.before, images.specular);
+    if (step.is_held) seed.held.add(images.specular);
+    if (is_after_change(point_.shot, step)) seed.after_change.push_back(images.specular);
+    const FrameTruth* truth = point_.truth.frame(step);
+    if (!truth) return;
+    const std::vector<Mask> masks = masks_of(*truth, images.confidence, point_.config);
+    if (measures_difference(point_.shot, step))
+        seed.difference.add(before, images.specular, *point_.truth.poses.at(*step.previous_frame)->frame_reference,
+                            *truth->pose->frame_reference, masks);
+    if (!step.is_measured) return;
+    const ResultRow row = point_.row(std::to_string(step.frame), seed.seed);
+    if (truth->pose->frame_reference && point_.shot.config.frames.size() > 1)
+        measure_in_passing(seed, *truth->pose, images.specular, masks, row);
+    if (point_.is_last(step)) measure_last(*truth, images, row, masks);
+}
+
+/// Rows of temporal metrics, which are of `specular` over several frames.
+void PointErrors::add_temporal_rows(unsigned seed, const std::vector<TemporalScore>& scores) {
+    for (const TemporalScore& s : scores) {
+        if (s.pixels + s.left_out == 0) continue;  // nothing of this scene lies under the mask
+        ResultRow r = point_.row(over_frames, seed);
+        r.target = "specular", r.metric = s.metric->name, r.formula = s.formula, r.mask = s.mask;
+        const auto if_finite = [](std::optional<double> v) { return v && std::isfinite(*v) ? v : std::nullopt; };
+        r.value = if_finite(s.value), r.uncorrected = s.uncorrected ? if_finite(s.uncorrected) : r.value,
+        r.is_corrected = s.corrected;
+        r.low = if_finite(s.low), r.high = if_finite(s.high), r.pixels = s.pixels, r.non_finite = s.left_out;
+        rows_.push_back(std::move(r));
+        if (!s.note.empty()) missing_[{s.metric->name, s.note}].insert(s.mask);
+    }
+}
+
+void PointErrors::add_whole(const SeedErrors& seed) {
+    for (const ResultRow& r : seed.frame_rows)
+        if (std::ranges::count(point_.config.frame_masks, r.mask) > 0 && !is_in_full_measure(r)) rows_.push_back(r);
+    const std::vector<ResultRow> means = seed.means.rows();
+    rows_.insert(rows_.end(), means.begin(), means.end());
+
+    const FrameTruth* last = point_.truth.frame(point_.last_step());
+    if (!last) return;
+    const Shot& shot = point_.shot;
+    const std::vector<Mask> masks = masks_of_surfaces(*last);
+    if (shot.config.frames.size() == 1 && seed.held.frames.count >= 2)
+        add_temporal_rows(seed.seed, flicker_scores(seed.held, &*last->pose->frame_reference, masks));
+    if (!seed.difference.sums.empty()) add_temporal_rows(seed.seed, seed.difference.scores());
+    if (!shot.config.change) return;
+    const PoseTruth& before =
+        *point_.truth.poses.at(*std::ranges::find(shot.steps, *shot.config.change, &FrameStep::frame)->previous_frame);
+    for (const Ghost& ghost :
+         ghost_scores(seed.after_change, *before.frame_reference, *last->pose->frame_reference, masks))
+        add_temporal_rows(seed.seed, {ghost.ghost_length, ghost.settling_length});
+}
+
+std::vector<SplitRow> PointErrors::rows_of_splits() const {
+    std::vector<SplitRow> rows;
+    const FrameTruth* last = point_.truth.frame(point_.last_step());
+    if (!last) return rows;
+    const std::vector<Mask> masks = masks_of_surfaces(*last);
+    for (const auto& [target, split] : splits_) {
+        const SplitRow shared{.shot = point_.shot.name(),
+                              .frame = std::to_string(point_.last_step().frame),
+                              .variant = point_.variant.variant,
+                              .point = point_.variant.point,
+                              .target = target,
+                              .mask = {}};
+        for (SplitRow& row : split_rows(split, masks, shared, point_.variant.depends_on_seed, lit_noise_))
+            rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+/// Why some temporal metrics have no value.
+std::vector<std::string> PointErrors::notes() const {
+    std::vector<std::string> notes;
+    for (const auto& [what, masks] : missing_) {
+        std::string note = point_.shot.name() + ": " + point_.variant.variant + " " + point_.variant.point + ": no " +
+                           what.first + ": " + what.second + " (";
+        for (const std::string& mask : masks) note += (note.back() == '(' ? "" : ", ") + mask;
+        notes.push_back(note + ")");
+    }
+    return notes;
+}
+
+void PointErrors::move_to(Cell& cell) {
+    cell.rows = std::move(rows_);
+    cell.splits = rows_of_splits();
+    cell.reference_noise =
+        noise_.means({.shot = point_.shot.name(), .variant = point_.variant.variant, .point = point_.variant.point});
+    cell.notes = notes();
+}

@@ -1,0 +1,26 @@
+#pragma once
+#include "experiments/study/measuring/shot_truth.h"
+
+/// A variant point in an open shot, as it was asked for: nothing of it changes while it is rendered and measured.
+struct PointInShot {
+    const Shot& shot;
+    const ShotTruth& truth;
+    const Config& config;
+    const VariantConfig& variant;
+
+    const FrameStep& last_step() const { return shot.steps.back(); }
+    bool is_last(const FrameStep& step) const { return &step == &last_step(); }
+
+    /// What all rows of a seed's frame have in common. `frame`: its number, or over_frames.
+    ResultRow row(const std::string& frame, unsigned seed) const {
+        return {.shot = shot.name(),
+                .scene = shot.scene.name,
+                .camera = shot.camera.name,
+                .frame = frame,
+                .width = shot.config.extent.x,
+                .height = shot.config.extent.y,
+                .variant = variant.variant,
+                .point = variant.point,
+                .seed = seed};
+    }
+};

@@ -1,0 +1,11 @@
+#pragma once
+#include "core/gbuffer/scene_facts.h"
+#include "experiments/study/config/config.h"
+#include "groundtruth/reference/reference.h"
+
+#include <nlohmann/json.hpp>
+
+// What manifest.json says of a shot's scene and pixels (`needs`) and of its references.
+
+nlohmann::json fact_entries(const std::vector<SceneFact>& facts);
+nlohmann::json reference_entry(const Reference& reference, unsigned frame, const Config& config);

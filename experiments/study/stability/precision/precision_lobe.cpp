@@ -1,0 +1,71 @@
+#include "core/digits.h"
+#include "core/shared/brdf.h"
+#include "experiments/study/stability/precision/precision.h"
+
+namespace {
+
+/// The passes of the lobe's functions in one precision.
+class LobePasses {
+public:
+    LobePasses(Device& device, float roughness, bool is_double)
+        : graph_(device, {256, 256}), alpha_(ggx_alpha(roughness)) {
+        graph_.begin_frame(CameraData{}, no_parameters_, {});
+        graph_.set_precision({.format_of = {}, .is_double = [=](const std::string&) { return is_double; }});
+    }
+    HostImage drawn_directions() {
+        graph_.compute("experiments/study/stability/precision/lobe_draws.comp")
+            .write(image("direction"))
+            .set("alpha", alpha_)
+            .run();
+        return graph_.download(image("direction"));
+    }
+    /// Density, weight and BRDF.
+    std::vector<HostImage> values(const HostImage& directions) {
+        graph_.upload(image("direction"), directions);
+        PassGraph::Pass pass = graph_.compute("experiments/study/stability/precision/lobe_values.comp");
+        pass.read(image("direction")).set("alpha", alpha_);
+        for (const char* name : value_names) pass.write(image(name));
+        pass.run({256, 256});
+        std::vector<HostImage> values;
+        for (const char* name : value_names) values.push_back(channels_of(graph_.download(image(name)), 0, 1));
+        return values;
+    }
+    static constexpr const char* value_names[] = {"density", "weight", "brdf"};
+
+private:
+    Image image(const std::string& name) { return graph_.image(name, Format::rgba32f); }
+
+    const ParameterSet no_parameters_;
+    PassGraph graph_;
+    float alpha_;
+};
+
+}  // namespace
+
+std::vector<PrecisionRow> lobe_rows(Device& device) {
+    std::vector<PrecisionRow> rows;
+    for (const float roughness : {0.0f, 0.1f, 0.3f, 1.0f}) {
+        const auto add = [&](const std::string& function, std::vector<double> differences) {
+            PrecisionRow row{.variant = "ggx_lobe",
+                             .point = "roughness=" + shortest_digits(roughness),
+                             .kind = PrecisionKind::arithmetic,
+                             .stage = "lobe",
+                             .image = function};
+            row.set(value_change(std::move(differences)));
+            rows.push_back(row);
+        };
+        LobePasses narrow(device, roughness, false), wide(device, roughness, true);
+        const HostImage directions = narrow.drawn_directions(), exact = wide.drawn_directions();
+        std::vector<double> turns;
+        for (size_t i = 0; i < directions.pixel_count(); ++i)
+            turns.push_back(double(glm::distance(directions.rgb(i), exact.rgb(i))));
+        add("direction", std::move(turns));
+        const std::vector<HostImage> a = narrow.values(directions), b = wide.values(directions);
+        for (size_t i = 0; i < a.size(); ++i) {
+            std::vector<double> differences;
+            add_differences(a[i], b[i], differences);
+            add(LobePasses::value_names[i], std::move(differences));
+        }
+    }
+    return rows;
+}

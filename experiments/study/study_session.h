@@ -1,0 +1,48 @@
+#pragma once
+#include "core/gpu/clock.h"
+#include "core/gpu/device.h"
+#include "experiments/study/plan/study_plan.h"
+#include "experiments/study/progress.h"
+#include "experiments/study/run.h"
+#include "experiments/study/spent_time.h"
+#include "experiments/study/workload.h"
+#include "experiments/results/cells/cell_store.h"
+#include "experiments/results/cells/provenance.h"
+
+/// What SpentTime calls the compilation of all points' shaders before the first cell.
+inline constexpr const char* compiling = "compiling";
+
+/// As Workload knows kinds of cells: of one point and size all shots are alike.
+inline std::string kind_of_work(const PlannedCell& cell) {
+    const std::string size = std::to_string(cell.pixels);
+    return cell.variant ? cell.variant->variant + " " + cell.variant->point + " " + size : size;
+}
+
+/// A study on its way: all that it needs. `config` and `settings` must outlive it.
+struct StudySession {
+    StudySession(const Config& config, const RunSettings& settings)
+        : config(config),
+          settings(settings),
+          device(settings.device),
+          cells(settings.out, [this](const std::string& text) { progress.say(text); }),
+          maker(maker_of_cells(device)) {}
+
+    const Config& config;
+    const RunSettings& settings;
+    Progress progress{1.0};
+    Device device;
+    CellStore cells;
+    nlohmann::json maker;  ///< of cells, see provenance.h
+    StudyPlan plan;
+    Workload work;
+    SpentTime spent;
+    std::optional<ClockProof> clock;  ///< made when first needed
+    std::vector<Cell> finished;       ///< in the order of the plan
+    size_t made = 0;                  ///< cells that were not found done
+    bool is_rehearsed = false;
+
+    void report(double share, const std::string& what) {
+        work.update(share);
+        progress.update(work.share_done(), what);
+    }
+};

@@ -1,0 +1,442 @@
+// What `ssrlab` says to mistakes and faults: one sentence, exit code 2 or 3, nothing half-written.
+#include "core/exr.h"
+#include "core/json.h"
+#include "tests/experiments/cli/command_line_fixture.h"
+
+#include <regex>
+
+namespace {
+
+const std::string good_shot = R"("shots": [{"scene": "sky_only", "resolution": [8, 8]}])";
+
+}  // namespace
+
+/// What terminals obey, and line feeds, which would make a line of their own.
+TEST_F(CommandLine, ShowsNamesFromFilesAndObeysNone) {
+    const auto expect_shown = [&](const Outcome& o, const std::string& name) {
+        EXPECT_NE(o.text.find(name), std::string::npos) << o.text;
+        EXPECT_EQ(o.text.find_first_of("\x1b\x07\r"), std::string::npos) << o.text;
+        EXPECT_EQ(o.text.find("\nerror: forged"), std::string::npos) << o.text;
+    };
+    config("{\"a\\u001b[31m\\nerror: forged\": 1}");
+    expect_shown(ssrlab("run study.json"), "a\\x1b[31m\\nerror: forged");
+    fs::create_directories(folder / "scenes/b\x1b[1m\nerror: forged");
+    write_text(folder / "scenes/b\x1b[1m\nerror: forged/scene.json",
+               R"({"cameras": [{"name": "c\u001b]0;d\u0007\nerror: forged"}]})");
+    write_text(folder / "scenes/b\x1b[1m\nerror: forged/about.txt", "e\x1b[2Jf\r");
+    const Outcome listed = ssrlab("list scenes --scene-path scenes");
+    expect_shown(listed, "b\\x1b[1m\\nerror: forged");
+    expect_shown(listed, "Cameras: c\\x1b]0;d\\x07\\nerror: forged");
+    expect_shown(listed, "e\\x1b[2Jf\\r");
+}
+
+TEST_F(CommandLine, NamesMistakesInConfigs) {
+    expect_mistake("run nowhere.json", "nowhere.json");
+    config("{\n \"shots\": [,]\n}");
+    expect_mistake("run study.json", "study.json:2:");
+    config("{" + good_shot + R"(, "variants": [{"variant": "mcguire_dad"}]})");
+    expect_mistake("run study.json", "did you mean 'mcguire_dda'?");
+    config("{" + good_shot + R"(, "variants": [{"variant": "mcguire_dda", "parameters": {"thicknes": 1}}]})");
+    expect_mistake("run study.json", "did you mean 'dda.thickness'?");
+    config(
+        "{" + good_shot +
+        R"(, "variants": [{"variant": "mcguire_dda"}], "timing": {"frames": 15}, "tune": {"axes": {"dda.stride": [1, 2]}}})");
+    for (const char* command : {"run", "plan"})
+        expect_mistake(command + std::string(" study.json"), "`ssrlab tune` runs it");
+    config("{" + good_shot + R"(, "variants": [{"variant": "mcguire_dda", "parameters": {"dda.stride": 1000}}]})");
+    expect_mistake("run study.json", "[1, 64]");
+    config(R"({"shots": [{"scene": "sky_only", "resolution": [0, 8]}], "variants": [{"variant": "none"}]})");
+    expect_mistake("run study.json",
+                   "'resolution' must be `[width, height]` in [1, 16384], or an array of such, not [0,8]");
+    config("{" + good_shot + R"(, "variants": [{"variant": "none"}], "refrence": {}})");
+    expect_mistake("run study.json", "did you mean 'reference'?");
+    config(
+        R"({"shots": [{"scene": "mirror_pilars", "resolution": [8, 8]}], "variants": [{"variant": "none"}], "timing": {"frames": 0}})");
+    EXPECT_NE(ssrlab("run study.json --out o").text.find("did you mean 'mirror_pillars'?"), std::string::npos);
+    EXPECT_FALSE(fs::exists(folder / "o/results.csv"));
+    config("{" + good_shot + R"(, "variants": [{"variant": "mcguire_dda"}], "tune": {"most_runs": 9}})");
+    expect_mistake("tune study.json", "it can only be extended");
+}
+
+/// The steps of a search are studies in folders of their own, which name the technique.
+TEST_F(CommandLine, SearchesATechniqueThatIsDeclared) {
+    config(R"({"shots": [{"scene": "mirror_pillars", "resolution": [32, 18]}], "reference": {"samples": 16}, "seeds": 1,
+        "timing": {"frames": 0}, "metrics": ["mse"], "masks": ["all"], "targets": ["image"],
+        "variants": [{"variant": "mcguire_dda"}],
+        "tune": {"time": "operations", "most_runs": 1, "axes": {"dda.stride": [1, 2]}}})");
+    const Outcome tuned = ssrlab("tune study.json --out tuned");
+    EXPECT_EQ(tuned.code, 0) << tuned.text;
+    EXPECT_TRUE(fs::exists(folder / "tuned/tuned.md")) << tuned.text;
+}
+
+TEST_F(CommandLine, PlansAndRefusesWhatThisMachineCannotHold) {
+    // Also of a point that uses scene data, whose time does not depend on its rays.
+    config(
+        R"({"shots": [{"scene": "fence", "resolution": [48, 27]}], "reference": "none", "lit": "direct", "seeds": 1, "timing": {"frames": 0},
+        "variants": [{"variant": "mcguire_dda", "sweep": {"tracer": ["dda", "exact_scene"]}}]})");
+    const Outcome small = ssrlab("plan study.json");
+    EXPECT_EQ(small.code, 0) << small.text;
+    EXPECT_NE(small.text.find("1 shot, 2 points"), std::string::npos) << small.text;
+    config(
+        "{" +
+        std::string(
+            R"("shots": [{"scene": "sky_only", "resolution": [16384, 16384]}], "reference": "none", "lit": "direct", "variants": [{"variant": "none"}]})"));
+    const Outcome large = ssrlab("plan study.json"), elsewhere = ssrlab("plan study.json --json plan.json");
+    EXPECT_EQ(large.code, 2);
+    EXPECT_NE(large.text.find("MiB of memory, and this machine has"), std::string::npos) << large.text;
+    EXPECT_EQ(elsewhere.code, 0) << elsewhere.text;
+}
+
+TEST_F(CommandLine, PrintsCommandsThatAShellTakesAsTheyAre) {
+    config(R"({"shots": [{"scene": "sky_only", "resolution": [16, 16]}], "variants": [{"variant": "none"}],
+               "timing": {"frames": 0}, "reference": {"samples": 16}})");
+    fs::create_directories(folder / "it's here");
+    fs::rename(folder / "study.json", folder / "it's here/my study.json");
+    const std::string study = " \"it's here/my study.json\" --out 'to here'";
+    const auto printed_command = [](const Outcome& o) { return o.text.substr(o.text.rfind("\n  ") + 1); };
+    const auto run_elsewhere = [&](const std::string& command) {
+        write_text(folder / "command.sh", "cd /\n" + command);
+        return std::system(
+            ("SSRLAB_CACHE='" + folder.string() + "/cache' sh " + (folder / "command.sh").string() + " >/dev/null 2>&1")
+                .c_str());
+    };
+    const std::string planned = printed_command(ssrlab("plan" + study)),
+                      merging = printed_command(ssrlab("run" + study + " --cells references"));
+    EXPECT_NE(run_elsewhere(merging), 0) << "cells are missing, but was it run?\n" << merging;
+    ASSERT_TRUE(fs::exists(folder / "to here/results.csv")) << merging;
+    EXPECT_EQ(printed_command(ssrlab("merge" + study)), planned);
+    EXPECT_EQ(run_elsewhere(planned), 0) << planned;
+    EXPECT_NE(read_text(folder / "to here/manifest.json").find("\"is_complete\": true"), std::string::npos);
+
+    const Outcome report = ssrlab("report 'to here'");
+    EXPECT_EQ(report.text, "Report: " + (folder / "to here/report.html").string() + "\n");
+}
+
+TEST_F(CommandLine, ShowsWhatIsDoneOfAStudyThatRunsOrWasStopped) {
+    config(
+        R"({"shots": [{"scene": "sky_only", "resolution": [16, 16]}], "reference": {"samples": 16}, "timing": {"frames": 0}, "seeds": 16,
+               "variants": [{"variant": "none"}, {"variant": "amd_sssr"}, {"variant": "diligent_ssr"}]})");
+    fs::create_directories(folder / "o");
+    write_text(folder / "o/study.json", read_text(folder / "study.json"));
+    expect_mistake("report o", "was stopped before its first results; the same `ssrlab run` continues it");
+    fs::remove(folder / "o/study.json");
+    expect_mistake("report o", "holds no results");
+    const std::string run = "run study.json --out o --report-after 0";
+    const Outcome stopped =
+        ssrlab(run + " >log & while kill -0 $! && ! grep 'so far' log; do sleep 0.01; done; kill $!; wait $!; true");
+    EXPECT_NE(stopped.text.find(fs::weakly_canonical(folder / "o/report.html").string()), std::string::npos)
+        << stopped.text;
+    const auto manifest = [&] { return read_json(folder / "o/manifest.json"); };
+    EXPECT_FALSE(manifest()["is_complete"]);
+    EXPECT_LT(manifest()["cells"]["done"], manifest()["cells"]["planned"]);
+    EXPECT_NE(read_text(folder / "o/report.html").find("This study is not finished"), std::string::npos);
+
+    EXPECT_EQ(ssrlab(run).code, 0);
+    EXPECT_TRUE(manifest()["is_complete"]);
+    EXPECT_EQ(manifest()["cells"]["done"], manifest()["cells"]["planned"]);
+}
+
+TEST_F(CommandLine, NamesBrokenFiles) {
+    write_exr(folder / "a.exr", HostImage({16, 16}, 3, 0.5f));
+    expect_mistake("compare a.exr b.exr", "b.exr: no such file");
+    fs::copy(folder / "a.exr", folder / "cut.exr");
+    fs::resize_file(folder / "cut.exr", fs::file_size(folder / "cut.exr") / 2);
+    expect_mistake("compare a.exr cut.exr", "cut.exr");
+    expect_mistake("compare a.exr a.exr --metric flop", "did you mean 'flip'?");
+    write_exr(folder / "small.exr", HostImage({4, 4}, 3, 0.5f));
+    expect_mistake("compare a.exr small.exr", "small.exr");
+    fs::copy(fs::path(SSRLAB_SOURCE_DIR) / "scenes/fence/scene.glb", folder / "cut.glb");
+    fs::resize_file(folder / "cut.glb", fs::file_size(folder / "cut.glb") / 2);
+    expect_mistake("needs cut.glb", "cut.glb");
+    expect_mistake("needs no_such_scene", "unknown scene 'no_such_scene'");
+    expect_mistake("rays room:x", "no scene is called 'room:x'");
+    EXPECT_EQ(ssrlab("rays \"room:*\" --count 0").code, 2);
+    expect_mistake("figures .", "manifest.json");
+    expect_mistake("describe mcguire", "unknown variant, tracer or resolve 'mcguire'");
+    EXPECT_EQ(ssrlab("reference fence --size 0 10").code, 2);
+    expect_mistake("rnu study.json", "unknown command 'rnu'; did you mean 'run'?");
+    expect_mistake("frobnicate", "known are: run, plan, merge");
+}
+
+TEST_F(CommandLine, RefusesWhatNoNumberAndNoStackCanHold) {
+    const std::string rest = ", " + good_shot + R"(, "variants": [{"variant": "none"}]})";
+    config("{\"title\": " + std::string(300'000, '[') + std::string(300'000, ']') + rest);
+    expect_mistake("run study.json", "study.json: its JSON nests more than 100 levels");
+    config("{\"reflective_max_roughness\": 1e400" + rest);
+    expect_mistake("run study.json", "reflective_max_roughness: the number 1e400");
+    config("{\"timing\": {\"frames\": 0, \"frames\": 15}" + rest);
+    expect_mistake("run study.json", "study.json: timing: the key 'frames' comes twice");
+    config("{" + good_shot + R"(, "variants": [{"variant": "mcguire_dda", "parameters": {"dda.thickness": 1e39}}]})");
+    expect_mistake("run study.json", "'dda.thickness' = 1e+39");
+    const std::string name(300'000, 'n');
+    for (const std::string extension : {"", ".json", ".glb"}) {
+        config(R"({"shots": [{"scene": ")" + name + extension + R"("}], "variants": [{"variant": "none"}]})");
+        const Outcome o = ssrlab("run study.json");
+        EXPECT_EQ(o.code, 2) << extension << o.text.substr(0, 500);
+        EXPECT_LT(o.text.size(), 2000u);
+    }
+    config("{" + good_shot + R"(, "variants": [{"variant": ")" + name + R"("}]})");
+    expect_mistake("run study.json", "unknown variant 'nnn");
+    // Names that are compared with a pattern.
+    config("{" + good_shot + R"(, "variants": [{"variant": "none"}], "masks": ["roughness_0_0.)" +
+           std::string(300'000, '1') + R"(x"]})");
+    expect_mistake("plan study.json", "'masks' must be");
+}
+
+TEST_F(CommandLine, StopsAReferenceByWhatWasAskedFor) {
+    const Outcome o = ssrlab("reference roughness_gradient --size 16 9 --target 0.05 --out r.exr");
+    const size_t end = o.text.find(" % of the pixels reached the target");
+    ASSERT_NE(end, std::string::npos) << o.text;
+    EXPECT_GT(std::stod(o.text.substr(o.text.rfind('\n', end) + 1)), 75.0) << o.text;  // 256 samples: less than half
+}
+
+TEST_F(CommandLine, SaysWhatTheMachineLacks) {
+    const Outcome no_device = ssrlab("list devices", "VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent");
+    EXPECT_EQ(no_device.code, 3) << no_device.text;
+    EXPECT_NE(no_device.text.find("mesa-vulkan-drivers"), std::string::npos) << no_device.text;
+
+    // A file size limit makes writes fail as a full disk does, with another errno. Vulkan's own files must not count.
+    const Outcome full = ssrlab("reference fence --size 320 180 --samples 16 --out r.exr",
+                                "trap '' XFSZ; ulimit -f 16; export MESA_SHADER_CACHE_DISABLE=true;");
+    EXPECT_EQ(full.code, 3) << full.text;
+    EXPECT_NE(full.text.find("error: cannot write"), std::string::npos) << full.text;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        EXPECT_EQ(entry.path().string().find(".partial"), std::string::npos) << entry.path();
+    EXPECT_FALSE(fs::exists(folder / "r.exr"));
+}
+
+TEST_F(CommandLine, ComparesByOneNumberPerLine) {
+    write_exr(folder / "a.exr", HostImage({16, 16}, 3, 0.5f));
+    write_exr(folder / "b.exr", HostImage({16, 16}, 3, 0.75f));
+    const Outcome o = ssrlab("compare a.exr b.exr --metric mse --metric mae");
+    EXPECT_EQ(o.code, 0);
+    EXPECT_EQ(o.text, "mse 0.0625\nmae 0.25\n");
+    EXPECT_EQ(ssrlab("compare a.exr b.exr --metric mse --json --map m.exr").code, 0);
+    EXPECT_NEAR(read_exr_rgb(folder / "m.exr").values[0], 0.0625f, 1e-7f);
+}
+
+TEST_F(CommandLine, ComparesLayersOfReferences) {
+    const std::string small = "reference roughness_gradient --size 16 9 --samples ";
+    const Outcome few = ssrlab(small + "16 --out few.exr");
+    EXPECT_TRUE(std::regex_search(few.text, std::regex(" s, 2[0-9]{3} rays\n"))) << few.text;  // not 2.6e-06 Gray
+    EXPECT_EQ(ssrlab(small + "64 --out more.exr").code, 0);
+    const Outcome image = ssrlab("compare more.exr few.exr --metric mse"),
+                  named = ssrlab("compare more.exr few.exr --metric mse --layer image"),
+                  specular = ssrlab("compare more.exr few.exr --metric mse --layer specular");
+    EXPECT_EQ(image.code, 0) << image.text;
+    EXPECT_EQ(image.text, named.text);
+    EXPECT_EQ(specular.code, 0) << specular.text;
+    EXPECT_NE(specular.text, image.text);
+    expect_mistake("compare more.exr few.exr --layer speculr",
+                   "more.exr has no layer 'speculr'; did you mean 'specular'?");
+}
+
+/// Frames of a renderer that are the truth itself, and some that are dimmer.
+TEST_F(CommandLine, JudgesFrames) {
+    ASSERT_EQ(ssrlab("reference mirror_pillars --size 48 27 --samples 64 --out truth.exr").code, 0);
+    const HostImage image = read_exr_rgb(folder / "truth.exr", "image"),
+                    specular = read_exr_rgb(folder / "truth.exr", "specular");
+    for (const auto& [name, share] : {std::pair("now", 0.7f), std::pair("before", 0.8f)}) {
+        HostImage off = image, frame = image;
+        for (size_t i = 0; i < image.values.size(); ++i) {
+            off.values[i] -= specular.values[i];
+            frame.values[i] = off.values[i] + share * specular.values[i];
+        }
+        const fs::path view = folder / name / "mirror_pillars.main.48x27";
+        write_exr(view / "f0.s0.exr", frame), write_exr(view / "f0.off.exr", off);
+        write_text(folder / name / "external.json", R"({"name": "dim", "engine": "a renderer", "version": "1"})");
+    }
+    const Outcome worse = ssrlab("judge now --against before --samples 64 --fail-if-worse");
+    EXPECT_EQ(worse.code, 1);
+    EXPECT_NE(worse.text.find("\nworse against before\n"), std::string::npos) << worse.text;
+    EXPECT_TRUE(fs::exists(folder / "results/judge/report.html"));
+    EXPECT_EQ(ssrlab("judge now --against before --samples 64").code, 0);
+    const Outcome better = ssrlab("judge before --against now --samples 64 --fail-if-worse");
+    EXPECT_EQ(better.code, 0);
+    EXPECT_NE(better.text.find("\nbetter against now\n"), std::string::npos) << better.text;
+    // A captured G-buffer with its truth in place of the scene.
+    ASSERT_EQ(ssrlab("gbuffer mirror_pillars --size 48 27 --out cap").code, 0);
+    fs::rename(folder / "now/mirror_pillars.main.48x27", folder / "now/cap.gbuffer.48x27");
+    const Outcome captured = ssrlab("judge now --capture cap --reference truth.exr");
+    EXPECT_EQ(captured.code, 0) << captured.text;
+    EXPECT_NE(captured.text.find("\ncap.gbuffer.48x27: mse "), std::string::npos) << captured.text;
+    expect_mistake("judge nowhere", "nowhere holds no external.json");
+    expect_mistake("judge now --fail-if-worse", "--fail-if-worse needs --against");
+    expect_mistake("judge now --capture before", "--capture needs --reference");
+    expect_mistake("judge now --scene fence", "now holds no images of 'fence'");
+}
+
+TEST_F(CommandLine, WritesScenesForEngines) {
+    const Outcome o =
+        ssrlab("scene-for three mirror_pillars --size 32 18 --samples 16 --camera main dolly --frames 0-1 5 --out s");
+    EXPECT_EQ(o.code, 0) << o.text;
+    EXPECT_NE(o.text.find("s/scene.json: 2 views, 6 light images (3 from the cache)"), std::string::npos)
+        << "main stands still, and dolly starts there\n"
+        << o.text;
+    for (const char* file : {"scene.glb", "scene.json", "mirror_pillars.main.32x18/f1.light.exr",
+                             "mirror_pillars.dolly.32x18/f5.depth.exr"})
+        EXPECT_TRUE(fs::exists(folder / "s" / file)) << file;
+    expect_mistake("scene-for thre mirror_pillars --out s", "unknown engine 'thre'; did you mean 'three'?");
+    expect_mistake("scene-for any mirror_pillars --frames 5-1 --out s", "--frames: '5-1' ends before it begins");
+    expect_mistake("scene-for any mirror_pillars --frames 1e3 --out s", "--frames: '1e3' must be a frame");
+    expect_mistake("scene-for any mirror_pillars --frames 0-9999 10000 --out s",
+                   "10001 frames are more than the 10000 that a folder holds");
+    expect_mistake("scene-for any mirror_pillars --camera bak --out s", "'bak'");
+    EXPECT_EQ(ssrlab("scene-for any mirror_pillars").code, 2) << "without --out";
+}
+
+/// A glTF as another program writes one: a blended triangle of 2 m.
+constexpr const char* blended_triangle = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+    "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+    "materials": [{"name": "glass", "alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.6]}}], "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3, "min": [-1, -1, 0], "max": [1, 1, 0]}],
+    "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAA"}]})";
+
+TEST_F(CommandLine, InspectsFilesOfAnybody) {
+    write_text(folder / "glass.gltf", blended_triangle);
+    const Outcome page = ssrlab("inspect glass.gltf");
+    EXPECT_EQ(page.code, 0) << page.text;
+    EXPECT_NE(page.text.find("2 x 2 x 0 m"), std::string::npos) << page.text;
+    EXPECT_NE(page.text.find("'glass' is blended (alphaMode BLEND)"), std::string::npos) << page.text;
+    EXPECT_LE(std::ranges::count(page.text, '\n'), 60);
+    const Outcome as_json = ssrlab("inspect glass.gltf --json - --picture view.png");
+    const nlohmann::json json = nlohmann::json::parse(as_json.text, nullptr, false);
+    ASSERT_TRUE(json.is_object()) << as_json.text;
+    EXPECT_EQ(json["triangles"], 1);
+    EXPECT_GT(json["warnings"][0]["share_of_first_view"], 0.05);
+    EXPECT_EQ(json["first_view"]["differ"], 0);
+    EXPECT_TRUE(fs::exists(folder / "view.png"));
+
+    write_exr(folder / "a.exr", HostImage({16, 16}, 3, 0.5f));
+    EXPECT_EQ(ssrlab("inspect a.exr").code, 0);
+    expect_mistake("inspect a.exr --picture b.png", "a.exr is no scene");
+    expect_mistake("inspect no_such", "unknown scene 'no_such'");
+    expect_mistake("inspect .", "holds none of scene.json");
+    fs::resize_file(folder / "a.exr", 100);
+    const Outcome broken = ssrlab("inspect a.exr"), compared = ssrlab("compare a.exr a.exr");
+    EXPECT_EQ(broken.code, 2);
+    EXPECT_EQ(broken.text.find("`ssrlab inspect"), std::string::npos) << broken.text;
+    EXPECT_EQ(compared.code, 2);
+    EXPECT_NE(compared.text.find("\nnote: `ssrlab inspect a.exr` shows"), std::string::npos) << compared.text;
+    EXPECT_FALSE(fs::exists(folder / "b.png"));
+}
+
+TEST_F(CommandLine, TellsWarningsOfASceneOnce) {
+    write_text(folder / "glass.gltf", blended_triangle);
+    config(R"({"shots": [{"scene": "glass.gltf", "resolution": [[16, 16], [24, 24]]}], "reference": {"samples": 16},
+               "variants": [{"variant": "none"}], "timing": {"frames": 0}, "seeds": 1})");
+    const auto warnings = [](const std::string& text) {
+        size_t count = 0;
+        for (size_t at = 0; (at = text.find("is blended (alphaMode BLEND)", at)) != std::string::npos; ++at) ++count;
+        return count;
+    };
+    const Outcome references = ssrlab("run study.json --out o --cells references"),
+                  rest = ssrlab("run study.json --out o");
+    EXPECT_EQ(warnings(references.text), 1u) << references.text;
+    EXPECT_NE(references.text.find("of the first view's pixels"), std::string::npos) << references.text;
+    EXPECT_EQ(rest.code, 0) << rest.text;
+    EXPECT_EQ(warnings(rest.text), 0u) << rest.text;
+    EXPECT_EQ(warnings(read_text(folder / "o/manifest.json")), 2u) << "that of each shot";
+}
+
+TEST_F(CommandLine, EveryCommandExplainsItself) {
+    for (const char* command : {"", "run", "figures", "compare", "judge", "scene-for", "reference", "gbuffer",
+                                "inspect", "needs", "describe", "list"}) {
+        const Outcome o = ssrlab(std::string(command) + " --help");
+        EXPECT_EQ(o.code, 0);
+        EXPECT_GT(o.text.size(), 100u) << command;
+    }
+    EXPECT_NE(ssrlab("describe mcguire_dda").text.find("dda.thickness"), std::string::npos);
+    EXPECT_NE(ssrlab("describe diligent_ssr").text.find("Enforced limits: WebGL 2"), std::string::npos);
+    EXPECT_EQ(ssrlab("describe amd_sssr").text.find("Enforced limits"), std::string::npos);
+    EXPECT_NE(ssrlab("describe --schema").text.find("\"dda.max_steps\""), std::string::npos);
+}
+
+TEST_F(CommandLine, ListsWhatEachThingIs) {
+    fs::create_directories(folder / "more/my_scene");
+    write_text(folder / "more/my_scene/scene.json", "{}");
+    const std::string scenes = ssrlab("list scenes --scene-path more").text;
+    EXPECT_NE(scenes.find("\nfence   "), std::string::npos) << scenes;
+    EXPECT_NE(scenes.find(" Poles of 2 cm"), std::string::npos) << scenes;
+    EXPECT_NE(scenes.find("  Cameras: main, lateral\n"), std::string::npos) << scenes;
+    EXPECT_NE(scenes.find("\nroom:0 to room:999999  "), std::string::npos) << scenes;
+    EXPECT_NE(scenes.find("\nmy_scene\n"), std::string::npos) << "it has no about.txt\n" << scenes;
+    const std::string variants = ssrlab("list variants").text;
+    EXPECT_NE(variants.find("none: No screen-space reflections\n    Confidence 0 everywhere"), std::string::npos)
+        << variants;
+    EXPECT_NE(ssrlab("list presets").text.find("\namd_sssr:corrected\n    every defect fixed"), std::string::npos);
+}
+
+TEST_F(CommandLine, SavesGBuffers) {
+    const Outcome o = ssrlab("gbuffer fence --size 33 21 --out g --reversed-depth");
+    EXPECT_EQ(o.code, 0) << o.text;
+    EXPECT_EQ(read_exr(folder / "g/gbuffer.exr").find("depth")->image.extent, glm::uvec2(33, 21));
+    EXPECT_TRUE(fs::exists(folder / "g/camera.json"));
+}
+
+/// And at SIGTERM, by which batch systems end a job.
+TEST_F(CommandLine, SaysAtCtrlCThatTheSameCommandContinues) {
+    config(R"({"shots": [{"scene": "fence", "resolution": [96, 54]}], "reference": {"samples": 1000000}, "seeds": 1,
+        "variants": [{"variant": "none"}], "timing": {"frames": 0}})");
+    // Shells let what they start in the background ignore Ctrl-C, and this program may be in one's background itself.
+    write_text(folder / "stop.sh", "cd '" + folder.string() + R"('
+rm -f log  # of the signal before, in which the loop would find its words too early
+SSRLAB_CACHE="$PWD/cache" env --default-signal=INT ')" SSRLAB_PROGRAM R"(' run study.json > log 2>&1 &
+while kill -0 $! && ! grep -qs 'fence, camera' log; do sleep 0.05; done
+kill -"$1" $!
+wait $!
+)");
+    for (const auto& [signal, code] : {std::pair("INT", 130), {"TERM", 143}}) {
+        const int status = std::system(("bash '" + (folder / "stop.sh").string() + "' " + signal).c_str());
+        EXPECT_EQ(WEXITSTATUS(status), code);
+        EXPECT_TRUE(read_text(folder / "log").ends_with("\nstopped; the same command continues where it was\n"))
+            << read_text(folder / "log");
+    }
+}
+
+TEST_F(CommandLine, TakesNumbersOnlyThatAreFinite) {
+    write_exr(folder / "a.exr", HostImage({16, 16}, 3, 0.5f));
+    fs::create_directories(folder / "o");
+    for (const std::string number : {"nan", "inf", "1x"})
+        for (const std::string command :
+             {"compare a.exr a.exr --exposure ", "compare a.exr a.exr --map-max ", "reference fence --seconds ",
+              "reference fence --target ", "run study.json --report-after ", "tradeoff o --times ",
+              "tradeoff o --factors "}) {
+            const Outcome o = ssrlab(command + number);
+            EXPECT_EQ(o.code, 2) << command << number << "\n" << o.text;
+            EXPECT_NE(o.text.find("must be a number"), std::string::npos) << command << number << "\n" << o.text;
+        }
+}
+
+TEST_F(CommandLine, FilesTakeNoMoreThanTheyMay) {
+    write_exr(folder / "a.exr", HostImage({256, 256}, 3, 0.5f));  // 19.7 MB to compare
+    expect_mistake("compare a.exr a.exr --max-memory 1MB", "allow more with --max-memory");
+    EXPECT_EQ(ssrlab("compare a.exr a.exr --metric mse --max-memory 25MB").code, 0);
+    const Outcome by_variable = ssrlab("compare a.exr a.exr", "SSRLAB_MAX_MEMORY=1MB");
+    EXPECT_EQ(by_variable.code, 2) << by_variable.text;
+    EXPECT_EQ(ssrlab("compare a.exr a.exr --max-memory much").code, 2);
+    EXPECT_EQ(ssrlab("compare a.exr a.exr --max-memory -1").code, 2);
+
+    std::string each = R"("frames": [1, 2, 3])";
+    for (const char* key : {"near", "far", "scale", "radiance", "roughness", "camera"}) {
+        each += std::string(", \"") + key + "\": [0";
+        for (int i = 1; i < 30; ++i) each += ", " + std::to_string(i);
+        each += "]";
+    }
+    write_text(folder / "cases.json",
+               R"({"cases": [{"case": "c", "group": "g", "why": "w", "scene": "fence", "each": {)" + each + "}}]}");
+    expect_mistake("stability --table cases.json", "cases[0]: 'each' needs");
+}
+
+TEST_F(CommandLine, WaitsForNoFifo) {
+    const std::string fifo = (folder / "fifo").string();
+    ASSERT_EQ(std::system(("mkfifo '" + fifo + "' '" + fifo + ".exr' '" + fifo + ".gltf' '" + fifo + ".json'").c_str()),
+              0);
+    for (const std::string command :
+         {"run fifo", "plan fifo", "merge fifo", "tune fifo", "compare fifo.exr fifo.exr", "needs fifo.gltf",
+          "reference fifo.json", "gbuffer fifo.json", "stability --table fifo"}) {
+        const Outcome o = ssrlab(command, "timeout 20 env");
+        EXPECT_EQ(o.code, 2) << command << "\n" << o.text;
+        EXPECT_NE(o.text.find("it is a FIFO"), std::string::npos) << command << "\n" << o.text;
+    }
+}

@@ -1,0 +1,72 @@
+// What GPUs' compilers make of a study's passes: compiled.csv.
+#include "core/files.h"
+#include "core/gpu/chips/chip_compiler.h"
+#include "experiments/results/cells/cell_store.h"
+#include "tests/experiments/study/study_fixture.h"
+
+namespace {
+
+const std::string compiled_study =
+    R"({"shots": [{"scene": "mirror_pillars", "resolution": [32, 24]}], "reference": "none", "lit": "direct",
+"variants": [{"variant": "none"}, {"variant": "mcguire_dda", "sweep": {"tracer": ["dda", "exact_scene"]}}],
+"timing": {"frames": 0}, "gpu_compilers": [)";
+
+}  // namespace
+
+TEST_F(StudyTest, CompilesForChips) {
+    const auto run = [&](const std::string& chips, const std::string& before) {
+        write_text(folder / "study.json", compiled_study + chips + "]}");
+        const std::string command = "cd '" + folder.string() + "' && " + before + " SSRLAB_CACHE='" +
+                                    (folder / "cache").string() +
+                                    "' '" SSRLAB_PROGRAM "' run study.json --out compiled --replace > log 2>&1";
+        const int status = std::system(command.c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    };
+    const auto rows = [&] { return read_rows<CompiledRow>(folder / "compiled/compiled.csv"); };
+
+    // Without radv the study goes on, and each stage says why it has no numbers.
+    ASSERT_EQ(run("\"navi21\"",
+                  "VK_DRIVER_FILES=$(ls /usr/share/vulkan/icd.d/lvp_icd*) VK_ICD_FILENAMES=$(ls "
+                  "/usr/share/vulkan/icd.d/lvp_icd*)"),
+              0)
+        << read_text(folder / "log");
+    EXPECT_NE(read_text(folder / "log").find("there is no radv"), std::string::npos) << read_text(folder / "log");
+    ASSERT_EQ(rows().size(), 2u);
+    for (const CompiledRow& row : rows()) {
+        EXPECT_NE(row.refusal.find("mesa-vulkan-drivers"), std::string::npos);
+        EXPECT_EQ(row.point, "tracer=dda") << "exact rays are no passes";
+        EXPECT_FALSE(row.vgprs);
+    }
+
+    try {
+        find_chip("navi21");
+    } catch (const MachineError& e) {
+        GTEST_SKIP() << e.what();
+    }
+    // What was refused is not kept for a machine that has radv.
+    ASSERT_EQ(run("\"navi21\"", ""), 0) << read_text(folder / "log");
+    ASSERT_EQ(rows().size(), 2u);
+    EXPECT_EQ(rows()[0].refusal, "");
+    // Nor is that of a compiler that was killed.
+    const CellStore cells(folder / "compiled", [](const std::string& notice) { ADD_FAILURE() << notice; });
+    for (const std::string& name : cells.names())
+        if (Cell cell = *cells.load(name); !cell.compiled.empty() && cell.compiled[0].refusal.empty()) {
+            cell.compiled[0].refusal = "radv's compiler ended: signal 9";
+            cells.save(name, cell);
+        }
+    ASSERT_EQ(run("\"navi21\"", ""), 0) << read_text(folder / "log");
+    EXPECT_NE(read_text(folder / "log").find("is asked again"), std::string::npos) << read_text(folder / "log");
+    EXPECT_EQ(rows()[0].refusal, "");
+    ASSERT_EQ(run("\"navi21\"", ""), 0);
+    EXPECT_EQ(read_text(folder / "log").find("is asked again"), std::string::npos) << read_text(folder / "log");
+    EXPECT_EQ(run("\"navi21\", \"navi2\"", ""), 2);
+    EXPECT_NE(read_text(folder / "log").find("knows no chip 'navi2'; did you mean"), std::string::npos)
+        << read_text(folder / "log");
+    ASSERT_EQ(run("\"navi21\", \"vega10\"", ""), 0) << read_text(folder / "log");
+    ASSERT_EQ(rows().size(), 4u);
+    for (const CompiledRow& row : rows()) {
+        EXPECT_EQ(row.refusal, "");
+        EXPECT_GT(row.vgprs.value_or(0), 0);
+        EXPECT_NE(row.hash, "");
+    }
+}
