@@ -34,7 +34,7 @@ static void capture_command(const CaptureCommandOptions& options) {
     for (const std::string& note : contents.notes) std::printf("note: %s\n", shown_text(note).c_str());
 }
 
-void add_capture(CommandLine& line) {
+void add_capture(Commands& line) {
     CaptureCommandOptions& capture = line.keep<CaptureCommandOptions>();
     CLI::App& command =
         *line.app.add_subcommand("capture", "Check a capture of an engine's G-buffers, and list its layers");

@@ -14,8 +14,8 @@ struct CommonOptions {
 };
 
 /// The command line of `ssrlab`, to which each command adds itself (commands.h).
-struct CommandLine {
-    explicit CommandLine(CLI::App& app) : app(app) {}
+struct Commands {
+    explicit Commands(CLI::App& app) : app(app) {}
 
     CLI::App& app;
     int status = 0;  ///< the exit code of the command that ran, as it sets it

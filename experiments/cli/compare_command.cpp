@@ -34,7 +34,7 @@ static void compare_images_command(const CompareCommandOptions& options) {
         print(result, std::cout, std::cerr);
 }
 
-void add_compare(CommandLine& line) {
+void add_compare(Commands& line) {
     CompareCommandOptions& compare = line.keep<CompareCommandOptions>();
     CLI::App& command =
         *line.app.add_subcommand("compare", "Compare two images (OpenEXR, Radiance or PNG): one number per line");

@@ -115,7 +115,7 @@ static void describe_command(const DescribeOptions& asked) {
     }
 }
 
-void add_describe(CommandLine& line) {
+void add_describe(Commands& line) {
     DescribeOptions& describe = line.keep<DescribeOptions>();
     CLI::App& command =
         *line.app.add_subcommand("describe", "Print every parameter: default, range, unit, meaning, source");

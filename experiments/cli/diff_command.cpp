@@ -1,4 +1,5 @@
 // ssrlab diff: which numbers changed from one results folder to another.
+#include "experiments/cli/diff_command.h"
 #include "core/error.h"
 #include "core/shown_text.h"
 #include "experiments/cli/commands.h"
@@ -12,12 +13,6 @@
 #include <map>
 
 namespace {
-
-struct DiffOptions {
-    std::filesystem::path before, after, csv, page;
-    bool judges_times = false, shows_all = false;
-    double margin = 0;  ///< 0: that of the new study
-};
 
 constexpr size_t most_named = 12;  // changes, unless all are asked for
 
@@ -82,7 +77,7 @@ void print_times(const StudyDiff& diff, const DiffOptions& options) {
 
 }  // namespace
 
-static int diff_command(const DiffOptions& options) {
+int diff_command(const DiffOptions& options) {
     const StudyTables before = read_study_tables(options.before), after = read_study_tables(options.after);
     const StudyDiff diff = diff_studies(before, after, options.judges_times,
                                         options.margin > 0 ? options.margin : primary_of(after.manifest).margin);
@@ -106,7 +101,7 @@ static int diff_command(const DiffOptions& options) {
     return changed > 0 || (options.judges_times && count_of(diff.times, change::changed) > 0) ? 1 : 0;
 }
 
-void add_diff(CommandLine& line) {
+void add_diff(Commands& line) {
     DiffOptions& diff = line.keep<DiffOptions>();
     CLI::App& command = *line.app.add_subcommand("diff",
                                                  "List the numbers that changed significantly between two results "

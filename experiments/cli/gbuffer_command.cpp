@@ -63,7 +63,7 @@ static void gbuffer_command(const GBufferCommandOptions& options, const CommonOp
     std::printf("%s\n", (out / "environment.json").c_str());
 }
 
-void add_gbuffer(CommandLine& line) {
+void add_gbuffer(Commands& line) {
     GBufferCommandOptions& gbuffer = line.keep<GBufferCommandOptions>();
     CLI::App& command =
         *line.app.add_subcommand("gbuffer", "Rasterise a scene's G-buffer into gbuffer.exr and camera.json");

@@ -51,7 +51,7 @@ static void inspect_command(const InspectOptions& options, const CommonOptions& 
     if (writes_json) write_text(options.json, json());
 }
 
-void add_inspect(CommandLine& line) {
+void add_inspect(Commands& line) {
     InspectOptions& inspect = line.keep<InspectOptions>();
     CLI::App& command = *line.app.add_subcommand(
         "inspect", "Show what ssrlab understands of a file: a scene, an image, a capture or an engine's frames");

@@ -67,7 +67,7 @@ static int judge_command(const JudgeOptions& options, const CommonOptions& commo
     return options.fails_if_worse && judged.against->verdict == judgement::worse ? 1 : 0;
 }
 
-void add_judge(CommandLine& line) {
+void add_judge(Commands& line) {
     JudgeOptions& judge = line.keep<JudgeOptions>();
     CLI::App& command = *line.app.add_subcommand(
         "judge",

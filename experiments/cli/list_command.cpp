@@ -127,7 +127,7 @@ static void list_command(const std::string& what, const CommonOptions& common) {
     }
 }
 
-void add_list(CommandLine& line) {
+void add_list(Commands& line) {
     auto& what = line.keep<std::string>();
     CLI::App& command = *line.app.add_subcommand(
         "list",

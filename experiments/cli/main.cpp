@@ -22,7 +22,7 @@ int parse_and_run(int argc, char** argv) {
     app.set_version_flag(
         "--version", [] { return build_info().dump(); },
         "Print version, commit and the hash of all code, as manifest.json has them");
-    CommandLine line(app);
+    Commands line(app);
     for (const auto add :
          {add_run,       add_plan,      add_merge,    add_report,     add_figures, add_diff,    add_judge,
           add_scene_for, add_tables,    add_tradeoff, add_statistics, add_tune,    add_compare, add_reference,

@@ -28,7 +28,7 @@ static int merge_command(const MergeOptions& options, const CommonOptions& commo
     return missing > 0 ? 1 : 0;
 }
 
-void add_merge(CommandLine& line) {
+void add_merge(Commands& line) {
     MergeOptions& merge = line.keep<MergeOptions>();
     CLI::App& command = *line.app.add_subcommand(
         "merge", "Merge the results folders of a study's parts (`ssrlab run --cells`) into one");

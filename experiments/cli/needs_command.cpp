@@ -111,7 +111,7 @@ static int needs_command(const NeedsOptions& options, const CommonOptions& commo
     return std::ranges::all_of(savings.of, &MeasuredSaving::is_as_said) ? 0 : 1;
 }
 
-void add_needs(CommandLine& line) {
+void add_needs(Commands& line) {
     NeedsOptions& needs = line.keep<NeedsOptions>();
     CLI::App& command = *line.app.add_subcommand(
         "needs",

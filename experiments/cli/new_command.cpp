@@ -95,7 +95,7 @@ static void new_command(const NewOptions& options) {
                 shown_text(options.folder.string()).c_str(), shown_text(study.string()).c_str());
 }
 
-void add_new(CommandLine& line) {
+void add_new(Commands& line) {
     NewOptions& new_technique = line.keep<NewOptions>();
     CLI::App& command = *line.app.add_subcommand(
         "new", "Write a technique of one's own as a folder, which needs no compiler, and a first study of it");

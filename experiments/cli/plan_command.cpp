@@ -137,7 +137,7 @@ static void plan_command(const PlanOptions& options, const CommonOptions& common
     refuse_absurd(work, options.json.empty());
 }
 
-void add_plan(CommandLine& line) {
+void add_plan(Commands& line) {
     PlanOptions& plan = line.keep<PlanOptions>();
     CLI::App& command = *line.app.add_subcommand(
         "plan", "List the cells of a study, which are done, and the estimated time and memory of the others");

@@ -71,7 +71,7 @@ static void rays_command(const RaysOptions& options, const CommonOptions& common
     }
 }
 
-void add_rays(CommandLine& line) {
+void add_rays(Commands& line) {
     RaysOptions& rays = line.keep<RaysOptions>();
     CLI::App& command =
         *line.app.add_subcommand("rays", "Trace the mirror rays of what reflects, and print where they end as a table");

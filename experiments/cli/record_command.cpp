@@ -60,7 +60,7 @@ static void record_command(const RecordOptions& options, const CommonOptions& co
     std::printf("sliders: %s\n", listed(page.sliders).c_str());
 }
 
-void add_record(CommandLine& line) {
+void add_record(Commands& line) {
     RecordOptions& record = line.keep<RecordOptions>();
     CLI::App& command = *line.app.add_subcommand(
         "record", "Write a page in which a browser does a technique's passes again (WebGL 2), beside the truth");

@@ -118,7 +118,7 @@ static void reference_command(const ReferenceCommandOptions& options, const Comm
                     (unsigned long long)reference.non_finite_samples);
 }
 
-void add_reference(CommandLine& line) {
+void add_reference(Commands& line) {
     ReferenceCommandOptions& reference = line.keep<ReferenceCommandOptions>();
     CLI::App& command = *line.app.add_subcommand("reference", "Path-trace a scene; continues a stopped render");
     add_shot(command, reference.shot);

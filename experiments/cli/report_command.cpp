@@ -9,7 +9,7 @@ static void report_command(const std::filesystem::path& folder, bool links_image
     std::printf("Report: %s\n", std::filesystem::absolute(folder / "report.html").lexically_normal().c_str());
 }
 
-void add_report(CommandLine& line) {
+void add_report(Commands& line) {
     auto& report_folder = line.keep<std::filesystem::path>();
     CLI::App& command = *line.app.add_subcommand("report", "Write report.html again from the tables of a folder");
     command.add_option("results", report_folder, "A folder that `ssrlab run` or `ssrlab stability` filled")

@@ -36,7 +36,7 @@ static void run_study_command(const RunOptions& options, const CommonOptions& co
                .cells = options.cells});
 }
 
-void add_run(CommandLine& line) {
+void add_run(Commands& line) {
     RunOptions& run = line.keep<RunOptions>();
     CLI::App& command = *line.app.add_subcommand("run", "Run a study: shots x variants x parameter points x seeds");
     command.add_option("config", run.config, "The study (experiments/README.md explains its keys)")

@@ -69,7 +69,7 @@ static void scene_for_command(const SceneForOptions& options, const CommonOption
                 counted(written.rendered + written.cached, "light image").c_str(), written.cached);
 }
 
-void add_scene_for(CommandLine& line) {
+void add_scene_for(Commands& line) {
     SceneForOptions& scene_for = line.keep<SceneForOptions>();
     CLI::App& command = *line.app.add_subcommand(
         "scene-for",

@@ -1,4 +1,5 @@
 // The commands that are Python scripts: figures, tables, tradeoff, tune.
+#include "experiments/cli/script_commands.h"
 #include "core/child_process.h"
 #include "core/error.h"
 #include "core/files.h"
@@ -7,7 +8,6 @@
 #include "core/path_inside.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/config_of_study.h"
-#include "experiments/cli/stability_options.h"
 #include "experiments/results/cells/host_info.h"
 #include "experiments/results/tables/counts_spread.h"
 #include "experiments/results/tradeoff/tradeoff.h"
@@ -48,9 +48,7 @@ int run_script(const std::string& name, const std::vector<std::string>& argument
 
 }  // namespace
 
-static int figures_command(const std::vector<std::string>& arguments) {
-    return run_script("figures/figures.py", arguments);
-}
+int figures_command(const std::vector<std::string>& arguments) { return run_script("figures/figures.py", arguments); }
 
 int stability_figure(const std::filesystem::path& csv, const std::filesystem::path& figure) {
     return run_script("figures/stability_figure.py", {"--out=" + figure.string(), "--", csv.string()});
@@ -161,24 +159,24 @@ static int tune_command(const TuneOptions& options, const std::vector<std::strin
 }
 
 /// A command whose options a script declares, --help among them.
-static void hand_on(CLI::App& command, int (*call)(const std::vector<std::string>&), CommandLine& line) {
+static void hand_on(CLI::App& command, int (*call)(const std::vector<std::string>&), Commands& line) {
     command.prefix_command()->set_help_flag();
     command.callback([&command, call, &line] { line.status = call(command.remaining()); });
 }
 
-void add_figures(CommandLine& line) {
+void add_figures(Commands& line) {
     hand_on(*line.app.add_subcommand(
                 "figures",
                 "Draw the figures of a paper (PDF, SVG, PNG) and animations of motion (GIF) from a results folder"),
             figures_command, line);
 }
 
-void add_tables(CommandLine& line) {
+void add_tables(Commands& line) {
     hand_on(*line.app.add_subcommand("tables", "Make a study's tables (Markdown, LaTeX, CSV) from a results folder"),
             tables_command, line);
 }
 
-void add_tradeoff(CommandLine& line) {
+void add_tradeoff(Commands& line) {
     TradeoffOptions& tradeoff = line.keep<TradeoffOptions>();
     CLI::App& command = *line.app.add_subcommand(
         "tradeoff",
@@ -210,7 +208,7 @@ void add_tradeoff(CommandLine& line) {
     command.callback([&] { line.status = tradeoff_command(tradeoff); });
 }
 
-void add_tune(CommandLine& line) {
+void add_tune(Commands& line) {
     TuneOptions& tune = line.keep<TuneOptions>();
     CLI::App& command = *line.app.add_subcommand(
         "tune",

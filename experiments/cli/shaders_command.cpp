@@ -177,7 +177,7 @@ static void shaders_command(const ShadersOptions& options, const CommonOptions& 
         "times\n");
 }
 
-void add_shaders(CommandLine& line) {
+void add_shaders(Commands& line) {
     ShadersOptions& shaders =
         line.keep<ShadersOptions>({.shot = {.scene = "mirror_pillars", .camera = {}, .size = {96, 54}}});
     shaders.chips.assign(default_chips.begin(), default_chips.end());

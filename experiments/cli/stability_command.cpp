@@ -5,6 +5,7 @@
 #include "core/scene/load_scene.h"
 #include "core/shown_text.h"
 #include "experiments/cli/commands.h"
+#include "experiments/cli/script_commands.h"
 #include "experiments/cli/stability_options.h"
 #include "experiments/report/report.h"
 #include "experiments/results/stability/stability_tables.h"
@@ -101,7 +102,7 @@ static int stability_command(const StabilityOptions& options, const CommonOption
     return stability_figure(options.out / "stability.csv", options.figure);
 }
 
-void add_stability(CommandLine& line) {
+void add_stability(Commands& line) {
     StabilityOptions& stability = line.keep<StabilityOptions>();
     CLI::App& command = *line.app.add_subcommand(
         "stability", "Test techniques with extreme inputs: non-finite values and amplification");

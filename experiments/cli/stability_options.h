@@ -13,5 +13,3 @@ struct StabilityOptions {
 
 /// `ssrlab stability --precision`. Returns the exit code, 0.
 int precision_command(const StabilityOptions& options, const CommonOptions& common);
-/// The figure of a stability.csv: PDF, PNG or SVG by its name. The exit code: 0, 2 or 3.
-int stability_figure(const std::filesystem::path& csv, const std::filesystem::path& figure);

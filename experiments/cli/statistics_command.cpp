@@ -68,7 +68,7 @@ static void statistics_command() {
     }
 }
 
-void add_statistics(CommandLine& line) {
+void add_statistics(Commands& line) {
     CLI::App& command = *line.app.add_subcommand("statistics", "Answer the questions of ssrlab's own scripts");
     command.group("")->callback([] { statistics_command(); });  // not shown by --help
 }

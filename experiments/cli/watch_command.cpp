@@ -66,7 +66,7 @@ static void watch_command(const WatchOptions& options, const std::vector<std::st
                 });
 }
 
-void add_watch(CommandLine& line) {
+void add_watch(Commands& line) {
     WatchOptions& watch = line.keep<WatchOptions>();
     CLI::App& command = *line.app.add_subcommand(
         "watch", "Render and judge a technique's folder whenever it is saved, and show it on a page of this machine");

@@ -2,7 +2,7 @@
 #include "core/child_process.h"
 #include "core/error.h"
 #include "core/files.h"
-#include "experiments/cli/commands.h"
+#include "experiments/cli/script_commands.h"
 #include "tests/error_message.h"
 #include "tests/experiments/ends_soon.h"
 

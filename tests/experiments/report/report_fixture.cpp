@@ -3,7 +3,7 @@
 #include "core/exr.h"
 #include "core/files.h"
 #include "experiments/results/evaluation.h"
-#include "experiments/study/manifest_entries.h"
+#include "experiments/results/tables/manifest.h"
 #include "experiments/results/cells/study_rows.h"
 
 #include <cmath>

@@ -4,13 +4,13 @@
 
 namespace {
 
-StabilityCase made_up_case(const std::string& name, const std::string& group, const std::string& why) {
-    StabilityCase result;
+StabilityCaseName made_up_case(const std::string& name, const std::string& group, const std::string& why) {
+    StabilityCaseName result;
     result.name = result.family = name, result.group = group, result.why = why;
     return result;
 }
 
-StabilityRow made_up_row(const StabilityCase& what, const std::string& variant, const std::string& point) {
+StabilityRow made_up_row(const StabilityCaseName& what, const std::string& variant, const std::string& point) {
     StabilityRow row;
     row.case_name = what.name, row.group = what.group, row.variant = variant, row.point = point;
     set_errors(row, 0.25, 0.2);
@@ -27,13 +27,13 @@ void add_failure(StabilityRow& row, const std::string& stage, const std::string&
 }  // namespace
 
 void write_stability_fixture(const std::filesystem::path& folder) {
-    const std::vector<StabilityCase> cases = {
+    const std::vector<StabilityCaseName> cases = {
         made_up_case("plain", "plain", "what the others are compared with"),
         made_up_case("bad hit lit nan", "faults", "whose <b>result</b> is it in?"),
         made_up_case("far away", "depth", "codes of depth end"), made_up_case("black", "radiance", "0 / 0"),
         made_up_case("one pixel", "sizes", "no level to halve")};
     std::vector<StabilityRow> rows;
-    for (const StabilityCase& c : cases)
+    for (const StabilityCaseName& c : cases)
         for (const auto& [variant, point] :
              {std::pair("path_tracer", "default"), std::pair("amd_sssr", "slides"), std::pair("amd_sssr", "corrected"),
               std::pair("of_another_build", "default")})

@@ -7,7 +7,7 @@
 #include "experiments/results/verdicts/effects/time_effects.h"
 #include "experiments/results/evaluation.h"
 #include "experiments/results/verdicts/interval.h"
-#include "experiments/study/manifest_entries.h"
+#include "experiments/results/tables/manifest.h"
 #include "experiments/results/cells/study_rows.h"
 
 #include <random>

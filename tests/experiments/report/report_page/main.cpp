@@ -1,6 +1,6 @@
 #include "core/error.h"
 #include "core/exr.h"
-#include "experiments/cli/commands.h"
+#include "experiments/cli/diff_command.h"
 #include "experiments/report/report.h"
 #include "metrics/flip.h"
 #include "tests/experiments/report/report_fixture.h"

@@ -3,7 +3,7 @@
 #include "core/files.h"
 #include "core/json.h"
 #include "experiments/results/cells/provenance.h"
-#include "experiments/study/shots/result_images.h"
+#include "experiments/results/cells/image_path.h"
 #include "experiments/results/cells/stale_files.h"
 
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 #include "experiments/results/cells/cell_store.h"
 #include "experiments/results/cells/file_name.h"
 #include "experiments/study/folder_owner.h"
-#include "experiments/study/shots/result_images.h"
+#include "experiments/results/cells/image_path.h"
 #include "tests/experiments/study/study_fixture.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
-#include "experiments/cli/commands.h"
+#include "experiments/cli/diff_command.h"
 #include "experiments/results/evaluation.h"
 #include "experiments/results/verdicts/study_points.h"
 #include "experiments/results/tables/manifest.h"

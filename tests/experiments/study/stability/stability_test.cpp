@@ -2,6 +2,7 @@
 #include "core/files.h"
 #include "core/scene/load_scene.h"
 #include "experiments/study/config/points/all_points.h"
+#include "experiments/study/stability/case_run.h"
 #include "experiments/study/stability/changed_shot.h"
 #include "experiments/results/stability/stability_tables.h"
 #include "tests/error_message.h"
