@@ -7,14 +7,14 @@ source experiments/setup.sh
 
 case "${1:-}" in -h | --help)
     echo "usage: experiments/quickstart.sh [options of 'ssrlab run']"
-    echo "Installs packages, builds build/release/ssrlab and runs experiments/configs/quickstart.json."
+    echo "Installs packages, builds build/release/ssrlab and runs experiments/studies/configs/quickstart.json."
     exit ;;
 esac
 
 install_packages "${build_packages[@]}"
 build release ssrlab
-say "Running experiments/configs/quickstart.json"
-build/release/ssrlab run experiments/configs/quickstart.json "$@"
+say "Running experiments/studies/configs/quickstart.json"
+build/release/ssrlab run experiments/studies/configs/quickstart.json "$@"
 cat <<'END'
 
 Where to go next:

@@ -82,18 +82,18 @@ class Markdown(unittest.TestCase):
         self.assertGreater(count, 100)
 
     def test_pictures_were_drawn_from_what_is_committed(self):
-        """Else draw them anew: experiments/figures/readme_pictures.py."""
+        """Else draw them anew: python3 experiments/python readme_pictures."""
         made_from = {
-            "figures/readme/error_time.png": "summaries/quickstart.csv",
-            "figures/readme/comparison.png": "configs/readme.json",
+            "readme/error_time.png": "summaries/quickstart.csv",
+            "readme/comparison.png": "configs/readme.json",
             "findings/flight_helmet.png": "findings/figures.json",
             "findings/room_10103.png": "findings/composed.json",
             "findings/room_10105.png": "findings/composed.json",
             "findings/metal_corner.png": "findings/engines.json",
         }
         for name, source in made_from.items():
-            picture = (ROOT / "experiments" / name).read_bytes()
-            digest = hashlib.sha256((ROOT / "experiments" / source).read_bytes()).hexdigest()
+            picture = (ROOT / "experiments/studies" / name).read_bytes()
+            digest = hashlib.sha256((ROOT / "experiments/studies" / source).read_bytes()).hexdigest()
             self.assertTrue(b"tEXtSource\0" + digest.encode() in picture, f"{name} is not of this {source}")
 
 

@@ -25,7 +25,7 @@ std::map<std::string, fs::path> declared_folders() {
     const fs::path root = SSRLAB_SOURCE_DIR;
     std::map<std::string, fs::path> folders;
     for (const VariantEntry& entry : variant_table())
-        for (const std::string above : {"variants/", "experiments/examples/"})
+        for (const std::string above : {"variants/", "experiments/studies/examples/"})
             if (const fs::path folder = path_inside(root, above + entry.name);
                 fs::exists(path_inside(folder, "technique.json")))
                 folders[entry.name] = folder;

@@ -1,4 +1,4 @@
-// The commands that are Python scripts: figures, tables, tradeoff, tune.
+// The commands that are modules of Python: figures, tables, tradeoff, tune.
 #include "experiments/cli/script_commands.h"
 #include "core/child_process.h"
 #include "core/error.h"
@@ -36,11 +36,11 @@ struct TuneOptions {
     std::filesystem::path config, out;
 };
 
-/// Runs a script of experiments/: 0 done, 2 a mistake of the user, else a fault of the machine (3). Scripts ask this
-/// program for their statistics (experiments/python/ssrlab/statistics.py).
-int run_script(const std::string& name, const std::vector<std::string>& arguments) {
+/// Runs a module of experiments/python/ssrlab: 0 done, 2 a mistake of the user, else a fault of the machine (3).
+/// Scripts ask this program for their statistics (experiments/python/ssrlab/statistics.py).
+int run_module(const std::string& name, const std::vector<std::string>& arguments) {
     setenv("SSRLAB_PROGRAM", this_program().c_str(), 1);
-    std::vector<std::string> command = {SSRLAB_PYTHON, "-B", SSRLAB_SOURCE_DIR "/experiments/" + name};
+    std::vector<std::string> command = {SSRLAB_PYTHON, "-B", SSRLAB_SOURCE_DIR "/experiments/python", name};
     command.insert(command.end(), arguments.begin(), arguments.end());
     const int code = run_program(command);
     return code == 0 || code == 2 ? code : 3;
@@ -48,17 +48,17 @@ int run_script(const std::string& name, const std::vector<std::string>& argument
 
 }  // namespace
 
-int figures_command(const std::vector<std::string>& arguments) { return run_script("figures/figures.py", arguments); }
+int figures_command(const std::vector<std::string>& arguments) { return run_module("figures", arguments); }
 
 int stability_figure(const std::filesystem::path& csv, const std::filesystem::path& figure) {
-    return run_script("figures/stability_figure.py", {"--out=" + figure.string(), "--", csv.string()});
+    return run_module("figures.stability", {"--out=" + figure.string(), "--", csv.string()});
 }
 
 static int tables_command(const std::vector<std::string>& arguments) {
     std::vector<std::string> handed_on = arguments;
     for (std::string& argument : handed_on)  // the script compares what is kept with the estimators of this program
         if (argument == "--check") argument += "=" + std::to_string(estimator_version);
-    return run_script("figures/tables.py", handed_on);
+    return run_module("tables", handed_on);
 }
 
 static int tradeoff_command(const TradeoffOptions& options) {
@@ -111,7 +111,7 @@ static int tradeoff_command(const TradeoffOptions& options) {
                                    {"chosen_on", c.chosen_on},
                                    {"fits", c.fits}});
     write_text(out / "asked.json", asked.dump(1) + "\n");
-    return run_script("tradeoff/tradeoff.py", {(out / "asked.json").string()});
+    return run_module("tradeoff", {(out / "asked.json").string()});
 }
 
 namespace {
@@ -155,7 +155,7 @@ static int tune_command(const TuneOptions& options, const std::vector<std::strin
     std::vector<std::string> arguments = {"--out=" + out.string(), (out / "tune.json").string(), "--",
                                           this_program().string()};
     arguments.insert(arguments.end(), run_options.begin(), run_options.end());
-    return run_script("tune/tune.py", arguments);
+    return run_module("tune", arguments);
 }
 
 /// A command whose options a script declares, --help among them.

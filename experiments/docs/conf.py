@@ -10,11 +10,11 @@ ROOT = Path(__file__).resolve().parents[2]
 # The navigation: a group's title, and its pages with their titles there. A page that is not named is listed under "More".
 PAGES = {
     "Running studies": {
-        "experiments/findings/README": "Findings",
+        "experiments/studies/findings/README": "Findings",
         "experiments/README": "Studies and their keys",
         "experiments/RESULTS": "A results folder",
         "experiments/bridges/captures/README": "Captures of engines",
-        "experiments/cluster/README": "Many machines",
+        "experiments/studies/cluster/README": "Many machines",
         "scenes/README": "Scenes",
         "metrics/README": "Metrics",
         "groundtruth/README": "Ground truth",

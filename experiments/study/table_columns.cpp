@@ -34,7 +34,7 @@ struct Source {
     Names shown;     ///< what rows, columns and means are named by
 };
 
-/// By the `of` of a table: figures/paper_tables/cells.py makes its rows of these.
+/// By the `of` of a table: experiments/python/ssrlab/tables/cells.py makes its rows of these.
 const std::map<std::string, Source>& sources() {
     const auto alike = [](const Names& names) { return Source{names, names}; };
     static const std::map<std::string, Source> all = {

@@ -10,9 +10,10 @@ struct ModelRange {
 };
 
 /// Of times on an NVIDIA H200 over estimates for navi21 (0.22 to 11.5) and gfx1100 (0.38 to 12.8): the stages of 48
-/// points in two scenes at 1920x1080, without what draws and without clears. Estimates of configs/gpu_quality.json by
-/// commit 2a846a4662, times of configs/gpu_measured.json by commit 23f2cf040e. Another vendor's GPU: the range holds
-/// what differs between the chips, too. experiments/study/measuring/costs/cost_agreement.py --model-range makes it anew.
+/// points in two scenes at 1920x1080, without what draws and without clears. Estimates of
+/// experiments/studies/configs/gpu_quality.json by commit 2a846a4662, times of
+/// experiments/studies/configs/gpu_measured.json by commit 23f2cf040e. Another vendor's GPU: the range holds what
+/// differs between the chips, too. experiments/study/measuring/costs/cost_agreement.py --model-range makes it anew.
 inline constexpr ModelRange model_range{0.22, 12.8};
 
 /// Estimates of two points that differ by less than this factor do not say which takes longer. Where they differ by

@@ -11,10 +11,10 @@ Put experiments/python on the path. Only read() needs Debian's python3-pandas.
 
 
 def read(folder):
-    """The tables of a results folder, see tables.read()."""
-    from ssrlab import tables  # here, so that figures need no pandas
+    """The tables of a results folder, see dataframes.read()."""
+    from ssrlab import dataframes  # here, so that figures need no pandas
 
-    return tables.read(folder)
+    return dataframes.read(folder)
 
 
 __all__ = ["read"]

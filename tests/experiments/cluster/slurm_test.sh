@@ -89,7 +89,7 @@ END
 through_slurm() {
     local out=$1
     shift
-    snakemake --snakefile experiments/cluster/Snakefile --profile experiments/cluster/profiles/slurm --latency-wait 10 \
+    snakemake --snakefile experiments/studies/cluster/Snakefile --profile experiments/studies/cluster/profiles/slurm --latency-wait 10 \
         --config study="$study" out="$out" cache="$work/cache" ssrlab="$ssrlab" minutes=0.2 threads=1 "$@"
 }
 

@@ -7,12 +7,10 @@ import tempfile
 import types
 import unittest
 
-sys.dont_write_bytecode = True
-sys.path[:0] = [os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../experiments", room) for room in ("figures", "python")]
 
-from ssrlab.mistakes import ResultsError  # noqa: E402
-from paper_tables import agreement, documents, formats, limits, means, summary_file  # noqa: E402
-from paper_tables.cell import Cell  # noqa: E402
+from ssrlab.mistakes import ResultsError
+from ssrlab.tables import agreement, documents, formats, limits, means, summary_file
+from ssrlab.tables.cell import Cell
 
 
 def rows(metric, values, shot="s"):

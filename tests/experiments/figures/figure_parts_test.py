@@ -8,12 +8,12 @@ from figures_start import check
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.text import Text
-from paper_figures import crops, style
-from paper_figures.lines import draw_lines
-from paper_figures.placed_labels import place_labels
+from ssrlab.figures import crops, style
+from ssrlab.figures.lines import draw_lines
+from ssrlab.figures.placed_labels import place_labels
 from ssrlab.results import Measured
-from paper_tables.cell import Cell
-from paper_tables.latex import latex
+from ssrlab.tables.cell import Cell
+from ssrlab.tables.latex import latex
 
 
 def test_crop_boxes():

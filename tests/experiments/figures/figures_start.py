@@ -3,8 +3,6 @@
 import os
 import sys
 
-sys.dont_write_bytecode = True
-sys.path[:0] = [os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../experiments", room) for room in ("figures", "python")]
 os.environ["MPLBACKEND"] = "Agg"
 
 try:
@@ -13,7 +11,7 @@ try:
 except ImportError as missing:
     sys.exit(f"figures need python3-matplotlib and python3-numpy (tests/run.sh installs them): {missing}")
 
-from paper_figures.request import Request  # noqa: E402
+from ssrlab.figures.request import Request
 
 
 def check(is_true, what):

@@ -1,6 +1,4 @@
 """The findings' pictures show what the kept summaries hold today, are small, and are all shown.
-
-usage: findings_pictures_test.py FINDINGS_PICTURES_SCRIPT
 """
 
 import re
@@ -9,8 +7,9 @@ import sys
 import tempfile
 from pathlib import Path
 
-script = Path(sys.argv[1])
-FINDINGS = script.parent.parent / "findings"
+from ssrlab.repository import FINDINGS
+
+draw = [sys.executable, "-B", "-m", "ssrlab.findings_pictures"]
 MOST_BYTES = 60_000  # a page of 13 pictures loads in a second over a slow line
 
 
@@ -33,14 +32,14 @@ def drawn_alike(picture):
 
 def main():
     with tempfile.TemporaryDirectory() as folder:
-        drawn = subprocess.run([sys.executable, "-B", script, "--out", folder], capture_output=True, text=True)
+        drawn = subprocess.run([*draw, "--out", folder], capture_output=True, text=True)
         check(drawn.returncode == 0 and not drawn.stderr, drawn.stderr)
         new = {file.name: file.read_text(encoding="utf-8") for file in Path(folder).glob("*.svg")}
     kept = {file.name: file.read_text(encoding="utf-8") for file in (FINDINGS / "pictures").glob("*.svg")}
     check(kept.keys() == new.keys(), f"{sorted(kept)} are kept, {sorted(new)} are drawn")
     text = (FINDINGS / "README.md").read_text(encoding="utf-8")
     pages = "".join(file.read_text(encoding="utf-8") for file in FINDINGS.glob("*.md"))
-    again = f"experiments/figures/{script.name} draws it anew"
+    again = "python3 experiments/python findings_pictures draws it anew"
     for name, picture in kept.items():
         check(noted(picture, "source") == noted(new[name], "source"), f"{name} shows other numbers than the summaries hold; {again}")
         if noted(picture, "creator") == noted(new[name], "creator"):  # of the same version of matplotlib
@@ -50,7 +49,7 @@ def main():
     headings = [part.split("\n", 1) for part in text.split("\n## ")[1:]]
     without = [title for title, part in headings if "](pictures/" not in part and title != "What this does not show"]
     check(not without, f"findings without a picture: {without}")
-    unknown = subprocess.run([sys.executable, "-B", script, "absent"], capture_output=True, text=True)
+    unknown = subprocess.run([*draw, "absent"], capture_output=True, text=True)
     check(unknown.returncode == 2 and "no picture 'absent'" in unknown.stderr, unknown.stderr)
 
 

@@ -1,6 +1,6 @@
 """Draws the figures of a made-up results folder twice and looks at the files; what figures.json asks for; crops of images.
 
-usage: report_figures_test.py REPORT_PAGE_PROGRAM FIGURES_SCRIPT
+usage: report_figures_test.py REPORT_PAGE_PROGRAM
 """
 
 import copy
@@ -19,22 +19,23 @@ from figures_start import check, request_of
 
 sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, "report"))
 
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-from paper_figures import crops  # noqa: E402
-from paper_figures.crop_choice import read_crops  # noqa: E402
-from ssrlab.exr import ExrError, read_exr_rgb  # noqa: E402
-from paper_figures.request import read_colors, read_requests  # noqa: E402
-from ssrlab.mistakes import ResultsError  # noqa: E402
-from ssrlab.results import Results  # noqa: E402
-from report_crops import FIGURES_JSON, SHOT  # noqa: E402
+import matplotlib.pyplot as plt
+import numpy as np
+from ssrlab.figures import crops
+from ssrlab.figures.crop_choice import read_crops
+from ssrlab.exr import ExrError, read_exr_rgb
+from ssrlab.figures.request import read_colors, read_requests
+from ssrlab.mistakes import ResultsError
+from ssrlab.results import Results
+from report_crops import FIGURES_JSON, SHOT
 
-program, script = sys.argv[1:]
+program = sys.argv[1]
+figures = [sys.executable, "-B", "-m", "ssrlab.figures"]
 
 
 def run_figures(folder, out, *options):
     return subprocess.run(
-        [sys.executable, "-B", script, folder, "--out", out, *options], capture_output=True, text=True
+        [*figures, folder, "--out", out, *options], capture_output=True, text=True
     )
 
 
@@ -243,7 +244,7 @@ def test_folder_of_a_stranger(folder, temporary):
     outside = os.path.join(temporary, "outside")
     os.mkdir(outside)
     os.symlink(outside, os.path.join(folder, "figures"))
-    result = subprocess.run([sys.executable, "-B", script, folder], capture_output=True, text=True)
+    result = subprocess.run([*figures, folder], capture_output=True, text=True)
     check(result.returncode == 2 and "figures is a symbolic link" in result.stderr and not os.listdir(outside), f"a link: {result.stderr}")
     results = Results(folder)
     for entry in results.manifest["images"]:

@@ -70,7 +70,7 @@ def test_changed_tables_redo_no_cell():
 
 def test_figures_warn_of_nothing():
     write("figures.json", {"formats": ["svg"], "figures": FIGURES})
-    program = [sys.executable, "-B", "-W", "error", os.path.join(EXPERIMENTS, "figures", "figures.py")]
+    program = [sys.executable, "-B", "-W", "error", "-m", "ssrlab.figures"]
     done = subprocess.run([*program, "out", "--choice", "figures.json"], capture_output=True, text=True, check=False)
     check(done.returncode == 0 and not done.stderr, done.stderr)
 
@@ -85,7 +85,7 @@ def test_pandas_reads_what_compilers_say():
 
 
 def test_the_notebook_runs():
-    with open(os.path.join(EXPERIMENTS, "examples", "read_results.ipynb"), encoding="utf-8") as stream:
+    with open(os.path.join(EXPERIMENTS, "studies/examples", "read_results.ipynb"), encoding="utf-8") as stream:
         notebook = json.load(stream)
     code = [cell for cell in notebook["cells"] if cell["cell_type"] == "code"]
     check(not any(cell["outputs"] or cell["execution_count"] for cell in code), "outputs are kept in the notebook")

@@ -15,10 +15,10 @@ from figures_start import check, request_of
 
 import matplotlib.pyplot as plt
 import numpy as np
-from figures import SHOT_FIGURES, STUDY_FIGURES, for_each_shot, make
+from ssrlab.figures.__main__ import SHOT_FIGURES, STUDY_FIGURES, for_each_shot, make
 from matplotlib.text import Text
-from paper_figures import effects, error_time, fetches, motion, style
-from paper_figures.request import Look
+from ssrlab.figures import effects, error_time, fetches, motion, style
+from ssrlab.figures.request import Look
 from PIL import Image
 from ssrlab.mistakes import ResultsError
 from ssrlab.results import Measured, Results, is_over_frames

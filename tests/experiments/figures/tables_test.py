@@ -1,7 +1,5 @@
 """Tables of a made-up study, from its results folder to the documents that show them. All checks read that one study,
 and so stand in one file of over 400 lines.
-
-usage: tables_test.py TABLES_SCRIPT
 """
 
 import contextlib
@@ -15,20 +13,17 @@ import subprocess
 import sys
 import tempfile
 
-script = sys.argv[1]
-sys.path[:0] = [os.path.dirname(script), os.path.join(os.path.dirname(script), "../python")]
-sys.dont_write_bytecode = True
-
-import tables as tables_script  # noqa: E402
-from paper_figures import numbers  # noqa: E402
-from paper_tables import shot_names, summary_file  # noqa: E402
-from paper_tables.cell import Cell  # noqa: E402
-from paper_tables.documents import Numbers  # noqa: E402
-from paper_tables.halving import halving_share  # noqa: E402
-from paper_tables.markdown import markdown  # noqa: E402
-from paper_tables.variance_shares import KINDS, share_of_total, variance_parts  # noqa: E402
-from ssrlab.mistakes import ResultsError, exit_code  # noqa: E402
-from tables_study import ONE_SEED, RATIOS, SHOTS, TABLES, footer, manifest, read, write, write_results, write_rows  # noqa: E402
+import ssrlab.tables.__main__ as tables_script
+from ssrlab.figures import numbers
+from ssrlab.tables import shot_names, summary_file
+from ssrlab.tables.cell import Cell
+from ssrlab.tables.documents import Numbers
+from ssrlab.tables.halving import halving_share
+from ssrlab.tables.markdown import markdown
+from ssrlab.tables.variance_shares import KINDS, share_of_total, variance_parts
+from ssrlab.mistakes import ResultsError, exit_code
+from ssrlab.repository import SUMMARIES
+from tables_study import ONE_SEED, RATIOS, SHOTS, TABLES, footer, manifest, read, write, write_results, write_rows
 
 
 A = "\N{MODIFIER LETTER SMALL A}"
@@ -40,10 +35,10 @@ def check(is_true, what):
 
 
 def tables(*arguments):
-    """As `python3 tables.py ARGUMENTS`, in this process: to start another for each of a hundred calls takes most of the test's time."""
+    """As `ssrlab tables ARGUMENTS`, in this process: to start another for each of a hundred calls takes most of the test's time."""
     out, err = io.StringIO(), io.StringIO()
     with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-        sys.argv = [script, *arguments]
+        sys.argv = ["tables", *arguments]
         try:
             code = exit_code(tables_script.main, "the tables")
         except SystemExit as ended:
@@ -52,10 +47,10 @@ def tables(*arguments):
 
 
 def test_the_script_itself(folder):
-    started = subprocess.run([sys.executable, "-B", script, folder], capture_output=True, text=True)
+    started = subprocess.run([sys.executable, "-B", "-m", "ssrlab.tables", folder], capture_output=True, text=True)
     called = tables(folder)
     check((started.returncode, started.stdout, started.stderr) == (called.returncode, called.stdout, called.stderr), started.stderr)
-    check(subprocess.run([sys.executable, "-B", script, folder + "/absent"], capture_output=True).returncode == 2, "of a folder that is not there")
+    check(subprocess.run([sys.executable, "-B", "-m", "ssrlab.tables", folder + "/absent"], capture_output=True).returncode == 2, "of a folder that is not there")
 
 
 def test_numbers(folder):
@@ -188,7 +183,7 @@ def test_halving_covers():
     """Scenes are drawn again from the 13 of the kept study, 200 times for each of its twelve curves: how often the interval holds the share
     of all 13. Of 95 %, few scenes with a heavy tail leave 84 to 100 % for single curves, whose deviation by the count of draws is 2.5 %; the
     mean over the curves must be within two such deviations of 95 %, and no curve six of them below it."""
-    kept = Numbers(os.path.join(os.path.dirname(script), "../summaries"), "tables_test")
+    kept = Numbers(str(SUMMARIES), "tables_test")
     values = {}
     for cell in kept._table("exact_rays", "errors")[1]:
         values.setdefault(cell.column, {})[cell.row] = cell.value
@@ -476,7 +471,7 @@ def test_counts(temporary):
     check(r"349~k {\scriptsize (987 to 123~M)}" in read(os.path.join(folder, "tables", "mean.tex")), "LaTeX")
     grid = list(csv.reader(open(os.path.join(folder, "tables", "counts.csv"))))
     check(grid[1][:4] == ["trace", "12345678", "", ""], grid[1])
-    check("total,\"operations, floor\",123456789," in read(os.path.join(root, "experiments", "summaries", "made_up.csv")), "a kept count")
+    check("total,\"operations, floor\",123456789," in read(os.path.join(root, "experiments", "studies", "summaries", "made_up.csv")), "a kept count")
     write_rows(os.path.join(folder, "costs.csv"), [rows[0] | {"value": "1.5"}])
     check("is not a whole number" in tables(folder).stderr, "half an operation")
 
@@ -625,7 +620,7 @@ def test_documents(temporary):
     document = os.path.join(root, "variants", "README.md")
     text = "Before\n<!-- table made_up changes -->\nold\n<!-- end of table -->\nafter, and <!-- table made_up parts -->\n<!-- end of table -->"
     write(document, text)
-    os.makedirs(os.path.join(root, "experiments", "summaries"))
+    os.makedirs(os.path.join(root, "experiments", "studies", "summaries"))
     result = tables(folder, "--keep", "--root", root)
     check(result.returncode == 0, result.stderr)
     filled = read(document)
@@ -651,7 +646,7 @@ def test_kept_numbers(temporary):
     """What is kept reads back as it was, but for six digits; too much of it is refused, and so is what no commit holds."""
     folder, root = os.path.join(temporary, "results"), os.path.join(temporary, "tree")
     write_results(folder)
-    origin, kept = summary_file.read(os.path.join(root, "experiments", "summaries", "made_up.csv"))
+    origin, kept = summary_file.read(os.path.join(root, "experiments", "studies", "summaries", "made_up.csv"))
     check(origin["shots"] == 2 and origin["code"] == "00ff", origin)
     check(kept["parts"][0]["resolutions"] == ["320x180"] and kept["parts"][0]["shots"] == ["floor"], kept["parts"][0])
     cell = next(c for c in kept["changes"][1] if c.row == "taps = 4" and c.column == "mse")

@@ -11,23 +11,22 @@ import sys
 import tempfile
 import unittest
 
-sys.dont_write_bytecode = True
 HERE = os.path.dirname(os.path.abspath(__file__))
 EXPERIMENTS = os.path.join(HERE, "../../../experiments")
-sys.path[:0] = [HERE, os.path.join(HERE, "../figures"), *(os.path.join(EXPERIMENTS, room) for room in ("figures", "python", "tradeoff", "tune", "examples", "measuring/costs"))]
+sys.path[:0] = [os.path.join(HERE, "../figures"), os.path.join(EXPERIMENTS, "study/measuring/costs")]
 os.environ["MPLBACKEND"] = "Agg"
 
-import broken_files  # noqa: E402
-import cost_agreement  # noqa: E402
-import figures  # noqa: E402
-import judge  # noqa: E402
-import ssrlab  # noqa: E402
-import stability_figure  # noqa: E402
-import studies  # noqa: E402
-import tables  # noqa: E402
-import tables_study  # noqa: E402
-from analysis.points import Study  # noqa: E402
-from ssrlab.mistakes import exit_code  # noqa: E402
+import broken_files
+import cost_agreement
+import ssrlab
+import ssrlab.figures.__main__ as figures
+import ssrlab.tables.__main__ as tables
+import tables_study
+from ssrlab import judge
+from ssrlab.figures import stability as stability_figure
+from ssrlab.tune import studies
+from ssrlab.tradeoff.points import Study
+from ssrlab.mistakes import exit_code
 
 STRIDE = int(sys.argv.pop()) if len(sys.argv) > 1 else 31
 ASKED = {
@@ -100,7 +99,7 @@ class BrokenFiles(unittest.TestCase):
         tables_study.write_results(self.path("r"))
         self.write("t/README.md", '<!-- table made_up changes {"rows": ["taps = 4"]} -->\n<!-- end of table -->\n<!-- table made_up levels -->\n<!-- end of table -->\n')
         self.assertEqual(self.run_script(tables.main, [self.path("r"), "--keep", "--root", self.path("t")]), (0, ""))
-        self.break_files(["t/experiments/summaries/made_up.csv"], tables.main, "--check", "7", "--root", self.path("t"))
+        self.break_files(["t/experiments/studies/summaries/made_up.csv"], tables.main, "--check", "7", "--root", self.path("t"))
 
     def test_figures(self):
         """All that is read before the first is drawn."""

@@ -11,22 +11,19 @@ import sys
 import tempfile
 import unittest
 
-sys.dont_write_bytecode = True
-EXPERIMENTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../experiments")
-sys.path[:0] = [os.path.join(EXPERIMENTS, room) for room in ("figures", "python")]
 os.environ["MPLBACKEND"] = "Agg"
 
-import markdown_it  # noqa: E402  (python3-markdown-it)
-import matplotlib.pyplot as plt  # noqa: E402
-import pandas  # noqa: E402
-from paper_figures import style  # noqa: E402
-from paper_tables import latex, markdown, summary_file  # noqa: E402
-from paper_tables.cell import Cell  # noqa: E402
-from ssrlab.csv_files import parse_rows, write_lines  # noqa: E402
-from ssrlab.markdown_text import markdown_code, markdown_prose, markdown_text  # noqa: E402
-from ssrlab.mistakes import ResultsError, shown  # noqa: E402
-from ssrlab.tables import Tables  # noqa: E402
-from ssrlab.text_files import path_inside  # noqa: E402
+import markdown_it
+import matplotlib.pyplot as plt
+import pandas
+from ssrlab.figures import style
+from ssrlab.tables import latex, markdown, summary_file
+from ssrlab.tables.cell import Cell
+from ssrlab.csv_files import parse_rows, write_lines
+from ssrlab.markdown_text import markdown_code, markdown_prose, markdown_text
+from ssrlab.mistakes import ResultsError, shown
+from ssrlab.dataframes import Tables
+from ssrlab.text_files import path_inside
 
 TYPED = "\\immediate\\openout7=forged.txt\\immediate\\write7{x}\\immediate\\closeout7"
 ATTACKS = [

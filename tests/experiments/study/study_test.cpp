@@ -59,7 +59,7 @@ TEST_F(StudyTest, RunsADesignThatTheExampleReads) {
     EXPECT_EQ(manifest["shots"][1]["depth_format"], "d16");
     EXPECT_EQ(manifest["variants"][2]["label"], "DDA, 8 px");
     // Debian's own Python, which has Debian's pandas.
-    const std::string script = std::string(SSRLAB_SOURCE_DIR) + "/experiments/examples/read_results.py ";
+    const std::string script = std::string(SSRLAB_SOURCE_DIR) + "/experiments/studies/examples/read_results.py ";
     ASSERT_EQ(std::system(("/usr/bin/python3 -B " + script + out.string() + " > " + out.string() + "/best").c_str()),
               0);
     std::istringstream lines(read_text(out / "best"));

@@ -1,6 +1,6 @@
 """Error against run time: a made-up results folder, from its tables to its answers.
 
-usage: tradeoff_folder_test.py TRADEOFF_FOLDER SSRLAB
+usage: tradeoff_folder_test.py SSRLAB
 """
 
 import csv
@@ -12,14 +12,12 @@ import sys
 import tempfile
 import unittest
 
-sys.dont_write_bytecode = True
-TRADEOFF, SSRLAB = sys.argv.pop(1), sys.argv.pop(1)
-sys.path[:0] = [TRADEOFF, os.path.join(TRADEOFF, "../figures"), os.path.join(TRADEOFF, "../python")]
+SSRLAB = sys.argv.pop(1)
 
-from tradeoff import FILES  # noqa: E402  (before what it finds)
-from ssrlab.mistakes import ResultsError  # noqa: E402
-from ssrlab.results import Results  # noqa: E402
-from paper_tables.cells import Table, cells_of  # noqa: E402
+from ssrlab.tradeoff.__main__ import FILES
+from ssrlab.mistakes import ResultsError
+from ssrlab.results import Results
+from ssrlab.tables.cells import Table, cells_of
 
 FRAMES = 15
 MACHINES = (("first", ("floor", "wall")), ("second", ("roof",)))

@@ -1,6 +1,4 @@
 """Error against run time: draws, curves and fits, by closed forms.
-
-usage: tradeoff_test.py TRADEOFF_FOLDER
 """
 
 import math
@@ -8,12 +6,10 @@ import re
 import sys
 import unittest
 
-sys.dont_write_bytecode = True
-sys.path.insert(0, sys.argv.pop(1))
 
-import numpy as np  # noqa: E402
-from analysis import curves, fits, points, uncertainty  # noqa: E402
-from analysis.answers import Answers  # noqa: E402
+import numpy as np
+from ssrlab.tradeoff import curves, fits, points, uncertainty
+from ssrlab.tradeoff.answers import Answers
 
 FRAMES = 15
 

@@ -1,10 +1,7 @@
-"""`ssrlab tune` among made-up techniques whose front is known, through a stand-in for `ssrlab run`.
-
-usage: tune_test.py TUNE.PY"""
+"""`ssrlab tune` among made-up techniques whose front is known, through a stand-in for `ssrlab run`."""
 
 import contextlib
 import csv
-import importlib.util
 import io
 import json
 import math
@@ -15,14 +12,8 @@ import tempfile
 import types
 import zlib
 
-SCRIPT = sys.argv[1]
-spec = importlib.util.spec_from_file_location("tune", SCRIPT)
-tune = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(tune)
-import program  # noqa: E402  (beside tune.py)
-import race  # noqa: E402
-import space  # noqa: E402
-import studies  # noqa: E402
+import ssrlab.tune.__main__ as tune
+from ssrlab.tune import program, race, space, studies
 
 RAYS = {"default": 1, "type": "integer"}
 DECLARED = {"rays": RAYS, "blur": {"default": 1.0, "type": "number"}, "march": {"default": "linear", "enum": ["linear", "tree"]},

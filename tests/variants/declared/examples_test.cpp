@@ -1,4 +1,4 @@
-// The technique of experiments/examples is that of ssrlab which it is written after: the same bits and the same work
+// The technique of experiments/studies/examples is that of ssrlab which it is written after: the same bits and the same work
 // left out, with all of its presets.
 #include "tests/variants/declared/technique_folder.h"
 #include "tests/variants/held_camera.h"

@@ -20,9 +20,9 @@ import sys
 
 sys.dont_write_bytecode = True
 EXPERIMENTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../..")
-sys.path[:0] = [os.path.join(EXPERIMENTS, "figures"), os.path.join(EXPERIMENTS, "python")]
+sys.path.insert(0, os.path.join(EXPERIMENTS, "python"))
 
-from paper_tables.agreement import kendall_tau  # noqa: E402
+from ssrlab.tables.agreement import kendall_tau  # noqa: E402
 from ssrlab.csv_files import needed_number, number, read_rows, whole  # noqa: E402
 from ssrlab.mistakes import ResultsError, exit_code  # noqa: E402
 from ssrlab.text_files import path_inside  # noqa: E402

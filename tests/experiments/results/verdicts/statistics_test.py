@@ -8,15 +8,12 @@ import sys
 import tempfile
 import unittest
 
-sys.dont_write_bytecode = True
-EXPERIMENTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../experiments")
-sys.path[:0] = [os.path.join(EXPERIMENTS, part) for part in ("python", "figures")]
 
-import numpy as np  # noqa: E402
-from paper_tables import documents, summary_file  # noqa: E402
-from paper_tables.cell import Cell  # noqa: E402
-from scipy import stats  # noqa: E402
-from ssrlab import statistics  # noqa: E402
+import numpy as np
+from ssrlab.tables import documents, summary_file
+from ssrlab.tables.cell import Cell
+from scipy import stats
+from ssrlab import statistics
 
 QUANTILES = 2e-8  # so far off are scipy's of Student's t: of 2 degrees of freedom over_scenes_test.cpp has the closed form
 

@@ -59,7 +59,7 @@ TEST(TableColumns, AreKnownOfAllThatTablesAreOf) {
 
 TEST(TableColumns, AreRightInAllConfigs) {
     size_t count = 0;
-    for (const auto& entry : fs::directory_iterator(source / "experiments/configs")) {
+    for (const auto& entry : fs::directory_iterator(source / "experiments/studies/configs")) {
         if (entry.path().extension() != ".json" || entry.path().stem() == "paper_figures") continue;
         const Config config = read_config(entry.path());
         EXPECT_NO_THROW(check_table_columns(config)) << entry.path();

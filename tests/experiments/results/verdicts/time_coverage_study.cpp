@@ -1,5 +1,5 @@
 // The table of times in metrics/README.md: time_coverage_study RESULTS, a folder of many timed frames
-// (configs/tradeoff_coverage.json). All frames of a shot are the truth, windows of 15 successive ones the trials.
+// (experiments/studies/configs/tradeoff_coverage.json). All frames of a shot are the truth, windows of 15 successive ones the trials.
 #include "core/error.h"
 #include "experiments/results/cells/cell.h"
 #include "experiments/results/tables/columns.h"

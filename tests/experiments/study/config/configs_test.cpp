@@ -46,7 +46,7 @@ TEST(Configs, JudgeOnScenesThatNoSearchSaw) {
     // scenes are in tune_scenes.json, too.
     std::set<std::string> searched = {"grazing", "disocclusion", "offscreen_mirror"};
     unsigned judged = 0;
-    for (const auto& file : fs::directory_iterator(source / "experiments/configs")) {
+    for (const auto& file : fs::directory_iterator(source / "experiments/studies/configs")) {
         if (!file.path().stem().string().starts_with("tune_")) continue;
         const Config config = read_config(file.path());
         std::set<std::string> own;
@@ -59,7 +59,7 @@ TEST(Configs, JudgeOnScenesThatNoSearchSaw) {
     }
     EXPECT_GE(judged, 2u);
     std::set<std::string> quickstart;
-    for (const ShotConfig& shot : read_config(source / "experiments/configs/quickstart.json").shots)
+    for (const ShotConfig& shot : read_config(source / "experiments/studies/configs/quickstart.json").shots)
         quickstart.insert(shot.scene);
     EXPECT_GE(quickstart.size(), 4u);
     EXPECT_EQ(common(searched, quickstart), std::vector<std::string>()) << "it compares presets that were searched";
@@ -68,7 +68,7 @@ TEST(Configs, JudgeOnScenesThatNoSearchSaw) {
 TEST(Configs, AreReadAndFindTheirShots) {
     const std::set<std::string> own = own_scenes();
     unsigned files = 0;
-    for (const auto& file : fs::directory_iterator(source / "experiments/configs")) {
+    for (const auto& file : fs::directory_iterator(source / "experiments/studies/configs")) {
         if (file.path().stem().string().ends_with("_figures")) continue;  // for `ssrlab figures`
         SCOPED_TRACE(file.path());
         ++files;
@@ -85,7 +85,7 @@ TEST(Configs, KeepTheNamesOfTheirPoints) {
     std::map<std::string, std::string> golden;
     std::istringstream lines(read_text(source / "tests/data/point_names.txt"));
     for (std::string name, hash; lines >> name >> hash;) golden[name] = hash;
-    for (const auto& file : fs::directory_iterator(source / "experiments/configs")) {
+    for (const auto& file : fs::directory_iterator(source / "experiments/studies/configs")) {
         const std::string name = file.path().stem().string();
         if (name.ends_with("_figures")) continue;
         ContentHash hash;
@@ -151,7 +151,7 @@ TEST(Configs, AdditiveCompositeHasNoIncidentRadiance) {
 bool is_of_stability(const std::string& name) { return name == "repair_inputs" || name == "hierarchy.finite_length"; }
 
 TEST(Configs, OfAmdMeasureEachCorrectionAlone) {
-    const Config config = read_config(source / "experiments/configs/amd_sssr.json");
+    const Config config = read_config(source / "experiments/studies/configs/amd_sssr.json");
     std::set<std::string> scenes, points;
     for (const ShotConfig& shot : config.shots) scenes.insert(shot.scene);
     for (const VariantConfig& variant : config.variants) points.insert(variant.point);
@@ -172,7 +172,7 @@ TEST(Configs, OfAmdMeasureEachCorrectionAlone) {
 }
 
 TEST(Configs, OfAmdCompareAllOnTheSameSeeds) {
-    const Config config = read_config(source / "experiments/configs/amd_sssr.json");
+    const Config config = read_config(source / "experiments/studies/configs/amd_sssr.json");
     for (const VariantConfig& variant : config.variants) {
         const bool is_alone = variant.point.find('=') != std::string::npos;
         const bool is_faithful = variant.point.find("faithful") != std::string::npos;
@@ -186,7 +186,7 @@ TEST(Configs, OfAmdCompareAllOnTheSameSeeds) {
 TEST(Configs, OfDiligentMeasureEachCorrectionAlone) {
     std::set<std::string> scenes, points;
     for (const char* file :
-         {"experiments/configs/diligent.json", "experiments/configs/diligent_half_resolution.json"}) {
+         {"experiments/studies/configs/diligent.json", "experiments/studies/configs/diligent_half_resolution.json"}) {
         const Config config = read_config(source / file);
         for (const ShotConfig& shot : config.shots) scenes.insert(shot.scene);
         for (const VariantConfig& variant : config.variants) points.insert(variant.point);
@@ -210,7 +210,7 @@ TEST(Configs, OfDiligentMeasureEachCorrectionAlone) {
 
 /// Every combination with the published lobe, and all filtered ones with the other, on the same seeds.
 TEST(Configs, OfFrostbiteCrossEstimatorsTapsRaysTruncationAndLobe) {
-    const Config config = read_config(source / "experiments/configs/frostbite.json");
+    const Config config = read_config(source / "experiments/studies/configs/frostbite.json");
     std::set<std::string> scenes;
     for (const ShotConfig& shot : config.shots) scenes.insert(shot.scene);
     EXPECT_EQ(scenes, (std::set<std::string>{"roughness_gradient", "contact_hardening", "glossy_stretch", "firefly",
@@ -238,7 +238,7 @@ TEST(Configs, OfFrostbiteCrossEstimatorsTapsRaysTruncationAndLobe) {
 TEST(Configs, OfFrostbiteMeasureEachChoiceAlone) {
     std::set<std::string> changed;
     for (const char* study : {"frostbite_whole.json", "frostbite_tiles.json", "half_histories.json"})
-        for (const VariantConfig& variant : read_config(source / "experiments/configs" / study).variants)
+        for (const VariantConfig& variant : read_config(source / "experiments/studies/configs" / study).variants)
             if (variant.variant == "frostbite_sssr")
                 for (const auto& [name, value] : variant.parameters.items()) changed.insert(name);
     const std::unique_ptr<Variant> variant = make_variant("frostbite_sssr");

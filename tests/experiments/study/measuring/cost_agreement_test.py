@@ -6,7 +6,7 @@ import sys
 import tempfile
 import unittest
 
-PROGRAM = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../experiments/study/measuring/costs/cost_agreement.py")
+PROGRAM = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../../experiments/study/measuring/costs/cost_agreement.py")
 
 # Totals by time: a 1 ms, b 2 ms, c 2.5 ms; by fetches: a, c, b. Of the three pairs, b and c are not clearly apart.
 TIMES = """shot,variant,point,seed,stage,frame,milliseconds,clock,foreign_load,disturbed

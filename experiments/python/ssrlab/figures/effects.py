@@ -1,0 +1,150 @@
+"""Forest plots, one panel per shot: what each change does to the error of its baseline, and what points do to the error of
+those that differ in one value alone."""
+
+import matplotlib.pyplot as plt
+
+from ssrlab.figures import style
+from ssrlab.figures.sweeps import value_text
+from ssrlab.results import label
+
+LABELS = 0.36  # of the figure's width at most; longer labels are broken
+FARTHEST = 20.0  # ratios further from 1 would squeeze all others; they are written at the border of their panel
+CUT = 2.0  # intervals reach at most this factor beyond the outermost ratio
+
+
+def _preset(point):
+    return [word for word in point.split() if "=" not in word and word != "default"]
+
+
+def _groups(results, rows):
+    """(variant, point) to its label: single changes of the baseline in the order of the study, then whole points, to which
+    changes of other baselines belong."""
+    found = dict.fromkeys((e["variant"], e["point"]) for e in rows)
+    preset = _preset(rows[0]["against_point"])
+    changes = {k: c for k, c in results.single_changes.items() if k in found and _preset(k[1]) == preset}
+    singles = {k: f"{p} = {value_text(v)}" for k, (p, v) in changes.items()}
+    return singles | {k: results.point_label(*k) for k in found if k not in singles}
+
+
+def _rows(results, chosen):
+    return [
+        e
+        for e in results.effects
+        if (e["target"], e["metric"], e["mask"]) == (chosen.target, chosen.metric, chosen.mask)
+        and e["variant"] == e["against_variant"]
+    ]
+
+
+def comparisons(results, chosen):
+    """What `draw` draws, by the name of the figure's file: for each baseline its changes, and for each value that points
+    are compared with which are otherwise the same (`against` of a config) those points."""
+    found = {}
+    for e in _rows(results, chosen):
+        is_baseline = e["against"] == "baseline"
+        other = label(e["against_variant"], e["against_point"]) if is_baseline else f"{e['variant']} {e['against']}"
+        found.setdefault(("effects" if is_baseline else "otherwise_equal", other), []).append(e)
+    kinds = [kind for kind, _ in found]
+    return {
+        kind if kinds.count(kind) == 1 else f"{kind}_{other}": rows
+        for (kind, other), rows in found.items()
+    }
+
+
+def draw(results, chosen, rows):
+    if rows[0]["against"] != "baseline":
+        groups = {key: results.point_label(*key) for key in dict.fromkeys((e["variant"], e["point"]) for e in rows)}
+        return _draw(results, chosen, rows, groups, f"{rows[0]['against']} and otherwise the same")
+    baseline = results.point_label(rows[0]["against_variant"], rows[0]["against_point"])
+    return _draw(results, chosen, rows, _groups(results, rows), baseline)
+
+
+def _draw(results, chosen, rows, groups, against):
+    width = style.width_of(chosen, 2)
+    letters = style.letters(width)
+    groups = {key: style.wrapped(text, style.letters(LABELS * width)) for key, text in groups.items()}
+    row = 0.38 + 0.3 * max(text.count("\n") for text in groups.values())  # cm
+    below = style.wrapped(
+        f"{chosen.metric} of {chosen.target}, {chosen.mask} pixels, relative to {against}; "
+        f"95 % intervals; {_family(rows)}",
+        letters,
+    )
+    shots = [s for s in results.shots() if any(e["shot"] == s for e in rows)]
+    columns = min(len(shots), max(int(width / 4.4), 1))
+    titles = {s: style.wrapped(results.shot_label(s), style.letters(0.75 * width / columns)) for s in shots}
+    grid_rows = -(-len(titles) // columns)
+    lines = grid_rows * (1 + max(t.count("\n") for t in titles.values())) + below.count("\n")
+    figure, grid = plt.subplots(
+        grid_rows,
+        columns,
+        figsize=(
+            width * style.CENTIMETRE,
+            (grid_rows * (1.5 + row * len(groups)) + lines * 0.32) * style.scale() * style.CENTIMETRE,
+        ),
+        layout="constrained",
+        sharex=True,
+        sharey=True,
+        squeeze=False,
+    )
+    for axes in grid.flat[len(titles) :]:
+        axes.axis("off")
+    for index, (axes, (shot, title)) in enumerate(zip(grid.flat, titles.items())):
+        _draw_shot(results, axes, [e for e in rows if e["shot"] == shot], list(groups))
+        axes.set_title(title)
+        axes.tick_params(labelbottom=index + columns >= len(titles))
+    grid[0, 0].set_yticks(range(len(groups)), list(groups.values()))
+    grid[0, 0].set_ylim(len(groups) - 0.5, -0.5)
+    _limit(grid[0, 0], results, rows)
+    figure.supxlabel(below)
+    return figure
+
+
+def _family(rows):
+    family = "primary" if any(e["family"] == "primary" for e in rows) else "exploratory"
+    return f"filled: significant; intervals and verdicts adjusted for all effects on this error (Holm; {family})"
+
+
+def _draw_shot(results, axes, rows, keys):
+    color, mark = style.series(0)
+    axes.axvline(1.0, color="#555555", linewidth=0.7)
+    axes.set_xscale("log")
+    axes.grid(axis="y", visible=False)
+    for e in rows:
+        ratio = results.measured(e, ("ratio", "low_holm", "high_holm"))
+        if ratio is None:
+            continue
+        row = keys.index((e["variant"], e["point"]))
+        if not _is_near(ratio):
+            is_right = ratio.value > 1
+            number = style.number(ratio.value)
+            if ratio.low is not None:
+                number += f" [{style.number(ratio.low)}, {style.number(ratio.high)}]"
+            axes.text(
+                float(is_right),
+                row,
+                f"{number} →" if is_right else f"← {number}",
+                transform=axes.get_yaxis_transform(),
+                ha="right" if is_right else "left",
+                va="center",
+                color=color,
+            )
+            continue
+        is_significant = e["verdict"] in ("less", "more")
+        style.draw_mark(axes, ratio, row, mark, color, not is_significant, markersize=3.4 * style.scale(), markeredgewidth=0.8)
+
+
+def _is_near(ratio):
+    return 1 / FARTHEST <= ratio.value <= FARTHEST
+
+
+def _limit(axes, results, rows):
+    """One scale for all panels. An interval of few seeds may reach far beyond all ratios: it is cut."""
+    measured = [results.measured(e, ("ratio", "low_holm", "high_holm")) for e in rows]
+    measured = [m for m in measured if m is not None and _is_near(m)]
+    ratios = [1.0] + [m.value for m in measured]
+    low, high = min(ratios) / CUT, max(ratios) * CUT
+    ends = [max(m.low, low) for m in measured if m.low is not None] + [
+        min(m.high, high) for m in measured if m.high is not None
+    ]
+    low, high = min(ratios + ends) / 1.05, max(ratios + ends) * 1.05
+    axes.set_xlim(low, high)
+    style.log_axis(axes.xaxis)

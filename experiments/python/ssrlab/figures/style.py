@@ -1,0 +1,274 @@
+"""The look that all figures share, and how they are saved."""
+
+import hashlib
+import io
+import re
+import textwrap
+
+import matplotlib
+import matplotlib.pyplot as plt
+from matplotlib.colors import to_rgb
+from matplotlib.textpath import TextPath
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+import numpy as np
+
+from ssrlab.figures.texts import wrapped
+from ssrlab.text_files import path_inside, whole_file
+
+CENTIMETRE = 1 / 2.54
+WIDTHS = {"column": 8.5, "page": 17.6, "slide": 25.0}  # cm
+SINGLE_COLUMN = WIDTHS["column"] * CENTIMETRE
+DOUBLE_COLUMN = WIDTHS["page"] * CENTIMETRE
+TEXT = 7  # pt, but for slides and for serifs, whose small letters are smaller
+SLIDE_TEXT, SERIF_SCALE = 12, 8 / 7
+# Both come with Debian's matplotlib, as TrueType; STIX goes with Times.
+FONTS = {"sans": ["DejaVu Sans"], "serif": ["STIXGeneral", "DejaVu Serif"]}
+MATHS = {"sans": "dejavusans", "serif": "stix"}
+FORMATS = ("pdf", "svg", "png")
+
+# Okabe & Ito 2008, "Color Universal Design": distinct with all kinds of colour vision; every series has a mark of its own too.
+COLORS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#666666"]
+MARKS = ["o", "s", "^", "D", "v", "P", "X"]
+NOT_POSITIVE_NOTE = "errors not above 0 after noise\ncorrection are not shown"
+ONE_SEED_NOTE = "hollow: one seed, no interval"
+
+
+def apply(font="sans", width=None):
+    """The look from here on; `width` (cm): that of the figure, since a slide has larger letters and thicker lines."""
+    is_slide = width is not None and width >= WIDTHS["slide"]
+    size = (SLIDE_TEXT if is_slide else TEXT) * (SERIF_SCALE if font == "serif" else 1)
+    scale = size / TEXT
+    matplotlib.rcdefaults()
+    matplotlib.rcParams.update(
+        {
+            "font.family": FONTS[font],
+            "mathtext.fontset": MATHS[font],
+            "text.parse_math": False,  # names from files are no formulas
+            "font.size": size,
+            "axes.titlesize": size,
+            "axes.labelsize": size,
+            "xtick.labelsize": size,
+            "ytick.labelsize": size,
+            "legend.fontsize": size,
+            "figure.titlesize": size,
+            "figure.labelsize": size,
+            "axes.linewidth": 0.6 * scale,
+            "axes.spines.top": False,
+            "axes.spines.right": False,
+            "axes.grid": True,
+            "grid.color": "#dddddd",
+            "grid.linewidth": 0.5 * scale,
+            "axes.axisbelow": True,
+            "hatch.linewidth": 0.6 * scale,
+            "lines.linewidth": 0.9 * scale,
+            "lines.markersize": 4 * scale,
+            "errorbar.capsize": 1.8 * scale,
+            "legend.frameon": False,
+            "figure.dpi": 100,
+            "savefig.dpi": 300,
+            "pdf.fonttype": 42,  # TrueType, embedded: publishers refuse matplotlib's own Type 3
+            "svg.fonttype": "path",  # looks the same where the font is not installed
+            "svg.hashsalt": "ssrlab",
+        }
+    )
+
+
+def text_size():
+    return matplotlib.rcParams["font.size"]
+
+
+def scale():
+    """By how much lines, marks and letters are larger than on a page."""
+    return text_size() / TEXT
+
+
+def letters(centimetres):
+    """How many letters of the text fit into a width, about."""
+    width = 0.018 if matplotlib.rcParams["font.family"][0] == FONTS["serif"][0] else 0.0215  # cm for each pt of their size
+    return max(int(centimetres / (width * text_size())), 8)
+
+
+def series(index, color=None):
+    """Colour and mark of the index-th series; beyond the colours, other marks. `color`: in place of its own."""
+    return color or COLORS[index % len(COLORS)], MARKS[(index + index // len(COLORS)) % len(MARKS)]
+
+
+def draw_mark(axes, x, y, mark, color, is_hollow=False, **options):
+    """`x`, `y`: Measured, drawn with their whiskers, or numbers."""
+    places = [[getattr(v, "value", v)] for v in (x, y)]
+    bars = {name: v.whiskers() for name, v in (("xerr", x), ("yerr", y)) if hasattr(v, "whiskers")}
+    axes.errorbar(*places, **bars, fmt=mark, color=color, markerfacecolor="white" if is_hollow else color, **options)
+
+
+def darker(color):
+    """Of a mark's colour one that letters can be read in, on white."""
+    return tuple(0.55 * part for part in to_rgb(color))
+
+
+MOST_NAMES = 8  # that a legend in a column has room for
+
+
+def width_of(chosen, count, names=()):
+    """cm: as asked for, else of a column for one panel and of a page for several, or for a legend of many names."""
+    return getattr(chosen, "width", None) or WIDTHS["column" if count == 1 and len(names) <= MOST_NAMES else "page"]
+
+
+def panels(count, chosen=None, most_columns=3, height=4.6, names=(), **shared):
+    """A figure with `count` axes in rows (height of a row in cm). `chosen`: its width and the height of a row, where they
+    are asked for. `names`: of its legend. `shared`: sharex, sharey, as in pyplot.subplots."""
+    width = width_of(chosen, count, names)
+    most = min(count, most_columns, max(int(width / 5.0), 1))
+    rows = -(-count // most)
+    columns = -(-count // rows)
+    height = getattr(chosen, "height", None) or height * scale()
+    size = (width * CENTIMETRE, height * rows * CENTIMETRE)
+    figure, axes = plt.subplots(rows, columns, figsize=size, layout="constrained", squeeze=False, **shared)
+    for unused in axes.flat[count:]:
+        unused.axis("off")
+    return figure, list(axes.flat[:count])
+
+
+def draw_legend(figure, panels, names=()):
+    """One legend above all panels, without repetitions, in the order of `names` (others last). The figure grows by it."""
+    by_label = {text: handle for a in panels for handle, text in zip(*a.get_legend_handles_labels())}
+    texts = [text for text in dict.fromkeys(names) if text in by_label] + [text for text in by_label if text not in names]
+    if not texts:
+        return
+    longest = letters(figure.get_figwidth() / CENTIMETRE) - 6
+    for columns in range(min(len(texts), 6), 0, -1):
+        legend = figure.legend(
+            [by_label[t] for t in texts],
+            [wrapped(t, longest) for t in texts],
+            loc="upper center",
+            ncols=columns,
+            borderaxespad=0.2,
+            columnspacing=1.4,
+            handletextpad=0.5,
+        )
+        box = legend.get_window_extent(figure.canvas.get_renderer())
+        if box.width <= figure.bbox.width or columns == 1:
+            break
+        legend.remove()
+    figure.set_figheight(max(figure.get_figheight(), 1.5 * box.height / figure.dpi))  # a legend is smaller than its plot
+    _grow(figure, above=box.height / figure.dpi)
+
+
+def _grow(figure, above=0.0, below=0.0):
+    """More room (inches) above or below the panels, whose own size stays."""
+    height = figure.get_figheight()
+    top = height * (1 - figure.get_layout_engine().get()["rect"][3]) + above
+    figure.set_figheight(height + above + below)
+    figure.set_layout_engine("constrained", rect=(0, 0, 1, 1 - top / (height + above + below)))
+
+
+def note(figure, text):
+    """Sentences below all panels, in place of what stands there already: in lines that break between words, within one only if it
+    is longer than a line. The figure grows by its lines."""
+    before = figure._supxlabel.get_text() if figure._supxlabel else ""
+    longest = letters(figure.get_figwidth() / CENTIMETRE)
+    lines = [part for line in text.split("\n") for part in textwrap.wrap(line, longest, break_long_words=False, break_on_hyphens=False)]
+    shown = "\n".join(wrapped(line, longest) for line in lines)
+    lines = (shown.count("\n") + 1 if shown else 0) - (before.count("\n") + 1 if before else 0)
+    figure.supxlabel(shown, linespacing=1.15)
+    _grow(figure, below=lines * 1.2 * text_size() / 72)
+
+
+def listed(entries, centimetres):
+    """Entries in lines that fit into a width, none broken."""
+    lines = [""]
+    for entry in entries:
+        added = f"{lines[-1]}; {entry}" if lines[-1] else entry
+        if lines[-1] and len(added) > letters(centimetres):
+            lines.append(entry)
+        else:
+            lines[-1] = added
+    return "\n".join(lines)
+
+
+def text_width(text):
+    """cm of a line of text."""
+    return TextPath((0, 0), text, size=text_size()).get_extents().width / 72 * 2.54 if text.strip() else 0.0
+
+
+def panel_title(text, axes):
+    """In lines as long as the panel's share of its figure."""
+    columns = axes.get_subplotspec().get_gridspec().ncols
+    return wrapped(text, letters(0.8 * axes.figure.get_figwidth() / CENTIMETRE / columns))
+
+
+def panel_width(axes):
+    """cm of a panel between its axis' ends, about."""
+    return 0.75 * axes.figure.get_figwidth() / CENTIMETRE / axes.get_subplotspec().get_gridspec().ncols
+
+
+def with_room(texts, places):
+    """Labels of ticks at `places` (cm), "" in place of those that would lie on another: the ends come first."""
+    kept, widths = [], [text_width(text) for text in texts]
+    for i in dict.fromkeys([0, len(texts) - 1, *range(len(texts))]):
+        if all(abs(places[i] - places[j]) >= (widths[i] + widths[j]) / 2 + 0.15 for j in kept):
+            kept.append(i)
+    return [text if i in kept else "" for i, text in enumerate(texts)]
+
+
+class _LogTicks(LogLocator):
+    """As many ticks as have room: the fewer of a decade, the more decades the axis has."""
+
+    def tick_values(self, vmin, vmax):
+        decades = abs(np.log10(vmax / vmin)) if vmin > 0 else 9
+        room = self.axis.axes.get_window_extent().size[int(self.axis.axis_name == "y")] / self.axis.figure.dpi * 72
+        ticks = room / (text_size() * (2.2 if self.axis.axis_name == "y" else 3.6))
+        choices = ((1, 1.5, 2, 3, 5, 7), (1, 2, 5), (1, 3))
+        self.set_params(subs=next((subs for subs in choices if len(subs) * decades <= ticks), (1,)), numticks=max(int(ticks), 2))
+        return super().tick_values(vmin, vmax)
+
+
+def log_axis(axis, text=None):
+    """`text`: how a tick's number is written; default: number()."""
+    axis.set_major_locator(_LogTicks())
+    axis.set_major_formatter(FuncFormatter(lambda x, _: (text or number)(x)))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def log_log(axes, title, xlabel, margin, x_text=None):
+    """A panel with two logarithmic axes."""
+    axes.set(xscale="log", yscale="log", xlabel=xlabel)
+    log_axis(axes.xaxis, x_text)
+    log_axis(axes.yaxis)
+    axes.set_title(panel_title(title, axes))
+    axes.margins(margin)
+
+
+def number(x):
+    if 0 < abs(x) < 1e-3:
+        mantissa, exponent = f"{x:.2e}".split("e")
+        return f"{float(mantissa):g}e{int(exponent)}"
+    return f"{x:.3g}".replace("e+0", "e")
+
+
+def file_name(text, longest=150):
+    """Letters, digits, '.', '_' and '-' stay, the rest becomes '-'; a long name is cut and ends in a hash of all of it."""
+    name = re.sub(r"[^A-Za-z0-9._-]", "-", text)
+    if len(name) <= longest:
+        return name
+    digest = hashlib.sha256(text.encode()).hexdigest()[:12]
+    return f"{name[: longest - 13]}-{digest}"
+
+
+def save(figure, folder, name, formats=FORMATS):
+    """Writes name.pdf, .svg and .png."""
+    name = file_name(name)
+    metadata = {
+        "pdf": {"CreationDate": None, "ModDate": None, "Producer": None, "Creator": "ssrlab"},
+        "svg": {"Date": None, "Creator": "ssrlab"},
+        "png": {"Software": None},
+    }
+    files = []
+    for kind in formats:
+        file = path_inside(folder, f"{name}.{kind}")
+        drawn = io.BytesIO()  # matplotlib explains no full disk
+        figure.savefig(drawn, format=kind, metadata=metadata[kind])
+        with whole_file(file) as temporary, open(temporary, "wb") as stream:
+            stream.write(drawn.getvalue())
+        files.append(file)
+    plt.close(figure)
+    return files

@@ -1,0 +1,145 @@
+"""Pictures of a few numbers from summaries: marks with intervals in rows, bars of shares that add up, or lines."""
+
+import hashlib
+import json
+from dataclasses import dataclass, field
+
+import matplotlib.pyplot as plt
+
+from ssrlab.figures import style
+from ssrlab.tables.cell import Cell
+
+GREY = "#666666"
+
+
+@dataclass
+class Mark:
+    series: str  # its name in the legend; "": not in it
+    color: str
+    mark: str
+    cell: Cell
+    is_hollow: bool = False
+
+
+@dataclass
+class Panel:
+    title: str
+    rows: list  # (label, [Mark]) from above
+    line: float = None  # a value that the others are compared with
+
+
+@dataclass
+class Picture:
+    panels: list
+    xlabel: str
+    is_log: bool = True
+    has_range: bool = False  # thin lines: the range over shots
+    columns: int = 3
+    kind: str = "dots"  # "bars": shares that add up; "lines": over the numbers that are its rows' labels
+    note: str = ""
+    extra: dict = field(default_factory=dict)  # axis limits
+
+
+def shown_numbers(picture):
+    """The hash of all that a picture shows, whatever draws it."""
+    told = [[p.title, p.line, [[label, [[m.series, m.color, m.mark, m.cell.value, m.cell.low, m.cell.high, m.cell.least, m.cell.most] for m in marks]] for label, marks in p.rows]] for p in picture.panels]
+    return hashlib.sha256(json.dumps([told, picture.xlabel, picture.note, picture.kind]).encode()).hexdigest()
+
+
+def number(x):
+    """Of a tick."""
+    return f"{x:,.0f}".replace(",", "\N{THIN SPACE}") if x >= 1000 else style.number(x)
+
+
+def places_of(panel):
+    """(y, Mark) of all marks, those of a row below each other."""
+    most = max(len(marks) for _, marks in panel.rows)
+    step = 0.0 if most <= 2 else 0.62 / (most - 1)
+    return [(row + (i - (len(marks) - 1) / 2) * step, mark) for row, (_, marks) in enumerate(panel.rows) for i, mark in enumerate(marks)]
+
+
+def draw_dots(axes, panel, picture, has_labels):
+    places = places_of(panel)
+    for look_of in dict.fromkeys((m.series, m.color, m.mark, m.is_hollow) for _, m in places):
+        same = [(y, m.cell) for y, m in places if (m.series, m.color, m.mark, m.is_hollow) == look_of]
+        _, color, mark, is_hollow = look_of
+        if picture.has_range:
+            ranges = [(y, c) for y, c in same if c.least is not None]
+            axes.hlines([y for y, _ in ranges], [c.least for _, c in ranges], [c.most for _, c in ranges], color=color, linewidth=0.8, alpha=0.5)
+        known = [(y, c) for y, c in same if c.low is not None]
+        axes.hlines([y for y, _ in known], [c.low for _, c in known], [c.high for _, c in known], color=color, linewidth=1.8)
+        axes.plot([c.value for _, c in same], [y for y, _ in same], mark, color=color, markerfacecolor="white" if is_hollow else color)
+    if panel.line is not None:
+        axes.axvline(panel.line, color=GREY, linestyle="--", linewidth=1)
+    ends = [end for _, m in places for end in (m.cell.value, m.cell.low, m.cell.high) if end is not None]
+    if picture.is_log and max(ends) > 1.5 * min(ends) > 0:  # on a log axis there is room for few ticks
+        axes.set_xscale("log")
+        style.log_axis(axes.xaxis, number)
+    else:
+        axes.locator_params(axis="x", nbins=6)
+    axes.set_yticks(range(len(panel.rows)), [label for label, _ in panel.rows] if has_labels else [])
+    axes.set_ylim(len(panel.rows) - 0.4, -0.6)  # with room for whole marks
+    axes.grid(axis="y", visible=len(places) > 2 * len(panel.rows))
+
+
+def draw_legend(figure, picture, panels):
+    """What several techniques share is grey in it."""
+    colors = {}
+    for panel in picture.panels:
+        for _, marks in panel.rows:
+            for m in marks:
+                colors.setdefault((m.series, m.mark, m.is_hollow), set()).add(m.color)
+    for (series, mark, is_hollow), found in colors.items():
+        if series and picture.kind == "dots":
+            color = found.pop() if len(found) == 1 else GREY
+            panels[0].plot([], [], mark, color=color, markerfacecolor="white" if is_hollow else color, label=series)
+    style.draw_legend(figure, panels)
+
+
+def draw_bars(axes, panel, picture, has_labels):
+    for place, (_, marks) in enumerate(panel.rows):
+        left = 0.0
+        for mark in marks:
+            axes.barh(place, mark.cell.value, left=left, color=mark.color, height=0.7, label=mark.series)
+            left += mark.cell.value
+    axes.set_yticks(range(len(panel.rows)), [label for label, _ in panel.rows] if has_labels else [])
+    axes.set_ylim(len(panel.rows) - 0.5, -0.5)
+    axes.grid(axis="y", visible=False)
+
+
+def draw_lines(axes, panel, picture, has_labels):
+    for series in dict.fromkeys(mark.series for _, marks in panel.rows for mark in marks):
+        points = [(float(label), mark) for label, marks in panel.rows for mark in marks if mark.series == series]
+        first = points[0][1]
+        if not first.mark:  # the same at all places
+            axes.axhline(first.cell.value, color=first.color, linestyle="--", label=series)
+            continue
+        known = [(x, m.cell) for x, m in points if m.cell.low is not None]
+        axes.vlines([x for x, _ in known], [c.low for _, c in known], [c.high for _, c in known], color=first.color)
+        axes.plot([x for x, _ in points], [m.cell.value for _, m in points], first.mark, linestyle="-", color=first.color, label=series)
+    axes.set(xscale="log", yscale="log")
+    style.log_axis(axes.xaxis)
+    style.log_axis(axes.yaxis)
+
+
+DRAW = {"dots": draw_dots, "bars": draw_bars, "lines": draw_lines}
+
+
+def draw(picture, width):
+    """Its figure, so many centimetres wide."""
+    rows = max(len(p.rows) for p in picture.panels)
+    most = max(len(marks) for p in picture.panels for _, marks in p.rows)
+    height = 3.6 if picture.kind == "lines" else 1.1 + rows * (0.42 if picture.kind == "bars" or most <= 2 else 0.3 + 0.06 * most)
+    columns = min(picture.columns, len(picture.panels))
+    lines = -(-len(picture.panels) // columns)
+    size = (width * style.CENTIMETRE, height * lines * style.scale() * style.CENTIMETRE)
+    figure, axes = plt.subplots(lines, columns, figsize=size, layout="constrained", squeeze=False)
+    panels = list(axes.flat[: len(picture.panels)])
+    for index, (one, panel) in enumerate(zip(panels, picture.panels)):
+        labels = [label for label, _ in panel.rows]
+        DRAW[picture.kind](one, panel, picture, index % columns == 0 or labels != [label for label, _ in picture.panels[index - 1].rows])
+        one.set_title(panel.title)
+        one.set(**picture.extra)
+    draw_legend(figure, picture, panels)
+    style.note(figure, picture.xlabel + (f"; {picture.note}" if picture.note else ""))
+    return figure

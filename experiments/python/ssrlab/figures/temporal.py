@@ -1,0 +1,57 @@
+"""Temporal metrics, one panel each: flicker at rest, changes that are not the truth's, frames until ghosts are gone."""
+
+from matplotlib.ticker import MaxNLocator
+
+from ssrlab.figures import style
+
+METRICS = {
+    "flicker_relative": "relative flicker",
+    "frame_difference_relative": "relative frame-difference error",
+    "ghost_length": "ghost length (frames)",
+    "settling_length": "settling length (frames)",
+}
+
+
+def draw(results, chosen):
+    rows = [
+        r
+        for r in results.errors
+        if r["metric"] in METRICS and r["mask"] == chosen.mask and (r["variant"], r["point"]) in results.points()
+    ]
+    metrics = [m for m in METRICS if any(r["metric"] == m for r in rows)]
+    if not metrics:
+        return None
+    most = max(len({r["shot"] for r in rows if r["metric"] == m}) for m in metrics)
+    names = [results.point_label(*k) for k in results.points()]
+    figure, panels = style.panels(len(metrics), chosen, most_columns=2, height=2.2 + most * (0.5 + 0.22 * len(names)), names=names)
+    for axes, metric in zip(panels, metrics):
+        _draw_metric(results, axes, [r for r in rows if r["metric"] == metric], metric)
+        axes.set_xlabel(style.panel_title(f"{METRICS[metric]}, {chosen.mask}", axes))
+    style.draw_legend(figure, panels, names)
+    return figure
+
+
+def _draw_metric(results, axes, rows, metric):
+    shots, points = list(dict.fromkeys(r["shot"] for r in rows)), results.points()
+    is_log = "length" not in metric
+    for r in rows:
+        index = points.index((r["variant"], r["point"]))
+        y = shots.index(r["shot"]) + 0.7 * ((index + 0.5) / len(points) - 0.5)
+        value = results.measured(r)
+        color, mark = style.series(index, results.colors.get((r["variant"], r["point"])))
+        if value is None or (is_log and value.value <= 0):
+            text = "not determined" if value is None else "0"
+            axes.text(0.01, y, text, color=color, va="center", transform=axes.get_yaxis_transform())
+            continue
+        edge = 0.8 if value.is_one_seed else 0
+        style.draw_mark(axes, value, y, mark, color, value.is_one_seed, markeredgewidth=edge, label=results.point_label(r["variant"], r["point"]))
+    if is_log:
+        axes.set_xscale("log")
+        style.log_axis(axes.xaxis)
+    axes.margins(x=0.1)
+    if not is_log:
+        axes.set_xlim(left=-0.5, right=max(axes.get_xlim()[1], 1.0))
+        axes.xaxis.set_major_locator(MaxNLocator(6, integer=True))
+    axes.set_yticks(range(len(shots)), [style.wrapped(results.shot_label(s), 22) for s in shots])
+    axes.set_ylim(len(shots) - 0.5, -0.5)
+    axes.grid(axis="y", visible=False)

@@ -1,0 +1,7 @@
+"""Where the repository that holds this package keeps what its studies found."""
+
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[3]
+STUDIES = ROOT / "experiments/studies"
+CONFIGS, SUMMARIES, FINDINGS = STUDIES / "configs", STUDIES / "summaries", STUDIES / "findings"

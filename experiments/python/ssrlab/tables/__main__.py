@@ -1,0 +1,97 @@
+"""Tables of a study's results, as its config asks for them ("tables", experiments/README.md): Markdown, LaTeX and CSV.
+
+usage: python3 experiments/python tables RESULTS [--out DIR] [--keep]
+       python3 experiments/python tables --fill | --check ESTIMATORS
+
+With --keep also the summary that is committed (experiments/studies/summaries), and the documents that show its tables; --fill makes
+the tables of all documents anew, --check says which differ, and which summaries today's estimators did not make."""
+
+import argparse
+import os
+import sys
+
+from ssrlab.mistakes import ResultsError, exit_code, shown
+from ssrlab.repository import ROOT
+from ssrlab.results import Results
+from ssrlab.text_files import path_inside, write_text
+from ssrlab.tables import documents, formats, latex, summary_file
+from ssrlab.tables.cells import Table, cells_of
+from ssrlab.tables.markdown import markdown
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(prog="ssrlab tables", description="Tables (Markdown, LaTeX, CSV) from a results folder.")
+    parser.add_argument("results", nargs="?", help="a folder that `ssrlab run` filled")
+    parser.add_argument("--out", help="default: tables in the results folder")
+    parser.add_argument("--keep", action="store_true", help="also keep their numbers in experiments/studies/summaries, and fill them into documents")
+    parser.add_argument("--fill", action="store_true", help="fill the tables of all documents from what is kept")
+    parser.add_argument("--check", metavar="ESTIMATORS", type=int, help="fail if a document differs from what is kept, or what is kept from what estimators of this version give (`ssrlab tables --check` fills it in)")
+    parser.add_argument("--root", default=str(ROOT), help=argparse.SUPPRESS)  # tests use a tree of their own
+    arguments = parser.parse_args()
+    if sum([arguments.results is not None, arguments.fill, arguments.check is not None]) != 1:
+        parser.error("name one results folder, or --fill, or --check")
+    return arguments
+
+
+def default_folder(results):
+    return path_inside(results, "tables")
+
+
+def remove_others(out, names):
+    """Tables that the config no longer asks for; no other files."""
+    for file in os.listdir(out):
+        name, kind = os.path.splitext(file)
+        if kind in (".md", ".tex", ".csv") and name not in names:
+            os.remove(path_inside(out, file))
+
+
+def make(folder, out, summary_folder):
+    """Writes a study's tables; returns how many. `summary_folder`: where the summary is kept, too; may be None."""
+    results = Results(folder)
+    config = results.manifest["config"] or {}
+    entries = config.get("tables", [])
+    if not entries:
+        raise ResultsError(f"{folder}: its study asks for no tables; add \"tables\" to its config (experiments/README.md)")
+    why_not = summary_file.why_not_kept(results.manifest) if summary_folder else None
+    if why_not:
+        raise ResultsError(f"{folder} cannot be kept: {why_not}")
+    origin = summary_file.origin(results.manifest)
+    tables, every = [], []
+    manifest = os.path.join(folder, "manifest.json")
+    stems = [path_inside(out, entry["name"], f"{manifest}: config: tables: 'name'") for entry in entries]
+    if summary_folder:
+        summary = path_inside(summary_folder, results.manifest["study"]["name"] + ".csv", f"{manifest}: study: 'name'")
+    for entry, stem in zip(entries, stems):
+        table, cells = cells_of(results, Table(entry))
+        made_from = summary_file.made_from(origin, table, cells)
+        write_text(stem + ".md", markdown(table, cells, made_from))
+        write_text(stem + ".tex", latex.latex(table, cells, made_from))
+        write_text(stem + ".csv", formats.comma_separated(cells))
+        tables.append(table)
+        every += cells
+    if out == default_folder(folder):
+        remove_others(out, {table["name"] for table in tables})
+    if summary_folder:
+        summary_file.write(summary, origin, tables, every)
+    return len(entries)
+
+
+def main():
+    arguments = parse_arguments()
+    summaries = os.path.join(arguments.root, "experiments/studies/summaries")
+    if arguments.check is not None:
+        found = documents.mistakes(arguments.root, summaries, arguments.check)
+        for sentence in found:
+            print(f"error: {shown(sentence)}", file=sys.stderr)
+        return 2 if found else 0
+    if arguments.results:
+        out = arguments.out or default_folder(arguments.results)
+        count = make(arguments.results, out, summaries if arguments.keep else None)
+        print(f"{count} tables in {out}")
+    if arguments.fill or arguments.keep:
+        changed = documents.rewrite(arguments.root, summaries)
+        print(f"{len(changed)} documents changed" + "".join(f"\n{file}" for file in changed))
+
+
+if __name__ == "__main__":
+    sys.exit(exit_code(main, "the tables"))

@@ -1,0 +1,241 @@
+"""Tables within Markdown files: between `<!-- table STUDY NAME -->` and `<!-- end of table -->`, made from the committed
+summary of the study. `<!-- table STUDY NAME {"rows": [...], "columns": [...], "caption": "..."} -->` shows an excerpt: the
+named rows and columns in that order (all, where a key is left out).
+
+Numbers and names in prose are made in the same way: `<!--= EXPRESSION -->0.18<!--/-->`, with cell(), cells(), shown(), most(), first(), shots(),
+rank_correlation(), halving(), halving_share(), share_of_variance(), over_scenes() and p_holm() of kept tables (Numbers), ratios() and number(value) of three digits, fixed(value, places), span(values, places), min, max, sum, len, zip and abs."""
+
+import functools
+import math
+import os
+import re
+
+from ssrlab import statistics
+from ssrlab.json_files import parse_json
+from ssrlab.mistakes import ResultsError
+from ssrlab.text_files import path_inside, read_text
+from ssrlab.tables import summary_file
+from ssrlab.tables.agreement import kendall_tau
+from ssrlab.tables.halving import halving_share
+from ssrlab.tables.variance_shares import share_of_total
+from ssrlab.tables.markdown import markdown, number, with_interval
+
+BLOCK = re.compile(r"(?P<head><!-- table (?P<study>\S+) (?P<name>\S+)(?: (?P<excerpt>\{[^\n]*\}))? -->\n)(?P<text>.*?)(?P<end><!-- end of table -->)", re.DOTALL)
+
+
+NUMBER = re.compile(r"(?P<head><!--= (?P<expression>[^\n]+?) -->)(?P<text>[^\n]*?)(?P<end><!--/-->)")
+
+
+class Numbers:
+    """What an expression in prose may name; tables by the name of their study's summary and their own."""
+
+    def __init__(self, summaries, file):
+        self.file = file
+        self._read = functools.cache(lambda study: summary_file.read(path_inside(summaries, study + ".csv")))
+
+    def _table(self, study, table):
+        """(what is said of it, its cells that have a value)"""
+        _, tables = self._read(study)
+        if table not in tables:
+            raise ResultsError(f"{self.file}: {study} has no table '{table}'; it has: {', '.join(tables)}")
+        about, cells = tables[table]
+        return about, [c for c in cells if c.value is not None]
+
+    def _found(self, study, table, rows, columns):
+        """Cells of the rows and of the columns that are called so, or else whose names hold all of these whole words (None: all)."""
+        _, found = self._table(study, table)
+        for of, words in (("row", rows), ("column", columns)):
+            words = [words] if isinstance(words, str) else words or []
+            named = [c for c in found if [getattr(c, of)] == words]
+            holds = lambda name: all(re.search(rf"(?<!\w){re.escape(w)}(?!\w)", name) for w in words)  # noqa: B023, E731
+            found = named or [c for c in found if holds(getattr(c, of))]
+        return found
+
+    def _one(self, study, table, row, column):
+        found = self._found(study, table, row, column)
+        if len(found) != 1:
+            raise ResultsError(f"{self.file}: {len(found)} cells of {study} {table} are of '{row}' and '{column}'; one was meant")
+        return found[0]
+
+    def cells(self, study, table, rows=None, columns=None, with_interval=False):
+        """The values of a kept table, of those that have one (and, if asked, an interval)."""
+        return [c.value for c in self._found(study, table, rows, columns) if c.low is not None or not with_interval]
+
+    def cell(self, study, table, row, column):
+        """The one value of a row and a column."""
+        return self._one(study, table, row, column).value
+
+    def shown(self, study, table, row, column):
+        """The same with its interval, as text."""
+        return with_interval(self._one(study, table, row, column))
+
+    def ratios(self, study, table, row, base):
+        """One row over another, in each column where both have a value."""
+        of = {c.column: c.value for c in self._found(study, table, base, None)}
+        return [c.value / of[c.column] for c in self._found(study, table, row, None) if c.column in of]
+
+    def most(self, study, table, row, column):
+        """The largest of the shots that a mean is over."""
+        return self._one(study, table, row, column).most
+
+    def first(self, study, table, row=None, column=None, without=()):
+        """The name of the least value: of the columns in a row, or of the rows in a column. `without`: names that do not compete."""
+        of = "column" if row else "row"
+        found = [c for c in self._found(study, table, row, column) if getattr(c, of) not in without]
+        if not found or len({getattr(c, of) for c in found}) < len(found):
+            raise ResultsError(f"{self.file}: '{row or column}' is not one line of {study} {table}")
+        return getattr(min(found, key=lambda c: c.value), of)
+
+    def rank_correlation(self, first, second):
+        """Kendall's of two columns, each (study, table, column), over the rows that both have."""
+        columns = [{c.row: c.value for c in self._found(study, table, None, column)} for study, table, column in (first, second)]
+        rows = [row for row in columns[0] if row in columns[1]]
+        return kendall_tau(*([column[row] for row in rows] for column in columns))
+
+    def shots(self, study, table):
+        return self._table(study, table)[0]["shots"]
+
+    def ratio_over_scenes(self, study, table, column, base, as_in=None, without=()):
+        """(mean, low, high) of one column over another, of a table whose rows are shots, over scenes like these (geometric; scenes of one
+        asset averaged first). `as_in`: of the shots of this table of the study alone; `without`: assets that are left out."""
+        about, cells = self._table(study, table)
+        values = {(c.row, c.column): c.value for c in cells if c.value}
+        rows = self.shots(study, as_in) if as_in else dict.fromkeys(c.row for c in cells)  # shots, by their display names
+        unknown = sorted(set(without) - set(about["assets"].values()))
+        if unknown:
+            raise ResultsError(f"{self.file}: no shot of {study} {table} is of '{unknown[0]}'")
+        shots = [s for s in rows if (s, column) in values and (s, base) in values and about["assets"][s] not in without]
+        if not shots:
+            raise ResultsError(f"{self.file}: no shot of {study} {table} has both '{column}' and '{base}'")
+        return statistics.geometric_mean_over_scenes([(about["assets"][s], math.log(values[s, column] / values[s, base])) for s in shots])[:3]
+
+    def over_scenes(self, *chosen, **options):
+        """The same as text: "mean [low, high]"."""
+        mean, low, high = (v and f"{v:#.3g}".rstrip(".") for v in self.ratio_over_scenes(*chosen, **options))
+        return mean if low is None else f"{mean} [{low}, {high}]"
+
+    def p_holm(self, study, table, row, column):
+        """The p of "no effect" of a row, adjusted (Holm) for all rows that have an interval: of a table whose rows are effects, whose columns
+        hold Student's intervals of ratios over the table's shots, each of a scene of its own (n - 2 degrees of freedom)."""
+        about, cells = self._table(study, table)
+        family = [c for c in cells if c.column == column and c.low]
+        rows = [c.row for c in family]
+        if rows.count(row) != 1:
+            raise ResultsError(f"{self.file}: {study} {table} has no interval of '{row}' and '{column}'")
+        effects = [(math.log(c.value), (math.log(c.high) - math.log(c.low)) / 2) for c in family]
+        return statistics.p_holm(effects, len(about["shots"]) - 2)[rows.index(row)]
+
+    def halving_share(self, study, table, march, exact, answered):
+        """(share, low, high) in percent of exact rays that goes half of the way to the error of exact rays alone. Of a table of errors
+        whose rows are shots; columns: those without and with exact rays alone, and those with a share, whose names are `answered`
+        followed by it."""
+        about, cells = self._table(study, table)
+        values = {(c.row, c.column): c.value for c in cells}
+        points = {0.0: march, 1.0: exact} | {float(c.column.removeprefix(answered)): c.column for c in cells if c.column.startswith(answered)}
+        if len(points) < 4:
+            raise ResultsError(f"{self.file}: {study} {table} has {len(points) - 2} columns that begin with '{answered}'")
+        curves = [(about["assets"][s], {k: values[s, point] for k, point in points.items()}) for s in dict.fromkeys(c.row for c in cells)]
+        return tuple(v if v is None else 100 * v for v in halving_share(curves))
+
+    def halving(self, *chosen):
+        """The same as text: "share [low, high]"."""
+        share, *ends = (v if v is None else "0" if v == 0 else f"{v:.1f}" if v < 10 else f"{v:.0f}" for v in self.halving_share(*chosen))
+        return share if None in ends else f"{share} [{', '.join(ends)}]"
+
+    def share_of_variance(self, study, table, part):
+        """"share [low, high]" in percent of the variance of ln error that a part has, over scenes. Of a table of `variance` whose rows are
+        shots and whose columns are parts."""
+        about, cells = self._table(study, table)
+        shots = list(dict.fromkeys(c.row for c in cells))
+        values = {(c.row, c.column): c.value for c in cells}
+        columns = list(dict.fromkeys(c.column for c in cells))
+        totals = [(about["assets"][shot], sum(values[shot, column] for column in columns)) for shot in shots]
+        share, *ends = (v if v is None else f"{100 * v:.0f}" for v in share_of_total([(about["assets"][shot], values[shot, part]) for shot in shots], totals))
+        return share if None in ends else f"{share} [{', '.join(ends)}]"
+
+    def text(self, expression):
+        names = {"cell": self.cell, "cells": self.cells, "shown": self.shown, "most": self.most, "first": self.first, "shots": self.shots, "rank_correlation": self.rank_correlation, "halving": self.halving, "halving_share": self.halving_share, "over_scenes": self.over_scenes, "p_holm": self.p_holm, "share_of_variance": self.share_of_variance}
+        names |= {"ratios": self.ratios, "number": number, "fixed": lambda value, places: f"{value:.{places}f}"}
+        names["span"] = lambda values, places=2: f"{min(values):.{places}f} to {max(values):.{places}f}"
+        names |= {"min": min, "max": max, "sum": sum, "len": len, "zip": zip, "abs": abs}
+        try:
+            return str(eval(expression, {"__builtins__": {}} | names))  # of our own documents
+        except (SyntaxError, NameError, KeyError, TypeError, ValueError, ZeroDivisionError) as e:
+            raise ResultsError(f"{self.file}: `{expression}` makes no number: {e}") from e
+
+
+def markdown_files(root):
+    """All of the source tree but what builds and hidden folders hold."""
+    for folder, folders, names in os.walk(root):
+        folders[:] = sorted(f for f in folders if not f.startswith(".") and not f.startswith("build") and f != "results")
+        yield from (os.path.join(folder, name) for name in sorted(names) if name.endswith(".md"))
+
+
+def _excerpt(table, cells, text, where):
+    wanted = parse_json(text, where, {"rows?": [str], "columns?": [str], "caption?": str})
+    unknown = sorted(set(wanted) - {"rows", "columns", "caption"})
+    if unknown:
+        raise ResultsError(f"{where}: unknown key '{unknown[0]}' of an excerpt; known are rows, columns, caption")
+    for key, of in (("rows", "row"), ("columns", "column")):
+        names = wanted.get(key)
+        if names is None:
+            continue
+        found = {getattr(c, of) for c in cells}
+        missing = [n for n in names if n not in found]
+        if missing:
+            raise ResultsError(f"{where}: it has no {of} '{missing[0]}'; it has: {', '.join(sorted(found))}")
+        cells = sorted((c for c in cells if getattr(c, of) in names), key=lambda c: names.index(getattr(c, of)))
+    return table | {"caption": wanted.get("caption", table["caption"])}, cells
+
+
+def filled(text, summaries, file):
+    """The text with each table, and each number in prose, made anew. Fails on one that no summary holds."""
+
+    def made(block):
+        path = path_inside(summaries, block["study"] + ".csv", file)
+        origin, tables = summary_file.read(path)
+        if block["name"] not in tables:
+            raise ResultsError(f"{file}: {path} has no table '{block['name']}'; it has: {', '.join(tables)}")
+        table, cells = tables[block["name"]]
+        if block["excerpt"]:
+            table, cells = _excerpt(table, cells, block["excerpt"], f"{file}: table {block['name']}")
+        return block["head"] + markdown(table, cells, summary_file.made_from(origin, table, cells)) + block["end"]
+
+    numbers = Numbers(summaries, file)
+    return NUMBER.sub(lambda n: n["head"] + numbers.text(n["expression"]) + n["end"], BLOCK.sub(made, text))
+
+
+def rewrite(root, summaries):
+    """Fills the tables of all documents; returns the files that changed."""
+    changed = []
+    for file in markdown_files(root):
+        text = read_text(file)
+        new = filled(text, summaries, file)
+        if new != text:
+            with open(file, "w", encoding="utf-8") as stream:
+                stream.write(new)
+            changed.append(file)
+    return changed
+
+
+def mistakes(root, summaries, estimators):
+    """Sentences: documents that differ from the summaries, summaries whose numbers today's estimators would not give, and
+    summaries that no document shows."""
+    found, shown = [], set()
+    for file in markdown_files(root):
+        text = read_text(file)
+        shown.update(block["study"] for block in BLOCK.finditer(text))
+        if filled(text, summaries, file) != text:
+            found.append(f"{file}: its tables or numbers differ from {summaries}; `ssrlab tables --fill` makes them anew")
+    for name in sorted(os.listdir(summaries)) if os.path.isdir(summaries) else []:
+        if not name.endswith(".csv"):
+            continue
+        origin, _ = summary_file.read(os.path.join(summaries, name))
+        if origin.get("estimators") != estimators:
+            found.append(
+                f"{summaries}/{name}: made with estimators {origin.get('estimators')}, but today's are {estimators}; run the study "
+                "again, then `ssrlab tables --keep`"
+            )
+        if name[: -len(".csv")] not in shown:
+            found.append(f"{summaries}/{name}: no document shows any of its tables; delete it, or show them")
+    return found
