@@ -54,12 +54,11 @@ Source read_source(const std::filesystem::path& file, const CompareOptions& opti
     return source;
 }
 
-/// What each comparison should show; MS-SSIM and HDR-FLIP only where the image allows them.
+/// What each comparison should show; SSIM and HDR-FLIP only where the image allows them.
 std::vector<std::string> default_metrics(glm::uvec2 extent, bool has_flip_exposures) {
     std::vector<std::string> names = {"mse",   "relmse", "relmse_trimmed", "outliers", "mae",
                                       "smape", "bias",   "energy_ratio",   "psnr"};
     if (std::min(extent.x, extent.y) >= 11) names.push_back("ssim");
-    if (std::min(extent.x, extent.y) >= 176) names.push_back("ms_ssim");
     names.push_back("flip");
     if (has_flip_exposures) names.push_back("hdr_flip");
     return names;

@@ -8,6 +8,7 @@
 #include "metrics/ssim.h"
 
 #include <algorithm>
+#include <map>
 
 namespace {
 
@@ -56,8 +57,17 @@ std::vector<std::string> metric_names() {
     return names;
 }
 
+/// Metrics that configs may name and that are gone, with what tells the same.
+static const std::map<std::string, std::string>& replaced_metrics() {
+    static const std::map<std::string, std::string> all = {
+        {"relmse_b", "relmse"}, {"relmse_c", "relmse"}, {"ssim_sample", "ssim"}, {"ms_ssim", "ssim"}};
+    return all;
+}
+
 const Metric& metric_named(const std::string& name) {
     const auto found = std::ranges::find(all_metrics(), name, &Metric::name);
+    if (const auto instead = replaced_metrics().find(name); instead != replaced_metrics().end())
+        fail("there is no metric '", name, "'; use ", instead->second);
     if (found == all_metrics().end()) fail("no metric named '", name, "'", suggestion(name, metric_names()));
     return *found;
 }

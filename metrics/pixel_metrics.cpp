@@ -28,8 +28,6 @@ double square(double v) { return v * v; }
 
 double one(double) { return 1; }
 double weight_a(double r) { return 1 / (r * r + 0.01); }
-double weight_b(double r) { return 1 / square(r + 0.01); }
-double weight_c(double r) { return 1 / (r * r + 0.001); }
 
 template <double (*weight)(double)>
 std::vector<Plane> weighted_squares(const ImagePair& pair) {
@@ -138,12 +136,6 @@ std::vector<Metric> pixel_metrics() {
          "mean d^2 / (r^2 + 0.01) (Rousselle et al. 2011; tev, SimpleImageIO); relmse_a_guided: with the guide of a "
          "path-traced reference in the denominator",
          weighted_squares<weight_a>, pooled_mean, weight_a, "relmse_a_guided"},
-        {"relmse_b", "relmse_b", "1", lower, linear,
-         "mean d^2 / (r + 0.01)^2; to compare with other programs only (MRSE of pbrt-v4's imgtool)",
-         weighted_squares<weight_b>, pooled_mean, weight_b, "relmse_b_guided"},
-        {"relmse_c", "relmse_c", "1", lower, linear,
-         "mean d^2 / (r^2 + 0.001); to compare with other programs only (Tungsten and Falcor, who call it rmse)",
-         weighted_squares<weight_c>, pooled_mean, weight_c, "relmse_c_guided"},
         {"relmse_trimmed",
          "relmse_a_trimmed_0.1%",
          "1",

@@ -1,5 +1,5 @@
 #pragma once
 #include "metrics/metric.h"
 
-/// Structural similarity, as rows of the table: ssim, ssim_sample, ms_ssim.
+/// Structural similarity, as rows of the table: ssim.
 std::vector<Metric> ssim_metrics();

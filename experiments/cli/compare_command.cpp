@@ -47,8 +47,8 @@ void add_compare(Commands& line) {
     command
         .add_option("--metric", compare.metrics,
                     "May be repeated; see: ssrlab list metrics; default: mse, relmse, relmse_trimmed, outliers, mae, "
-                    "smape, bias, energy_ratio, psnr, flip, where the image is large enough ssim and "
-                    "ms_ssim, and hdr_flip of an EXR reference")
+                    "smape, bias, energy_ratio, psnr, flip, where the image is large enough ssim, "
+                    "and hdr_flip of an EXR reference")
         ->type_name("NAME");
     command
         .add_option(

@@ -40,8 +40,6 @@ TEST(Metric, FourPixelsByHand) {
     EXPECT_NEAR(value("mse", pair), (1 + 1 + 0.25 + 0) / 4, rounding);
     EXPECT_NEAR(value("mae", pair), 2.5 / 4, rounding);
     EXPECT_NEAR(value("relmse", pair), (1 / 1.01 + 1 / 4.01 + 0.25 / 0.01) / 4, rounding);
-    EXPECT_NEAR(value("relmse_b", pair), (1 / (1.01 * 1.01) + 1 / (2.01 * 2.01) + 0.25 / 0.0001) / 4, 1e-9);
-    EXPECT_NEAR(value("relmse_c", pair), (1 / 1.001 + 1 / 4.001 + 0.25 / 0.001) / 4, 1e-10);
     EXPECT_NEAR(value("smape", pair), (1.0 / 3 + 1.0 / 3 + 1 + 0) / 4, rounding);
     EXPECT_NEAR(value("bias", pair), 0.5 / 4, rounding);
     EXPECT_NEAR(value("energy_ratio", pair), 7.5 / 7, rounding);
@@ -72,7 +70,7 @@ TEST(Metric, EqualImagesAreTheBestOfAll) {
 TEST(Metric, SymmetricOnesDoNotCareWhichIsTheReference) {
     const HostImage a = noise({180, 177}, 3, 1), b = noise({180, 177}, 4, 1);
     const ImagePair ab = image_pair(a, b, {}), ba = image_pair(b, a, {});
-    for (const char* name : {"mse", "mae", "smape", "psnr", "ssim", "ssim_sample", "ms_ssim", "flip"})
+    for (const char* name : {"mse", "mae", "smape", "psnr", "ssim", "flip"})
         EXPECT_EQ(value(name, ab), value(name, ba)) << name;
     EXPECT_EQ(value("bias", ab), -value("bias", ba));
 }
@@ -97,9 +95,6 @@ TEST(Metric, MasksSplitWindowedMapsIntoMeans) {
     // Both halves have as many windows, 85 columns of them for SSIM.
     for (const char* name : {"flip", "ssim"})
         EXPECT_NEAR(value(name, pair), (value(name, pair, &left) + value(name, pair, &right)) / 2, rounding) << name;
-    const Mask everything = full_mask({180, 176});
-    EXPECT_EQ(value("ms_ssim", pair), value("ms_ssim", pair, &everything));
-    EXPECT_NE(value("ms_ssim", pair), value("ms_ssim", pair, &left));
 }
 
 TEST(Metric, NonFinitePixelsAreCountedAndLeftOut) {
@@ -166,6 +161,6 @@ TEST(Metric, NamesAreUniqueAndMistakesAreNamed) {
     const ImagePair small = image_pair(noise({100, 10}, 1, 1), noise({100, 10}, 2, 1), {});
     EXPECT_NE(error_message([&] { value("ssim", small); }).find("at least 11x11 pixels, but these have 100x10"),
               std::string::npos);
-    EXPECT_NE(error_message([&] { value("ms_ssim", small); }).find("at least 176x176"), std::string::npos);
+    EXPECT_NE(error_message([] { metric_named("ms_ssim"); }).find("use ssim"), std::string::npos);
     EXPECT_NE(error_message([&] { value("hdr_flip", small); }).find("range of exposures"), std::string::npos);
 }

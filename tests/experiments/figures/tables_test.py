@@ -272,9 +272,9 @@ def test_best(folder):
     grid = list(csv.reader(open(os.path.join(folder, "tables", "levels.csv"))))
     check(grid[0][4] == "floor standing" and [row[4] for row in grid[1:]] == ["tied", "tied"], grid)
     check(r"\textit{0.00234}" in read(os.path.join(folder, "tables", "levels.tex")), "LaTeX")
-    higher = [row | {"metric": "ms_ssim", "standing": "best" if row["point"] == "default" else "behind"} for row in rows]
+    higher = [row | {"metric": "ssim", "standing": "best" if row["point"] == "default" else "behind"} for row in rows]
     write_rows(file, higher)
-    write(os.path.join(folder, "manifest.json"), json.dumps(manifest([levels | {"where": {"metric": "ms_ssim"}}])))
+    write(os.path.join(folder, "manifest.json"), json.dumps(manifest([levels | {"where": {"metric": "ssim"}}])))
     check(tables(folder).returncode == 0, "more is better")
     lines = read(os.path.join(folder, "tables", "levels.md")).splitlines()
     check("**0.0123" in lines[5 if "default" in lines[5] else 4], lines[4:6])

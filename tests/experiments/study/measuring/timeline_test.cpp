@@ -152,7 +152,7 @@ TEST_F(TemporaryConfig, NamesThePrimaryComparisons) {
     EXPECT_EQ(primary(R"(, "primary": {"metric": "flicker_relative"})"), "flicker_relative reflective specular");
     const std::string none = R"(, "variants": [{"variant": "none"}])";
     for (const char* bad :
-         {R"({"metric": "bias"})", R"({"metric": "relmse_b"})", R"({"mask": "alll"})", R"({"masks": "all"})"})
+         {R"({"metric": "bias"})", R"({"metric": "mse_b"})", R"({"mask": "alll"})", R"({"masks": "all"})"})
         EXPECT_NE(mistake(R"({"scene": "fence"})", R"(, "primary": )" + std::string(bad) + none), "no mistake") << bad;
 }
 

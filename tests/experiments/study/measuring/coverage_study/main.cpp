@@ -48,7 +48,7 @@ int main(int argc, char** argv) {
                     .samples = samples,
                     .seeds = samples == 1024 ? seeds / 8 * 2 : seeds,  // even: truths have halves
                     .targets = {"specular", "image", "incident", "camera_radiance", "on_screen"},
-                    .metrics = {"mse", "relmse", "relmse_b", "bias", "energy_ratio"}};
+                    .metrics = {"mse", "relmse", "bias", "energy_ratio"}};
                 for (const CoverageRow& r : coverage(setting)) {
                     if (r.intervals > 0)
                         std::printf("%s,%u,%s,%s,%s,%s,%.0f,%.0f,%.4f,%.6g,%.3f,%.4g\n", scene, samples, r.test.c_str(),
