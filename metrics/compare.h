@@ -10,7 +10,7 @@
 /// The options of `ssrlab compare REFERENCE TEST`.
 struct CompareOptions {
     std::filesystem::path reference, test;  ///< OpenEXR, Radiance: linear; PNG: sRGB codes, decoded for linear metrics
-    std::string layer;                      ///< of EXR files; "": as read_exr_rgb() of core/exr.h chooses
+    std::string layer;                      ///< of EXR files; "": as read_exr_rgb() of core/exr/exr.h chooses
     std::vector<std::string> metrics;       ///< names; empty: all that are usual and that the images allow
     std::filesystem::path
         map;                  ///< error maps, .exr: a layer per metric, or .png: one metric, false colour; empty: none

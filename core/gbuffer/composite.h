@@ -1,7 +1,9 @@
 #pragma once
+#include "core/gbuffer/gbuffer.h"
 #include "core/gbuffer/gbuffer_file.h"
+#include "core/gbuffer/reflections.h"
 #include "core/gbuffer/split_sum_image.h"
-#include "core/variant.h"
+#include "core/gpu/passes/pass_graph.h"
 
 /// How reflections are put together with the environment's.
 enum class CompositeFormula {

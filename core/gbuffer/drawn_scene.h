@@ -1,6 +1,6 @@
 #pragma once
 #include "core/gbuffer/leading_vertices.h"
-#include "core/gpu/pass_graph.h"
+#include "core/gpu/passes/pass_graph.h"
 #include "core/scene/scene.h"
 
 #include <map>

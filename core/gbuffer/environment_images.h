@@ -1,7 +1,7 @@
 #pragma once
 #include "core/gbuffer/gbuffer.h"
 #include "core/gbuffer/prefiltered_environment.h"
-#include "core/gpu/pass_graph.h"
+#include "core/gpu/passes/pass_graph.h"
 
 /// The environment on the GPU, for passes that include core/shaders/gbuffer/environment.glsl.
 class EnvironmentImages {

@@ -1,7 +1,7 @@
 #include "core/gbuffer/gbuffer_file.h"
 
 #include "core/error.h"
-#include "core/exr.h"
+#include "core/exr/exr.h"
 #include "core/files.h"
 #include "core/gbuffer/camera_file.h"
 #include "core/gbuffer/gbuffer_checks.h"

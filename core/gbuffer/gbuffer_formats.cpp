@@ -1,6 +1,6 @@
 #include "core/gbuffer/gbuffer_formats.h"
 
-Precision gbuffer_precision(GBufferFormats formats) {
+PassChanges gbuffer_changes(GBufferFormats formats) {
     if (formats == GBufferFormats::exact) return {};
     static const std::map<std::string, Format> packed = {{"geometric_normal", Format::rgba16f},
                                                          {"normal", Format::rgba16f},
@@ -17,5 +17,5 @@ Precision gbuffer_precision(GBufferFormats formats) {
                     const auto found = packed.find(image);
                     return found == packed.end() ? asked : found->second;
                 },
-            .is_double = {}};
+            .glsl_of = {}};
 }

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/gpu/pipelines/precision.h"
+#include "core/gpu/passes/pass_graph.h"
 
 /// In which formats techniques find the G-buffer. `exact`: those of gbuffer.h. `packed`: as engines have it, in about
 /// half of the bytes: normals with their roughness, emission, lit colour and fallback rgba16f, base colour with its
@@ -7,4 +7,4 @@
 enum class GBufferFormats { exact, packed };
 
 /// For the graph that makes the images.
-Precision gbuffer_precision(GBufferFormats formats);
+PassChanges gbuffer_changes(GBufferFormats formats);

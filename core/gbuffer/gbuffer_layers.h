@@ -1,5 +1,5 @@
 #pragma once
-#include "core/exr.h"
+#include "core/exr/exr.h"
 #include "core/gbuffer/gbuffer_file.h"
 
 #include <set>

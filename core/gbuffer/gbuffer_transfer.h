@@ -1,7 +1,7 @@
 #pragma once
 #include "core/gbuffer/gbuffer.h"
 #include "core/gbuffer/gbuffer_file.h"
-#include "core/gpu/pass_graph.h"
+#include "core/gpu/passes/pass_graph.h"
 
 /// Copies all images; `camera` and `depth_format` are those it was drawn with.
 HostGBuffer download_gbuffer(PassGraph& graph, const GBuffer& gbuffer, const CameraData& camera,

@@ -3,7 +3,6 @@
 #include "core/error.h"
 #include "core/gbuffer/gbuffer_transfer.h"
 #include "core/gpu/device.h"
-#include "core/gpu/pipelines/precision.h"
 #include "core/shared/drawn_light.h"
 
 struct Rasterizer::Frame {

@@ -2,7 +2,6 @@
 
 #include "core/error.h"
 #include "core/gpu/device_impl.h"
-#include "core/gpu/pipelines/pipeline.h"
 #include "core/near_miss.h"
 
 #include <algorithm>
@@ -285,7 +284,6 @@ Device::Device(const std::string& choice, bool validate) : impl_(translated([] {
                           d.device, vk::CommandBufferAllocateInfo{.commandPool = *d.pool, .commandBufferCount = 1})
                           .front());
         d.fence = {d.device, vk::FenceCreateInfo{}};
-        d.pipelines = std::make_shared<PipelineCache>(d);
     });
 }
 

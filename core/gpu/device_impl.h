@@ -50,8 +50,7 @@ struct Device::Impl {
     vk::raii::CommandPool pool{nullptr};
     vk::raii::CommandBuffer commands{nullptr};
     vk::raii::Fence fence{nullptr};
-    std::shared_ptr<class PipelineCache>
-        pipelines;  ///< shared by all graphs: compiling costs 0.1 s and more per shader
+    std::shared_ptr<class PipelineCache> pipelines;  ///< see PipelineCache::of()
 
     /// A graph that has recorded and not yet submitted; others call this before they start, so that work keeps its
     /// order.

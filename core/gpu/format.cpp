@@ -3,7 +3,6 @@
 #include "core/gpu/device_impl.h"
 
 #include "core/error.h"
-#include "core/gpu/pipelines/precision.h"
 
 #include <Imath/half.h>
 #include <algorithm>

@@ -23,6 +23,14 @@ const FormatFacts& facts_of(Format format);
 /// In the order of Format.
 std::span<const FormatFacts> all_formats();
 
+/// "rgba16f": as GLSL and this project call it.
+std::string name_of(Format format);
+
+/// Formats of as many channels in 32 bits and in 16, of any that holds fractions; depth, stencil and whole numbers
+/// stay. Of formats without alpha (r11g11b10f) those with one, in which it is what the shader writes.
+Format as_float32(Format format);
+Format as_float16(Format format);
+
 /// Whether depth tests, or stencil tests, can use an image of the format.
 bool has_depth(Format format);
 bool has_stencil(Format format);

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
 #include <string>
@@ -34,6 +35,16 @@ struct Image {
     Image mip(unsigned level) const;          ///< counted from first_mip; half the extent for each, at least 1
     Image as(std::string shader_name) const;  ///< the same image, bound to another variable
 };
+
+/// Of all mips of the view, without padding.
+uint64_t bytes_of(const Image& image);
+
+/// The whole of what an image is a mip of.
+struct WholeImage {
+    glm::uvec2 extent;
+    unsigned mips;
+};
+WholeImage whole_of(const Image& image);
 
 /// A named storage buffer: ray lists, counters, indirect arguments. Copies refer to the same bytes.
 struct Buffer {

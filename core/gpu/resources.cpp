@@ -7,26 +7,6 @@
 #include <cstring>
 #include <utility>
 
-Image Image::mip(unsigned level) const {
-    Image view = *this;
-    view.first_mip = first_mip + level;
-    view.mips = 1;
-    view.extent = max(extent >> level, 1u);
-    return view;
-}
-
-Image Image::as(std::string shader_name) const {
-    Image view = *this;
-    view.name = std::move(shader_name);
-    return view;
-}
-
-Buffer Buffer::as(std::string shader_name) const {
-    Buffer view = *this;
-    view.name = std::move(shader_name);
-    return view;
-}
-
 void full_barrier(const vk::raii::CommandBuffer& commands) {
     const vk::MemoryBarrier2 barrier{
         .srcStageMask = vk::PipelineStageFlagBits2::eAllCommands,
@@ -144,15 +124,6 @@ std::shared_ptr<BufferStorage> create_buffer(Device::Impl& gpu, size_t bytes) {
         full_barrier(commands);
     });
     return storage;
-}
-
-uint64_t bytes_of(const Image& image) {
-    uint64_t texels = 0;
-    for (unsigned level = 0; level < image.mips; ++level) {
-        const Image mip = image.mip(level);
-        texels += uint64_t(mip.extent.x) * mip.extent.y;
-    }
-    return texels * facts_of(image.format).bytes;
 }
 
 void upload_texels(Device::Impl& gpu, const Image& image, std::span<const std::byte> texels) {

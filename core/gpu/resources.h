@@ -17,9 +17,6 @@ void allow_use(Device::Impl& gpu, const Image& image, vk::ImageUsageFlagBits use
 
 std::shared_ptr<BufferStorage> create_buffer(Device::Impl& gpu, size_t bytes);
 
-/// Of all mips of the view, without padding.
-uint64_t bytes_of(const Image& image);
-
 void upload_texels(Device::Impl& gpu, const Image& image, std::span<const std::byte> texels);
 std::vector<std::byte> download_texels(Device::Impl& gpu, const Image& image);
 void upload_bytes(Device::Impl& gpu, const Buffer& buffer, std::span<const std::byte> bytes);

@@ -1,7 +1,7 @@
 #include "core/scene/latlong_image.h"
 
 #include "core/error.h"
-#include "core/radiance_file.h"
+#include "core/exr/radiance_file.h"
 #include "core/scene/ranges.h"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 // ssrlab list: what there is.
 #include "core/error.h"
 #include "core/files.h"
-#include "core/gpu/chips/chip_compiler.h"
 #include "core/gpu/device.h"
 #include "core/json.h"
 #include "core/near_miss.h"
@@ -9,6 +8,7 @@
 #include "core/scene/scene_family.h"
 #include "core/shown_text.h"
 #include "experiments/cli/commands.h"
+#include "experiments/gpu_costs/chips/chip_compiler.h"
 #include "experiments/study/config/config_schema.h"
 #include "metrics/metric.h"
 #include "metrics/temporal.h"

@@ -1,8 +1,8 @@
 // Statistics for the Python scripts, which choose what they are of: a process that answers questions costs less than a
 // copy of the rules, and less than a library, which would need the same sources once more and a place to be found in.
 #include "core/error.h"
-#include "core/gpu/chips/model_range.h"
 #include "experiments/cli/commands.h"
+#include "experiments/gpu_costs/chips/model_range.h"
 #include "experiments/results/tables/counts_spread.h"
 #include "experiments/results/verdicts/effects/over_scenes.h"
 #include "metrics/median_interval.h"

@@ -1,7 +1,7 @@
 #include "experiments/report/report_data.h"
 
-#include "core/gpu/chips/model_range.h"
-#include "core/gpu/pass_cost.h"
+#include "experiments/gpu_costs/chips/model_range.h"
+#include "experiments/gpu_costs/pass_cost.h"
 #include "experiments/results/tables/counts_spread.h"
 #include "experiments/results/tables/manifest.h"
 

@@ -1,13 +1,13 @@
 #pragma once
-#include "core/gpu/clock.h"
 #include "core/gpu/device.h"
+#include "core/gpu/passes/clock.h"
+#include "experiments/results/cells/cell_store.h"
+#include "experiments/results/cells/provenance.h"
 #include "experiments/study/plan/study_plan.h"
 #include "experiments/study/progress.h"
 #include "experiments/study/run.h"
 #include "experiments/study/spent_time.h"
 #include "experiments/study/workload.h"
-#include "experiments/results/cells/cell_store.h"
-#include "experiments/results/cells/provenance.h"
 
 /// What SpentTime calls the compilation of all points' shaders before the first cell.
 inline constexpr const char* compiling = "compiling";

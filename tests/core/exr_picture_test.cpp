@@ -1,6 +1,6 @@
 #include "core/exr/exr_picture.h"
 #include "core/chromaticities.h"
-#include "core/exr.h"
+#include "core/exr/exr.h"
 #include "core/files.h"
 #include "tests/error_message.h"
 #include "tests/exr_writer.h"

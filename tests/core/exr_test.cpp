@@ -1,5 +1,5 @@
+#include "core/exr/exr.h"
 #include "core/error.h"
-#include "core/exr.h"
 #include "tests/error_message.h"
 
 #include <gtest/gtest.h>

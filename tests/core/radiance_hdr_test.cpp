@@ -1,7 +1,7 @@
 #include "core/radiance_hdr.h"
 #include "core/error.h"
+#include "core/exr/radiance_file.h"
 #include "core/files.h"
-#include "core/radiance_file.h"
 #include "tests/error_message.h"
 #include "tests/png_writer.h"
 #include "tests/reading_limits.h"

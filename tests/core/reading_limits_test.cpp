@@ -1,6 +1,6 @@
 #include "tests/reading_limits.h"
 #include "core/error.h"
-#include "core/exr.h"
+#include "core/exr/exr.h"
 #include "core/files.h"
 #include "core/json.h"
 #include "core/png.h"
@@ -51,11 +51,10 @@ std::string refused(const auto& action) {
 TEST_F(Reading, TakesNoMemoryThatAnExrOnlyAnnounces) {
     const fs::path file = with_last_pixel(9999999, 99999);
     const LimitsOf limits({.memory = 1'000'000'000});
-    EXPECT_EQ(
-        error_message([&] { read_exr(file); }),
-        file.string() +
-            ": its image of 10000000 x 100000 pixels with 3 channels needs 12 TB of memory, but files may take 1 "
-            "GB; if it is what you expect, allow more with --max-memory");
+    EXPECT_EQ(error_message([&] { read_exr(file); }),
+              file.string() +
+                  ": its image of 10000000 x 100000 pixels with 3 channels needs 12 TB of memory, but files may take 1 "
+                  "GB; if it is what you expect, allow more with --max-memory");
 }
 
 TEST_F(Reading, CountsTheChannelsOfAnExr) {
@@ -142,7 +141,8 @@ TEST_F(Reading, TakesNoMemoryThatAPngOnlyAnnounces) {
     EXPECT_EQ(read_png_codes(file).extent, glm::uvec2(300));
     {
         const LimitsOf limits({.memory = 1'400'000});
-        EXPECT_NE(refused([&] { read_png_codes(file); }).find("a.png: the image of its colours needs 1.44 MB"), std::string::npos);
+        EXPECT_NE(refused([&] { read_png_codes(file); }).find("a.png: the image of its colours needs 1.44 MB"),
+                  std::string::npos);
     }
     const LimitsOf limits({.memory = 350'000});
     EXPECT_NE(refused([&] { read_png_codes(file); }).find("a.png of 300 x 300 pixels needs"), std::string::npos);

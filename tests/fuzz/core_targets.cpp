@@ -1,6 +1,6 @@
 // The readers of images, scenes and captures.
 #include "core/error.h"
-#include "core/exr.h"
+#include "core/exr/exr.h"
 #include "core/exr/exr_picture.h"
 #include "core/files.h"
 #include "core/gbuffer/camera_file.h"

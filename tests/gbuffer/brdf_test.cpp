@@ -1,5 +1,5 @@
 #include "core/shared/brdf.h"
-#include "core/gpu/pass_graph.h"
+#include "core/gpu/passes/pass_graph.h"
 #include "tests/gbuffer/test_scenes.h"
 
 #include <gtest/gtest.h>

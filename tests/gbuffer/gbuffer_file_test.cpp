@@ -1,5 +1,5 @@
 #include "core/error.h"
-#include "core/exr.h"
+#include "core/exr/exr.h"
 #include "core/files.h"
 #include "core/gbuffer/gbuffer_transfer.h"
 #include "core/json.h"

@@ -1,5 +1,5 @@
 // The judge of the clock on made-up times; what a machine's own clock gives is a study's to report, not a test's.
-#include "core/gpu/clock.h"
+#include "core/gpu/passes/clock.h"
 #include "core/gpu/device.h"
 
 #include <gtest/gtest.h>

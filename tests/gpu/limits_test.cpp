@@ -1,7 +1,7 @@
-#include "core/gpu/limits.h"
+#include "core/gpu/passes/limits.h"
 #include "core/error.h"
 #include "core/gpu/device.h"
-#include "core/gpu/pass_graph.h"
+#include "core/gpu/passes/pass_graph.h"
 #include "tests/error_message.h"
 
 #include <gtest/gtest.h>

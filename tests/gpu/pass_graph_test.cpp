@@ -1,4 +1,4 @@
-#include "core/gpu/pass_graph.h"
+#include "core/gpu/passes/pass_graph.h"
 #include "core/error.h"
 #include "core/gpu/device.h"
 #include "core/gpu/pipelines/shader.h"

@@ -1,6 +1,6 @@
 // References: their halves and variances, their stops, their states and the cache.
 #include "core/error.h"
-#include "core/exr.h"
+#include "core/exr/exr.h"
 #include "core/scene/load_scene.h"
 #include "groundtruth/reference/reference_cache.h"
 #include "groundtruth/reference/reference_error.h"

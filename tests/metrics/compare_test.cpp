@@ -1,6 +1,6 @@
 #include "metrics/compare.h"
 #include "core/error.h"
-#include "core/exr.h"
+#include "core/exr/exr.h"
 #include "core/files.h"
 #include "core/png.h"
 #include "tests/error_message.h"
@@ -90,17 +90,21 @@ TEST_F(Compare, PngCodesAreDecodedForLinearMetricsOnly) {
     EXPECT_NEAR(value(c, "psnr"), -20 * std::log10(b - a), 1e-5);
 }
 
-/// The colours that a PNG holds, whatever lies beside or between them: straight alpha (PNG, third edition, section 6.2),
-/// 16 bits with the codes of 8 (section 13.12), rows in the order of Adam7 (section 8.2).
+/// The colours that a PNG holds, whatever lies beside or between them: straight alpha (PNG, third edition,
+/// section 6.2), 16 bits with the codes of 8 (section 13.12), rows in the order of Adam7 (section 8.2).
 TEST_F(Compare, PngsOfOneColorAreEqual) {
-    const auto code = [](unsigned x, unsigned y, unsigned c) { return c == 0 ? 200 - x : c == 1 ? 100 + y : 60 + 2 * x; };
+    const auto code = [](unsigned x, unsigned y, unsigned c) {
+        return c == 0 ? 200 - x : c == 1 ? 100 + y : 60 + 2 * x;
+    };
     const auto png = [&](const std::string& name, PngWriter writer) {
         writer.width = writer.height = 32;
         write_text(folder / name, writer.file());
         return folder / name;
     };
     const auto with_alpha = [&](unsigned alpha) {
-        return [&code, alpha](unsigned x, unsigned y, unsigned c) { return c == 3 ? (x < 16 ? alpha : 255u) : code(x, y, c); };
+        return [&code, alpha](unsigned x, unsigned y, unsigned c) {
+            return c == 3 ? (x < 16 ? alpha : 255u) : code(x, y, c);
+        };
     };
     const auto wide = [&](unsigned x, unsigned y, unsigned c) { return 257 * code(x, y, c); };
     const auto opaque = png("opaque.png", {.sample = code});
@@ -132,7 +136,8 @@ TEST_F(Compare, PngsOfOneColorAreEqual) {
 /// A PNG that says its codes are linear light is the OpenEXR image of that light.
 TEST_F(Compare, ColorSpacesOfPngsCount) {
     const auto sample = [](unsigned x, unsigned y, unsigned) { return x * 4000 + y * 17; };
-    PngWriter linear{.width = 16, .height = 16, .depth = 16, .chunks = {{"gAMA", PngWriter::integer(100000)}}, .sample = sample};
+    PngWriter linear{
+        .width = 16, .height = 16, .depth = 16, .chunks = {{"gAMA", PngWriter::integer(100000)}}, .sample = sample};
     write_text(folder / "linear.png", linear.file());
     HostImage light({16, 16}, 3);
     for (unsigned y = 0; y < 16; ++y)
@@ -142,15 +147,17 @@ TEST_F(Compare, ColorSpacesOfPngsCount) {
     EXPECT_NEAR(value(c, "mae"), 0, 1e-7);  // through sRGB codes and back, in float32
     EXPECT_NEAR(value(c, "flip"), 0, 1e-5);
     ASSERT_EQ(c.warnings.size(), 1u);
-    EXPECT_NE(c.warnings[0].find("linear.png: its colours were converted from gAMA 1 (linear) to sRGB"), std::string::npos);
+    EXPECT_NE(c.warnings[0].find("linear.png: its colours were converted from gAMA 1 (linear) to sRGB"),
+              std::string::npos);
 }
 
 TEST_F(Compare, RadiancePicturesAreRadiance) {
-    write_text(folder / "a.hdr", std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 11 +X 1\n") + [] {
-        std::string texels;
-        for (int i = 0; i < 11; ++i) texels += "\x80\x40\x20\x83";  // 4, 2, 1
-        return texels;
-    }());
+    write_text(
+        folder / "a.hdr", std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 11 +X 1\n") + [] {
+            std::string texels;
+            for (int i = 0; i < 11; ++i) texels += "\x80\x40\x20\x83";  // 4, 2, 1
+            return texels;
+        }());
     HostImage same({1, 11}, 3);
     for (size_t i = 0; i < 11; ++i) same.set_rgb(i, {4, 2, 1});
     const Comparison c = compare({.reference = folder / "a.hdr", .test = exr("a.exr", same)});

@@ -1,4 +1,4 @@
-#include "core/exr.h"
+#include "core/exr/exr.h"
 #include "core/json.h"
 #include "core/png.h"
 #include "metrics/metric.h"

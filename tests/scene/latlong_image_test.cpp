@@ -1,6 +1,6 @@
 #include "core/scene/latlong_image.h"
 #include "core/error.h"
-#include "core/exr.h"
+#include "core/exr/exr.h"
 #include "core/scene/scene.h"
 #include "tests/error_message.h"
 #include "tests/exr_writer.h"

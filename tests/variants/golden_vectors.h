@@ -1,5 +1,5 @@
 #pragma once
-#include "core/exr.h"
+#include "core/exr/exr.h"
 #include "core/json.h"
 #include "core/shared/camera.h"
 
@@ -14,12 +14,12 @@ std::vector<std::string> golden_sets(const std::string& prefix);
 
 bool is_golden(const std::string& file);
 
-/// True if SSRLAB_VECTORS names the folder: then it must hold all kinds of files. The copy in the repository has no random
-/// numbers, which carry no licence, and nothing that was made with them.
+/// True if SSRLAB_VECTORS names the folder: then it must hold all kinds of files. The copy in the repository has no
+/// random numbers, which carry no licence, and nothing that was made with them.
 bool has_all_golden_kinds();
 
-/// Those of `names` of which the folder has PREFIX + name + ".exr"; fails with Error if it has none, so that a loop over
-/// them compares something.
+/// Those of `names` of which the folder has PREFIX + name + ".exr"; fails with Error if it has none, so that a loop
+/// over them compares something.
 std::vector<std::string> golden_names(const std::string& prefix, const std::vector<std::string>& names);
 
 /// Reads a file of the index. Fails with Error if its size in bytes, its extent or its channels differ from the index.

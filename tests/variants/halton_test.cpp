@@ -1,5 +1,5 @@
 #include "variants/common/halton.h"
-#include "core/gpu/pass_graph.h"
+#include "core/gpu/passes/pass_graph.h"
 #include "tests/variants/variant_fixture.h"
 #include "variants/common/ggx_lobe.h"
 

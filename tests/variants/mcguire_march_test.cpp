@@ -1,3 +1,4 @@
+#include "experiments/study/stability/precision/double_shader.h"
 #include "tests/variants/brute_force_march.h"
 #include "tests/variants/synthetic_gbuffer.h"
 #include "tests/variants/variant_fixture.h"
@@ -177,7 +178,7 @@ TEST_F(McGuireMarch, AgreesWithBruteForceForStrideAndThicknessWithReversedDepthA
 /// that it is written as (6e-8), and the length of directions, which float makes unit to 1.8e-7.
 TEST_F(McGuireMarch, InDoubleItIsExact) {
     make_depth();
-    graph.set_precision({.format_of = {}, .is_double = [](const std::string&) { return true; }});
+    graph.set_changes({.format_of = {}, .glsl_of = double_where([](const std::string&) { return true; })});
     expect_agreement(random_rays(4000), {.max_distance = 50}, 0.1, 2.4e-7, 0.0);
 }
 

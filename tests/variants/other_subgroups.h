@@ -1,5 +1,5 @@
 #pragma once
-#include "core/exr.h"
+#include "core/exr/exr.h"
 
 /// lavapipe's subgroups have as many lanes as its vectors have floats: 4, 8 or 16.
 inline constexpr const char* vector_widths[] = {"128", "256", "512"};

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/gpu/pass_graph.h"
+#include "core/gpu/passes/pass_graph.h"
 
 /// Image `depth_pyramid`: mip 0 is `depth`, each following texel the nearest of 2x2: min, or max for reversed depth.
 /// `mips` at least 2, capped by the extent. One dispatch (AMD's Single Pass Downsampler). Odd-sized levels leave their

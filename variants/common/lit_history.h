@@ -1,5 +1,5 @@
 #pragma once
-#include "core/gpu/pass_graph.h"
+#include "core/gpu/passes/pass_graph.h"
 
 /// Keeps the lit image for the next frame, for techniques whose hits show the previous one. One per variant.
 class LitHistory {

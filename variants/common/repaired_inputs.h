@@ -1,6 +1,6 @@
 #pragma once
 #include "core/gbuffer/gbuffer.h"
-#include "core/gpu/pass_graph.h"
+#include "core/gpu/passes/pass_graph.h"
 
 /// A G-buffer without NaN and Inf, in place of the graph's inputs as long as this lives: each
 /// shader that names `depth` reads the repaired one. A fault stays in its pixel, which becomes background (depth),

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/variant.h"
+#include "variants/variant.h"
 
 #include <filesystem>
 #include <functional>

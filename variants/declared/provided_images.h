@@ -1,6 +1,6 @@
 #pragma once
 #include "core/gbuffer/gbuffer.h"
-#include "core/gpu/pass_graph.h"
+#include "core/gpu/passes/pass_graph.h"
 #include "variants/common/blue_noise.h"
 #include "variants/common/lit_history.h"
 

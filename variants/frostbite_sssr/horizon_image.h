@@ -1,5 +1,5 @@
 #pragma once
-#include "core/gpu/pass_graph.h"
+#include "core/gpu/passes/pass_graph.h"
 #include "variants/resolves/ray_draw.h"
 
 #include <memory>

@@ -1,6 +1,6 @@
 #pragma once
 #include "core/gbuffer/gbuffer.h"
-#include "core/gpu/pass_graph.h"
+#include "core/gpu/passes/pass_graph.h"
 #include "variants/frostbite_sssr/ray_parameters.h"
 #include "variants/frostbite_sssr/resolve_parameters.h"
 #include "variants/resolves/traced_rays.h"

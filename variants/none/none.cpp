@@ -1,5 +1,5 @@
-#include "core/variant.h"
 #include "variants/common/variant_entry.h"
+#include "variants/variant.h"
 
 /// No screen-space reflections: the fallback everywhere. The line that every metric is read against.
 class None final : public Variant {

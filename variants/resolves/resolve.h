@@ -1,8 +1,8 @@
 #pragma once
-#include "core/variant.h"
 #include "variants/common/screen_probe/screen_probe.h"
 #include "variants/resolves/ray_draw.h"
 #include "variants/resolves/traced_rays.h"
+#include "variants/variant.h"
 
 #include <functional>
 #include <memory>

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/gpu/pass_graph.h"
+#include "core/gpu/passes/pass_graph.h"
 
 /// What rays found, by index of the ray: (y * width + x) * max_rays + k for ray k of a traced pixel (ray.glsl). In 32
 /// bits: densities overflow halves below a roughness of 0.033.

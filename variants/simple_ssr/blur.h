@@ -1,8 +1,8 @@
 #pragma once
-#include "core/gpu/pass_graph.h"
+#include "core/gpu/passes/pass_graph.h"
 
-/// A blur of one size for near and far, as of Killzone Shadow Fall in the slides that technique.json names, whose passes
-/// these are for C++. Here, so that who includes it depends on the shader, too.
+/// A blur of one size for near and far, as of Killzone Shadow Fall in the slides that technique.json names, whose
+/// passes these are for C++. Here, so that who includes it depends on the shader, too.
 struct SimpleBlurParameters {
     ParameterSet& params;
 

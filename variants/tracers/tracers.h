@@ -1,6 +1,6 @@
 #pragma once
 #include "core/gbuffer/gbuffer.h"
-#include "core/gpu/pass_graph.h"
+#include "core/gpu/passes/pass_graph.h"
 #include "core/gpu/pipelines/shader.h"
 #include "core/ray_probe.h"
 #include "variants/tracers/asked_rays.h"
@@ -34,8 +34,9 @@ struct TracerSlot {
 /// The tracers that a technique can use, their parameters, and the choice among them.
 class Tracers {
 public:
-    /// Declares a choice for each slot, then the parameters of all tracers; nothing if there is no slot. `defaults`: where they are the technique's
-    /// own, as of ParameterSet::change_defaults(). `source`: of the slots' initial tracers.
+    /// Declares a choice for each slot, then the parameters of all tracers; nothing if there is no slot. `defaults`:
+    /// where they are the technique's own, as of ParameterSet::change_defaults(). `source`: of the slots' initial
+    /// tracers.
     Tracers(ParameterSet& params, std::vector<TracerSlot> slots, const std::string& source,
             const nlohmann::json& defaults = nlohmann::json::object());
 

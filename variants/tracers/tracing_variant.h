@@ -1,7 +1,7 @@
 #pragma once
-#include "core/variant.h"
 #include "variants/common/repaired_inputs.h"
 #include "variants/tracers/tracers.h"
+#include "variants/variant.h"
 
 /// A technique that traces rays: what its chosen tracers ask for is asked for by it.
 class TracingVariant : public Variant {

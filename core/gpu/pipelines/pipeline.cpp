@@ -119,8 +119,8 @@ std::string key_of(const ShaderIncludes& includes) {
 }
 
 std::string key_of(const ShaderChanges& changes) {
-    std::string key = changes.is_double ? "in double\n" : "";
-    if (changes.is_counted) key += "counted\n";
+    std::string key;
+    for (const GlslChange& change : changes.glsl) key += change.name + '\n';
     if (changes.is_for_gpu) key += "for a GPU\n";
     for (const auto& [image, format] : changes.image_formats) key += image + ' ' + name_of(format) + '\n';
     return key;
@@ -146,10 +146,15 @@ std::string name_of_version(const std::string& file) { return file + '#' + std::
 
 }  // namespace
 
+PipelineCache& PipelineCache::of(Device::Impl& gpu) {
+    if (!gpu.pipelines) gpu.pipelines = std::make_shared<PipelineCache>(gpu);
+    return *gpu.pipelines;
+}
+
 const Shader& PipelineCache::shader(const std::string& file, const std::string& vertex_file, const ParameterSet& params,
                                     const ShaderIncludes& includes, const ShaderChanges& asked) {
     ShaderChanges changes = asked;
-    changes.is_for_cpu = gpu_.info.is_cpu() && !changes.is_double && !changes.is_counted && !changes.is_for_gpu;
+    changes.is_for_cpu = gpu_.info.is_cpu() && changes.glsl.empty() && !changes.is_for_gpu;
     const std::string prelude = changes.is_for_cpu ? shader_prelude_for_cpu(params) : shader_prelude(params);
     const auto [entry, is_new] = shaders_.try_emplace(name_of_version(file) + '\n' + vertex_file + '\n' +
                                                       key_of(changes) + key_of(includes) + prelude);

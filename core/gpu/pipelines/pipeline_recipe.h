@@ -1,8 +1,24 @@
 #pragma once
-#include "core/gpu/pass_graph.h"
 #include "core/gpu/pipelines/shader.h"
 
 #include <optional>
+
+/// How a fragment pass uses the stencil buffer: write a value, or draw only where it is found.
+struct Stencil {
+    enum class Mode { off, write, keep_equal } mode = Mode::off;
+    unsigned value = 0;
+    Image image;  ///< d32f_s8
+};
+
+/// How a fragment pass uses a depth buffer. `always` writes whatever is drawn.
+struct DepthTest {
+    enum class Compare { less, greater, less_or_equal, greater_or_equal, equal, always } compare = Compare::less;
+    bool is_written = true;
+    Image image;  ///< d32f, d24, d16 or d32f_s8
+};
+
+/// Values of specialization constants by their names in GLSL.
+using Constants = std::map<std::string, uint32_t>;
 
 /// What a pipeline is made for, apart from its shader.
 struct PipelineState {

@@ -1,17 +1,17 @@
 #include "core/gpu/pipelines/shader.h"
 
 #include "core/error.h"
-#include "core/gpu/pipelines/double_shader.h"
 #include "core/gpu/pipelines/shader_cache.h"
 #include "core/gpu/pipelines/shader_error.h"
 #include "core/gpu/pipelines/shader_files.h"
-#include "core/gpu/pipelines/spirv_module.h"
 #include "core/parameters.h"
 
 #include <SPIRV/GlslangToSpv.h>
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
+#include <SPIRV/spirv.hpp>
 #include <algorithm>
+#include <regex>
 #include <spirv-tools/optimizer.hpp>
 #include <sstream>
 
@@ -94,8 +94,8 @@ std::string complete_source(const std::string& prelude, size_t index, const Shad
 
 std::string with_changes(std::string source, const ShaderChanges& changes) {
     if (!changes.image_formats.empty()) source = with_image_formats(source, changes.image_formats);
-    if (changes.is_double) source = in_double(source, read_shader("precision/double_functions.glsl").text);
-    return changes.is_counted ? with_counters(source) : source;
+    for (const GlslChange& change : changes.glsl) source = change.apply(source);
+    return source;
 }
 
 std::string webgl2_fragment(const std::string& prelude, const ShaderIncludes& includes,
@@ -187,6 +187,22 @@ void reflect(const glslang::TProgram& program, bool is_vertex, ShaderInterface& 
 
 }  // namespace
 
+std::string with_image_formats(const std::string& glsl, const std::map<std::string, Format>& formats) {
+    static const std::regex declaration(R"((layout\s*\(\s*)(\w+)(\s*\)\s*uniform\b[^;{]*;))"), word(R"(\w+)");
+    std::string text;
+    auto rest = glsl.begin();
+    for (std::sregex_iterator at(glsl.begin(), glsl.end(), declaration), end; at != end; ++at) {
+        const std::smatch& found = *at;
+        std::string format = found[2];
+        for (std::sregex_iterator name(found[3].first, found[3].second, word); name != end; ++name)
+            if (const auto changed = formats.find(name->str()); changed != formats.end())
+                format = name_of(changed->second);
+        text.append(rest, found[2].first).append(format);
+        rest = found[2].second;
+    }
+    return text.append(rest, glsl.end());
+}
+
 const std::vector<SceneConstant>& scene_constants() {
     static const std::vector<SceneConstant> constants = {
         {"scene_is_still", 1000, false},          // motion vectors are 0
@@ -252,7 +268,7 @@ Shader compile(const std::string& file, const std::string& vertex_file, const st
                              ? webgl2_fragment(prelude, includes, files)
                              : with_changes(complete_source(prelude, 1, includes, files, changes.is_for_cpu), changes));
 
-    std::vector<std::string> compiled = {webgl2 ? "webgl2" : "vulkan", changes.is_counted ? "counted" : "as it is"};
+    std::vector<std::string> compiled = {webgl2 ? "webgl2" : "vulkan"};
     for (const auto& [stage, text] : sources) compiled.push_back(std::to_string(stage) + '\n' + text);
     const std::string key = ShaderCache::key_of(compiled);
     if (std::optional<Shader> kept = ShaderCache::find(key)) return *std::move(kept);
@@ -297,7 +313,6 @@ Shader compile(const std::string& file, const std::string& vertex_file, const st
         optimizer.RegisterPass(
             spvtools::CreateEliminateDeadConstantPass());  // those of the prelude that this shader ignores
         optimizer.Run(spirv.data(), spirv.size(), &spirv);
-        if (changes.is_counted && !is_vertex) result.counters = count_in(spirv);
         find_constants(spirv, result.interface.constants);
     }
     ShaderCache::keep(key, result);

@@ -18,8 +18,7 @@ using nlohmann::json;
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ShaderInterface::Resource, name, binding, kind, is_vertex)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ShaderInterface, resources, formatted_images, push_offsets, push_size, outputs,
                                    constants, local_size)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ShaderCounter, what, resource)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Shader, spirv, interface, counters)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Shader, spirv, interface)
 
 namespace {
 

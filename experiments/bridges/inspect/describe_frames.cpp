@@ -1,12 +1,12 @@
 // What is understood of folders of frames: a capture of G-buffers, and what an engine rendered.
 #include "core/error.h"
-#include "core/exr.h"
+#include "core/exr/exr.h"
 #include "core/parameters.h"
-#include "experiments/study/config/points/external_images.h"
 #include "experiments/bridges/inspect/channel_range.h"
 #include "experiments/bridges/inspect/describe.h"
-#include "experiments/study/measuring/frames/capture.h"
 #include "experiments/bridges/judge.h"
+#include "experiments/study/config/points/external_images.h"
+#include "experiments/study/measuring/frames/capture.h"
 
 #include <cmath>
 

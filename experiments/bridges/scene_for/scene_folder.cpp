@@ -1,19 +1,19 @@
 #include "experiments/bridges/scene_for/scene_folder.h"
 
 #include "core/error.h"
-#include "core/exr.h"
+#include "core/exr/exr.h"
 #include "core/files.h"
 #include "core/near_miss.h"
 #include "core/path_inside.h"
 #include "core/shared/environment.h"
+#include "experiments/bridges/scene_for/raw_files.h"
+#include "experiments/bridges/scene_for/scene_glb.h"
+#include "experiments/bridges/scene_for/scene_numbers.h"
 #include "experiments/study/config/points/external_images.h"
 #include "experiments/study/config/shots/scene_warnings.h"
 #include "experiments/study/config/shots/shot.h"
 #include "experiments/study/measuring/measure.h"
 #include "experiments/study/measuring/reflection_probe.h"
-#include "experiments/bridges/scene_for/raw_files.h"
-#include "experiments/bridges/scene_for/scene_glb.h"
-#include "experiments/bridges/scene_for/scene_numbers.h"
 #include "groundtruth/reference/reference_cache.h"
 
 #include <cstdio>

@@ -68,7 +68,7 @@ Recorder::Recorder(PassGraph& graph, RecordedTexels& texels, KnownReads& reads, 
 Recorder::~Recorder() { stop(); }
 
 void Recorder::stop() {
-    graph_.stop_recording();
+    graph_.watch(nullptr);
     if (keeps_passes_) graph_.observe({});
 }
 
@@ -83,18 +83,18 @@ void Recorder::begin_frame(const GBuffer& gbuffer) {
                                      {"stage", stage},
                                      {"texels", texels_.add(graph_.download(image))}});
         });
-    graph_.record({.pass = [this](const RecordedPass& pass) { add_pass(pass); },
-                   .clear =
-                       [this](const Image& image, glm::vec4 value) {
-                           for (unsigned mip = 0; mip < image.mips; ++mip)
-                               commands_.push_back({{"clear", {image_of(image), image.first_mip + mip}},
-                                                    {"value", {value.x, value.y, value.z, value.w}}});
-                       },
-                   .upload =
-                       [this](const Image& image) {
-                           const size_t place = image_of(image);
-                           commands_.push_back({{"upload", place}, {"texels", texels_.add(graph_.download(image))}});
-                       }});
+    graph_.watch(this);
+}
+
+void Recorder::cleared(const Image& image, glm::vec4 value) {
+    for (unsigned mip = 0; mip < image.mips; ++mip)
+        commands_.push_back(
+            {{"clear", {image_of(image), image.first_mip + mip}}, {"value", {value.x, value.y, value.z, value.w}}});
+}
+
+void Recorder::uploaded(const Image& image) {
+    const size_t place = image_of(image);
+    commands_.push_back({{"upload", place}, {"texels", texels_.add(graph_.download(image))}});
 }
 
 json Recorder::end_frame(const Reflections& reflections) {
@@ -144,7 +144,7 @@ size_t Recorder::texture_of(const Image& image) {
     return place->second;
 }
 
-size_t Recorder::program_of(const RecordedPass& pass) {
+size_t Recorder::program_of(const PassRun& pass) {
     const auto [vertex, fragment, files] =
         webgl2_sources(pass.shader, shader_prelude(pass.params, ShaderLanguage::webgl2), pass.includes);
     const auto [place, is_new] = program_places_.try_emplace(fragment, programs_.size());
@@ -159,10 +159,14 @@ size_t Recorder::program_of(const RecordedPass& pass) {
     return place->second;
 }
 
-void Recorder::add_pass(const RecordedPass& pass) {
+std::optional<InstrumentedPipeline> Recorder::before(const PassRun& pass) {
+    if (pass.recipe.is_compute || pass.draws_meshes)
+        fail("pass ", pass.stage, " cannot be recorded: it is no fragment shader over a whole image");
+    if (!pass.constants.empty())
+        fail("pass ", pass.stage, " cannot be recorded: its graph sets constants, which sources do not hold");
     const size_t program = program_of(pass);
     json command = {{"program", program}, {"textures", json::array()}, {"targets", json::array()}};
-    for (const RecordedPass::Texture& texture : pass.textures)
+    for (const PassRun::BoundImage& texture : pass.samplers)
         if (reads_[program]->samplers.contains(texture.name))
             command["textures"].push_back({texture.name, texture_of(texture.image),
                                            texture.sampling.is_linear ? "LINEAR" : "NEAREST",
@@ -175,4 +179,5 @@ void Recorder::add_pass(const RecordedPass& pass) {
         command["stencil"] = {image_of(pass.stencil.image), pass.stencil.mode == Stencil::Mode::write,
                               pass.stencil.value};
     commands_.push_back(std::move(command));
+    return {};
 }

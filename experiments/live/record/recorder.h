@@ -1,7 +1,8 @@
 #pragma once
 #include "core/gbuffer/gbuffer.h"
-#include "core/gpu/pass_record.h"
-#include "core/variant.h"
+#include "core/gpu/passes/pass_watcher.h"
+#include "experiments/gpu_costs/spirv/shader_reads.h"
+#include "variants/variant.h"
 
 #include <map>
 #include <nlohmann/json.hpp>
@@ -29,13 +30,14 @@ private:
 using KnownReads = std::map<std::string, ShaderReads>;
 
 /// Writes down what a technique does to the images of a graph, frame by frame, as page/replay.js does it again: its
-/// images, programs in GLSL ES 3.00, and lists of commands.
-class Recorder {
+/// images, programs in GLSL ES 3.00, and lists of commands. A compute pass or a draw of meshes fails with Error
+/// (Limits::webgl2 refuses them before they run), and so does a pass while constants are set.
+class Recorder : private PassWatcher {
 public:
     /// `keeps_passes`: also what each pass has written, as commands {"check": [image, mip], "stage", "texels"} behind
     /// it, so that each can be compared by itself.
     Recorder(PassGraph& graph, RecordedTexels& texels, KnownReads& reads, bool keeps_passes = false);
-    ~Recorder();
+    ~Recorder() override;
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
 
@@ -54,8 +56,10 @@ public:
 
 private:
     void stop();
-    void add_pass(const RecordedPass& pass);
-    size_t program_of(const RecordedPass& pass);
+    std::optional<InstrumentedPipeline> before(const PassRun& pass) override;
+    void cleared(const Image& image, glm::vec4 value) override;
+    void uploaded(const Image& image) override;
+    size_t program_of(const PassRun& pass);
     size_t image_of(const Image& image);    ///< that a pass writes, a clear or an upload
     size_t texture_of(const Image& image);  ///< that a pass reads
     size_t described(const Image& image, const std::string& name);

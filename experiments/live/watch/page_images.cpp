@@ -1,6 +1,6 @@
 #include "experiments/live/watch/page_images.h"
 
-#include "core/exr.h"
+#include "core/exr/exr.h"
 #include "experiments/report/report_images.h"
 #include "experiments/results/cells/image_path.h"
 

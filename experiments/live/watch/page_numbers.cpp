@@ -1,8 +1,8 @@
 #include "experiments/live/watch/page_numbers.h"
 
 #include "core/error.h"
-#include "core/gpu/chips/model_range.h"
 #include "core/json.h"
+#include "experiments/gpu_costs/chips/model_range.h"
 #include "experiments/results/verdicts/judgement.h"
 #include "experiments/results/verdicts/study_tables.h"
 #include "experiments/study/measuring/rays/error_causes.h"

@@ -68,7 +68,7 @@ def p_holm(effects, degrees):
 
 @functools.cache
 def model_range():
-    """(low, high, sentence): by so many times a stage's measured time was its estimate (core/gpu/chips/model_range.h)."""
+    """(low, high, sentence): by so many times a stage's measured time was its estimate (experiments/gpu_costs/chips/model_range.h)."""
     return tuple(_ask("model_range", []))
 
 

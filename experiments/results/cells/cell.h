@@ -1,5 +1,5 @@
 #pragma once
-#include "core/gpu/chips/compiled_shader.h"
+#include "experiments/gpu_costs/chips/compiled_shader.h"
 #include "experiments/results/cells/reference_noise.h"
 #include "experiments/results/tables/columns.h"
 #include "metrics/seed_pairs.h"
@@ -113,7 +113,7 @@ struct HitRow {
 /// One row of costs.csv: what the passes of a stage do in the shot's last frame.
 struct CostRow {
     std::string shot, variant, point, stage;
-    std::string quantity;  ///< a name of cost_quantities, core/gpu/pass_cost.h
+    std::string quantity;  ///< a name of cost_quantities, experiments/gpu_costs/pass_cost.h
     size_t value = 0;
 
     static constexpr auto columns() {
@@ -162,19 +162,19 @@ struct EstimateRow {
     std::string refusal;  ///< why there are no numbers
 
     static constexpr auto columns() {
-        return std::tuple(
-            Column{"shot", &EstimateRow::shot}, Column{"variant", &EstimateRow::variant},
-            Column{"point", &EstimateRow::point}, Column{"stage", &EstimateRow::stage},
-            Column{"chip", &EstimateRow::chip}, Column{"product", &EstimateRow::product},
-            Column{"microseconds", &EstimateRow::microseconds}, Column{"low", &EstimateRow::low},
-            Column{"high", &EstimateRow::high}, Column{"bound", &EstimateRow::bound},
-            Column{"vector", &EstimateRow::vector}, Column{"scalar", &EstimateRow::scalar},
-            Column{"shared_memory", &EstimateRow::shared_memory}, Column{"textures", &EstimateRow::textures},
-            Column{"targets", &EstimateRow::targets}, Column{"memory", &EstimateRow::memory},
-            Column{"latency", &EstimateRow::latency}, Column{"caches", &EstimateRow::caches},
-            Column{"waves", &EstimateRow::waves}, Column{"active_lanes", &EstimateRow::active_lanes},
-            Column{"unmatched", &EstimateRow::unmatched}, Column{"cut_lanes", &EstimateRow::cut_lanes},
-            Column{"refusal", &EstimateRow::refusal});
+        return std::tuple(Column{"shot", &EstimateRow::shot}, Column{"variant", &EstimateRow::variant},
+                          Column{"point", &EstimateRow::point}, Column{"stage", &EstimateRow::stage},
+                          Column{"chip", &EstimateRow::chip}, Column{"product", &EstimateRow::product},
+                          Column{"microseconds", &EstimateRow::microseconds}, Column{"low", &EstimateRow::low},
+                          Column{"high", &EstimateRow::high}, Column{"bound", &EstimateRow::bound},
+                          Column{"vector", &EstimateRow::vector}, Column{"scalar", &EstimateRow::scalar},
+                          Column{"shared_memory", &EstimateRow::shared_memory},
+                          Column{"textures", &EstimateRow::textures}, Column{"targets", &EstimateRow::targets},
+                          Column{"memory", &EstimateRow::memory}, Column{"latency", &EstimateRow::latency},
+                          Column{"caches", &EstimateRow::caches}, Column{"waves", &EstimateRow::waves},
+                          Column{"active_lanes", &EstimateRow::active_lanes},
+                          Column{"unmatched", &EstimateRow::unmatched}, Column{"cut_lanes", &EstimateRow::cut_lanes},
+                          Column{"refusal", &EstimateRow::refusal});
     }
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/gpu/chips/model_range.h"
+#include "experiments/gpu_costs/chips/model_range.h"
 #include "experiments/results/cells/cell.h"
 
 /// A row of estimates.csv: an estimate, and between what its model leaves the time (model_range).

@@ -35,7 +35,7 @@ std::vector<std::string> includes_of(const std::string& text) {
 
 /// The folder whose sources belong together; "" where each stands for itself.
 std::string room_of(const std::string& path) {
-    if (path.starts_with("experiments/")) return "";
+    if (path.starts_with("experiments/") && !path.starts_with("experiments/gpu_costs/")) return "";
     return path.substr(0, path.rfind('/') + 1);
 }
 

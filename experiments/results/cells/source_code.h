@@ -23,12 +23,12 @@ std::vector<SourceFile> parse_source_table(std::string_view table);
 
 /// Which sources a number depends on, so that an edit of one redoes what may have changed and nothing else.
 ///
-/// A source needs what it includes. Of core, groundtruth, metrics and variants whatever needs one source needs all that
-/// lie beside it in its folder: a class may be spread over several. So of a room within one some header must be
-/// included from outside. In experiments a header needs the source of its name: each of them implements its own header
-/// alone. Nothing depends on code that reads a config: cells hold what it read by value. No technique and no single
-/// tracer is included by what runs them (they are declared by name, see variants/registry.cpp and
-/// variants/tracers/tracers.cpp), so that they are asked for by their folders.
+/// A source needs what it includes. Of core, groundtruth, metrics, variants and gpu_costs whatever needs one source
+/// needs all that lie beside it in its folder: a class may be spread over several. So of a room within one some header
+/// must be included from outside. In the rest of experiments a header needs the source of its name: each of them
+/// implements its own header alone. Nothing depends on code that reads a config: cells hold what it read by value. No
+/// technique and no single tracer is included by what runs them (they are declared by name, see variants/registry.cpp
+/// and variants/tracers/tracers.cpp), so that they are asked for by their folders.
 class SourceCode {
 public:
     explicit SourceCode(std::vector<SourceFile> sources);

@@ -1,8 +1,8 @@
 #include "experiments/results/tradeoff/other_costs.h"
 
 #include "core/error.h"
-#include "core/gpu/chips/model_range.h"
 #include "core/near_miss.h"
+#include "experiments/gpu_costs/chips/model_range.h"
 #include "experiments/results/verdicts/study_points.h"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 #include "experiments/study/config/config_parts.h"
 
 #include "core/error.h"
-#include "core/gpu/chips/chip_rates.h"
-#include "core/gpu/pass_cost.h"
 #include "core/near_miss.h"
+#include "experiments/gpu_costs/chips/chip_rates.h"
+#include "experiments/gpu_costs/pass_cost.h"
 #include "experiments/study/config/points/conditions.h"
 #include "experiments/study/config/points/design.h"
 #include "experiments/study/config/points/read_variants.h"

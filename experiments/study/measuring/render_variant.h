@@ -1,7 +1,7 @@
 #pragma once
 #include "core/gbuffer/composite.h"
-#include "core/variant.h"
 #include "experiments/study/config/config.h"
+#include "variants/variant.h"
 
 /// One frame of a variant with images of its own, measured or timed: the camera is that of the G-buffer, but for the
 /// seed, so that histories go on from the frame before. A pass outside the variant's limits is an Error.

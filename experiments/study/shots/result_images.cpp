@@ -1,7 +1,7 @@
 #include "experiments/study/shots/result_images.h"
 
 #include "core/error.h"
-#include "core/exr.h"
+#include "core/exr/exr.h"
 #include "core/files.h"
 #include "core/path_inside.h"
 #include "core/png.h"

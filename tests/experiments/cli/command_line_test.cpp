@@ -1,5 +1,5 @@
 // What `ssrlab` says to mistakes and faults: one sentence, exit code 2 or 3, nothing half-written.
-#include "core/exr.h"
+#include "core/exr/exr.h"
 #include "core/json.h"
 #include "tests/experiments/cli/command_line_fixture.h"
 

@@ -1,7 +1,7 @@
 // Disks that are full, folders that cannot be written, processes that are killed: what is said, and that nothing is
 // lost.
 #include "core/elapsed.h"
-#include "core/exr.h"
+#include "core/exr/exr.h"
 #include "core/json.h"
 #include "tests/experiments/cli/command_line_fixture.h"
 #include "variants/registry.h"

@@ -1,7 +1,8 @@
 #include "tests/experiments/report/report_fixture.h"
 
-#include "core/exr.h"
+#include "core/exr/exr.h"
 #include "core/files.h"
+#include "experiments/results/cells/study_rows.h"
 #include "experiments/results/evaluation.h"
 #include "experiments/results/tables/manifest.h"
 #include "experiments/results/cells/study_rows.h"

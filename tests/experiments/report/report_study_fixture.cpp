@@ -1,11 +1,12 @@
 // Over 400 lines: one made-up study, every part of which the report shows beside the others.
 #include "tests/experiments/report/report_study_fixture.h"
 
-#include "core/exr.h"
+#include "core/exr/exr.h"
 #include "core/files.h"
+#include "experiments/results/cells/study_rows.h"
+#include "experiments/results/evaluation.h"
 #include "experiments/results/verdicts/effects/effects.h"
 #include "experiments/results/verdicts/effects/time_effects.h"
-#include "experiments/results/evaluation.h"
 #include "experiments/results/verdicts/interval.h"
 #include "experiments/results/tables/manifest.h"
 #include "experiments/results/cells/study_rows.h"

@@ -1,14 +1,14 @@
 #include "experiments/report/report.h"
 
 #include "core/error.h"
-#include "core/exr.h"
+#include "core/exr/exr.h"
 #include "core/files.h"
 #include "core/json.h"
-#include "experiments/results/verdicts/interval.h"
-#include "experiments/results/verdicts/summary.h"
 #include "experiments/report/report_images.h"
 #include "experiments/report/report_warnings.h"
 #include "experiments/results/tables/csv.h"
+#include "experiments/results/verdicts/interval.h"
+#include "experiments/results/verdicts/summary.h"
 #include "tests/error_message.h"
 #include "tests/experiments/report/report_fixture.h"
 

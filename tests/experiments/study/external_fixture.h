@@ -1,5 +1,5 @@
 #pragma once
-#include "core/exr.h"
+#include "core/exr/exr.h"
 #include "core/json.h"
 #include "tests/experiments/study/study_fixture.h"
 

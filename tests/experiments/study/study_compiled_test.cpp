@@ -1,6 +1,6 @@
 // What GPUs' compilers make of a study's passes: compiled.csv.
 #include "core/files.h"
-#include "core/gpu/chips/chip_compiler.h"
+#include "experiments/gpu_costs/chips/chip_compiler.h"
 #include "experiments/results/cells/cell_store.h"
 #include "tests/experiments/study/study_fixture.h"
 

@@ -82,7 +82,7 @@ class Answers:
         elif study.costs == "estimated":
             lines.append(
                 f"{markdown_code(study.unit)}: microseconds that the chip would take for a technique's own stages. **No GPU ran anything**: what is assumed stands in "
-                "core/gpu/chips/README.md, and no interval holds whether that is so. Those of costs hold the sampling of invocations, and code of which it is not known whether it ran. "
+                "experiments/gpu_costs/chips/README.md, and no interval holds whether that is so. Those of costs hold the sampling of invocations, and code of which it is not known whether it ran. "
                 f"**What the model leaves open is wider**: {study.asked['model_range']}. Two costs closer than {study.asked['model_decides_from']:g} times are not decided, and a point surely fits what it would fit at the range's end."
             )
         else:

@@ -2,7 +2,7 @@
 
 const compiledChoice = {};
 
-// Why a SIMD holds no more waves: Occupancy of core/gpu/chips/occupancy.h.
+// Why a SIMD holds no more waves: Occupancy of experiments/gpu_costs/chips/occupancy.h.
 const limitColors = {
     "nothing": "#009e73",
     "registers": "#e69f00",

@@ -2,7 +2,7 @@
 
 const estimateChoice = {};
 
-/// ChipTimePart of core/gpu/chips/chip_time.h: `bound` by its name, `column` of what it takes alone.
+/// ChipTimePart of experiments/gpu_costs/chips/chip_time.h: `bound` by its name, `column` of what it takes alone.
 const estimateParts = [
     ["vector", "vector", "vector instructions", 0], ["scalar", "scalar", "scalar instructions", 5],
     ["shared_memory", "sharedMemory", "shared memory", 3], ["textures", "textures", "textures and buffers", 4],

@@ -1,6 +1,6 @@
 #pragma once
-#include "core/variant.h"
 #include "experiments/study/config/config.h"
+#include "variants/variant.h"
 
 #include <memory>
 

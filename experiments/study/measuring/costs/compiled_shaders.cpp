@@ -1,7 +1,7 @@
 #include "experiments/study/measuring/costs/compiled_shaders.h"
 
 #include "core/error.h"
-#include "core/gpu/chips/occupancy.h"
+#include "experiments/gpu_costs/chips/occupancy.h"
 #include "experiments/study/measuring/render_variant.h"
 
 #include <algorithm>
@@ -21,10 +21,13 @@ CompiledRow row_of(const StagePipelines::Entry& entry, const std::string& shot, 
 
 void StagePipelines::collect_from(PassGraph& graph) {
     graph.use_gpu_forms(true);
-    graph.observe_pipelines([this](const std::string& stage, const PipelineRecipe& recipe) {
-        if (seen_.insert(stage + '\n' + bytes_of({recipe})).second)
-            entries_.push_back({.stage = stage, .number = count_[stage]++, .recipe = recipe});
-    });
+    graph.watch(this);
+}
+
+std::optional<InstrumentedPipeline> StagePipelines::before(const PassRun& run) {
+    if (seen_.insert(run.stage + '\n' + bytes_of({run.recipe})).second)
+        entries_.push_back({.stage = run.stage, .number = count_[run.stage]++, .recipe = run.recipe});
+    return {};
 }
 
 StagePipelines stage_pipelines(Device& device, const Shot& shot, FrameStore& store,

@@ -1,15 +1,16 @@
 #pragma once
-#include "core/gpu/chips/chip_compiler.h"
+#include "core/gpu/passes/pass_watcher.h"
+#include "experiments/gpu_costs/chips/chip_compiler.h"
+#include "experiments/results/cells/cell.h"
 #include "experiments/study/config/config.h"
 #include "experiments/study/config/shots/shot.h"
-#include "experiments/results/cells/cell.h"
 #include "experiments/study/measuring/frames/frame_source.h"
 
 #include <map>
 #include <set>
 
 /// The pipelines that stages of a frame use, each once, in the order in which they first ran.
-class StagePipelines {
+class StagePipelines : private PassWatcher {
 public:
     /// Hears of all passes of `graph` from now on, which take the forms that they have for GPUs. It must outlive what
     /// the graph renders.
@@ -23,6 +24,8 @@ public:
     const std::vector<Entry>& entries() const { return entries_; }
 
 private:
+    std::optional<InstrumentedPipeline> before(const PassRun& run) override;
+
     std::vector<Entry> entries_;
     std::set<std::string> seen_;
     std::map<std::string, unsigned> count_;

@@ -4,7 +4,7 @@
     cost_agreement.py RESULTS [--costs RESULTS]    costs.csv and estimates.csv of another folder, of the same shots and points
     cost_agreement.py RESULTS --without STAGE ...  without stages (* stands for any text); a point is the sum of its others
     cost_agreement.py RESULTS --by-shot            a row for each shot, too
-    cost_agreement.py RESULTS --model-range        the range of core/gpu/chips/model_range.h, of these stages and all chips
+    cost_agreement.py RESULTS --model-range        the range of experiments/gpu_costs/chips/model_range.h, of these stages and all chips
 
 A point of which no stage of its own is left in a shot is left out there: what remains is what techniques share (a texture of noise, a pyramid), no work that
 the point would be compared by. For each cost, over the shots: Kendall's rank correlation with the median times of the points, and of their stages; of the pairs

@@ -1,6 +1,7 @@
 #include "experiments/study/measuring/costs/costs.h"
 
 #include "core/gpu/device.h"
+#include "experiments/gpu_costs/pass_cost.h"
 #include "experiments/study/measuring/costs/played_shot.h"
 #include "variants/registry.h"
 
@@ -12,10 +13,11 @@ std::vector<CostRow> count_costs(Device& device, const Shot& shot, FrameStore& s
     if (variant->uses_scene_data()) return {};
     if (!keep_all) variant->leave_out(shot.facts);
     PassGraph graph(device, shot.config.extent);
+    CostCounter counter;
     play_shot(
-        graph, *variant, shot, store, lit, config, [&] { graph.count_costs(true); }, report);
+        graph, *variant, shot, store, lit, config, [&] { graph.watch(&counter); }, report);
 
-    std::vector<PassCost> costs = graph.costs();
+    std::vector<PassCost> costs = counter.costs();
     PassCost total{.stage = "total"};
     for (const PassCost& cost : costs) total.add(cost);
     costs.push_back(total);

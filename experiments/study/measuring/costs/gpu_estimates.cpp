@@ -1,8 +1,8 @@
 #include "experiments/study/measuring/costs/gpu_estimates.h"
 
 #include "core/error.h"
-#include "core/gpu/chips/chip_time.h"
-#include "core/gpu/chips/shader_work.h"
+#include "experiments/gpu_costs/chips/chip_time.h"
+#include "experiments/gpu_costs/chips/shader_work.h"
 
 #include <algorithm>
 #include <cmath>

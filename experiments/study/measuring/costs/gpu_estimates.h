@@ -3,7 +3,8 @@
 #include "experiments/study/measuring/costs/traced_frame.h"
 
 // How long a GPU that is not there would take: what its compiler makes of each pass, as often as waves of the chip's
-// width would run each block of it, against the chip's published rates. core/gpu/chips/README.md says what is assumed.
+// width would run each block of it, against the chip's published rates. experiments/gpu_costs/chips/README.md
+// says what is assumed.
 
 /// Rows of estimates.csv, of the shot of that name: the stages of the frame, and their `total`. A chip that cannot be
 /// asked, a shader that it refuses and a chip without published rates are rows without numbers.

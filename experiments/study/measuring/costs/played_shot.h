@@ -1,8 +1,8 @@
 #pragma once
-#include "core/variant.h"
 #include "experiments/study/config/config.h"
 #include "experiments/study/config/shots/shot.h"
 #include "experiments/study/measuring/frames/frame_source.h"
+#include "variants/variant.h"
 
 #include <functional>
 

@@ -1,7 +1,7 @@
 #include "experiments/study/measuring/costs/traced_frame.h"
 
 #include "core/gpu/device.h"
-#include "core/gpu/waves/traced_shader.h"
+#include "experiments/gpu_costs/waves/pass_tracer.h"
 #include "experiments/study/measuring/costs/played_shot.h"
 #include "variants/registry.h"
 
@@ -13,6 +13,7 @@ constexpr std::array wave_widths = {32u, 64u};
 
 TracedFrame::Pass traced_pass(const PassTrace& trace) {
     TracedFrame::Pass pass{.stage = trace.stage,
+                           .original = trace.original,
                            .recipe = trace.recipe,
                            .flow = flow_of(trace.recipe),
                            .groups = trace.layout.groups,
@@ -37,20 +38,14 @@ TracedFrame trace_last_frame(Device& device, const Shot& shot, FrameStore& store
         const std::unique_ptr<Variant> variant = make_variant(point.variant, point.parameters, point.preset);
         if (variant->uses_scene_data()) return {};
         if (!keep_all) variant->leave_out(shot.facts);
-        PipelineRecipe original;  // of the pass that is traced next
         PassGraph graph(device, shot.config.extent);
         graph.use_gpu_forms(true);
-        const auto watch = [&] {
-            if (!is_traced) return graph.count_costs(true);
-            graph.observe_pipelines([&](const std::string&, const PipelineRecipe& recipe) { original = recipe; });
-            graph.trace([&](const PassTrace& trace) {
-                result.passes.push_back(traced_pass(trace));
-                result.passes.back().original = original;
-            });
-        };
+        CostCounter counter;
+        PassTracer tracer([&](const PassTrace& trace) { result.passes.push_back(traced_pass(trace)); });
+        const auto watch = [&] { graph.watch(is_traced ? static_cast<PassWatcher*>(&tracer) : &counter); };
         play_shot(graph, *variant, shot, store, lit, point, watch,
                   [&](double share) { report((double(is_traced) + share) / 2); });
-        if (!is_traced) result.costs = graph.costs();
+        if (!is_traced) result.costs = counter.costs();
     }
     return result;
 }

@@ -1,6 +1,6 @@
 #pragma once
-#include "core/gpu/pass_cost.h"
-#include "core/gpu/waves/wave_replay.h"
+#include "experiments/gpu_costs/pass_cost.h"
+#include "experiments/gpu_costs/waves/wave_replay.h"
 #include "experiments/study/config/config.h"
 #include "experiments/study/config/shots/shot.h"
 #include "experiments/study/measuring/frames/frame_source.h"

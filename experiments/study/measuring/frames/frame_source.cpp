@@ -25,7 +25,7 @@ public:
                        .is_still = shot.facts.is_still(),
                        .keep_all = keep_all}),
           compositor_(rasterizer_.graph()) {
-        rasterizer_.graph().set_precision(gbuffer_precision(shot.config.gbuffer_formats));
+        rasterizer_.graph().set_changes(gbuffer_changes(shot.config.gbuffer_formats));
     }
 
     GBuffer render(const FrameStep& step, unsigned seed, const HostImage& lit) override {
@@ -59,7 +59,7 @@ public:
           lit_has_environment_(shot.config.lit_has_environment),
           graph_(device, shot.config.extent),
           compositor_(graph_) {
-        graph_.set_precision(gbuffer_precision(shot.config.gbuffer_formats));
+        graph_.set_changes(gbuffer_changes(shot.config.gbuffer_formats));
         if (capture.environment()) environment_.emplace(graph_, *capture.environment(), false);
     }
 
@@ -114,7 +114,7 @@ struct FrameStore::Stored {
 
     Stored(Device& device, const HostGBuffer& host, GBufferFormats formats)
         : graph(device, host.extent()), camera(host.camera) {
-        graph.set_precision(gbuffer_precision(formats));
+        graph.set_changes(gbuffer_changes(formats));
         gbuffer = upload_gbuffer(graph, host);
     }
 };

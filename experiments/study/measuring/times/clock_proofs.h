@@ -1,5 +1,5 @@
 #pragma once
-#include "core/gpu/clock.h"
+#include "core/gpu/passes/clock.h"
 
 #include <filesystem>
 #include <functional>

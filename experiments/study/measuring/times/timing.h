@@ -1,9 +1,9 @@
 #pragma once
 #include "core/cpu_times.h"
-#include "core/gpu/clock.h"
+#include "core/gpu/passes/clock.h"
+#include "experiments/results/cells/cell.h"
 #include "experiments/study/config/config.h"
 #include "experiments/study/config/shots/shot.h"
-#include "experiments/results/cells/cell.h"
 #include "experiments/study/measuring/frames/frame_source.h"
 #include "metrics/median_interval.h"
 

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "experiments/study/measuring/rays/judged_hits.h"
+#include "experiments/study/stability/precision/double_shader.h"
 #include "variants/common/repaired_inputs.h"
 #include "variants/tracers/outcome.h"
 
@@ -15,17 +16,17 @@ constexpr float largest_half = 65504.0f, least_normal_half = 6.103515625e-5f;  /
 Format in_float(const std::string&, Format asked) { return as_float32(asked); }
 
 /// All images in float but `image`, which is in half or as the technique asks for it.
-Precision formats_with(const std::string& image, PrecisionKind kind) {
+PassChanges formats_with(const std::string& image, PrecisionKind kind) {
     return {.format_of =
                 [image, kind](const std::string& name, Format asked) {
                     if (name != image) return as_float32(asked);
                     return kind == PrecisionKind::half ? as_float16(asked) : asked;
                 },
-            .is_double = {}};
+            .glsl_of = {}};
 }
 
-Precision in_double(std::function<bool(const std::string&)> is_double) {
-    return {.format_of = in_float, .is_double = std::move(is_double)};
+PassChanges double_in(std::function<bool(const std::string&)> is_double) {
+    return {.format_of = in_float, .glsl_of = double_where(std::move(is_double))};
 }
 
 size_t non_finite_pixels(const HostImage& image) {
@@ -123,7 +124,7 @@ void PrecisionJudge::judge_format(const Written& what, PrecisionKind kind) {
         }
     }
     if (values) row.above_half = double(above) / double(values), row.below_half = double(below) / double(values);
-    if (auto run = this->run({.precision = formats_with(what.image, kind)}, row))
+    if (auto run = this->run({.changes = formats_with(what.image, kind)}, row))
         row.set(change_of_values(floats_, *run, is_meant));
     add(row);
 }
@@ -134,11 +135,11 @@ void PrecisionJudge::judge_formats(const std::vector<Written>& written, const Pr
     const auto is_written = [&](const std::string& image) {
         return std::ranges::count(written, image, &Written::image) > 0;
     };
-    const Precision halves{
+    const PassChanges halves{
         .format_of = [&](const std::string& image,
                          Format asked) { return is_written(image) ? as_float16(asked) : as_float32(asked); },
-        .is_double = {}};
-    run({.precision = halves}, all);
+        .glsl_of = {}};
+    run({.changes = halves}, all);
     add(all);
     for (const Written& what : written) {
         if (as_float32(what.format) == as_float16(what.format)) continue;  // holds no fractions
@@ -160,7 +161,7 @@ void PrecisionJudge::judge_inputs() {
         {"motion", {"motion"}}};
     for (const auto& [name, images] : groups) {
         PrecisionRow row{.kind = PrecisionKind::input, .stage = "gbuffer", .image = name, .format = "half"};
-        run({.precision = {in_float, {}}, .half_inputs = images}, row);
+        run({.changes = {in_float, {}}, .half_inputs = images}, row);
         add(row);
     }
 }
@@ -185,7 +186,7 @@ void PrecisionJudge::judge_rays(const std::string& stage, const PrecisionRun& ru
 
 void PrecisionJudge::judge_march(const std::string& stage, const RecordedRays& rays) {
     PrecisionRow row{.kind = PrecisionKind::march, .stage = stage, .image = "distance"};
-    const auto run = this->run({.precision = in_double([&](const std::string& s) { return s == stage; }),
+    const auto run = this->run({.changes = double_in([&](const std::string& s) { return s == stage; }),
                                 .is_recording = true,
                                 .replayed = {rays}},
                                row);
@@ -213,8 +214,7 @@ void PrecisionJudge::judge_stage(const std::string& stage) {
     PrecisionRow row{.kind = PrecisionKind::arithmetic, .stage = stage};
     const RecordedRays* rays = rays_of(floats_, stage);
     auto run = this->run(
-        {.precision = in_double([&](const std::string& s) { return s == stage; }), .is_recording = rays != nullptr},
-        row);
+        {.changes = double_in([&](const std::string& s) { return s == stage; }), .is_recording = rays != nullptr}, row);
     if (!run) return add(row);
     std::vector<std::string> images;
     for (const StageValue& value : floats_.values)
@@ -236,7 +236,7 @@ void PrecisionJudge::judge_stage(const std::string& stage) {
 std::vector<PrecisionRow> PrecisionJudge::rows() {
     PrecisionRow method{.kind = PrecisionKind::method};
     const auto own = run({}, method);
-    auto floats = own ? run({.precision = {in_float, {}}, .is_recording = true}, method) : std::nullopt;
+    auto floats = own ? run({.changes = {in_float, {}}, .is_recording = true}, method) : std::nullopt;
     if (!floats) {
         add(method);
         return rows_;
@@ -250,7 +250,7 @@ std::vector<PrecisionRow> PrecisionJudge::rows() {
     for (const std::string& stage : floats_.stages)
         if (stage != RepairedInputs::stage) judge_stage(stage);
     PrecisionRow all{.kind = PrecisionKind::arithmetic};
-    run({.precision = in_double([](const std::string&) { return true; })}, all);
+    run({.changes = double_in([](const std::string&) { return true; })}, all);
     add(all);
     return rows_;
 }

@@ -1,5 +1,6 @@
 #include "core/digits.h"
 #include "core/shared/brdf.h"
+#include "experiments/study/stability/precision/double_shader.h"
 #include "experiments/study/stability/precision/precision.h"
 
 namespace {
@@ -10,7 +11,7 @@ public:
     LobePasses(Device& device, float roughness, bool is_double)
         : graph_(device, {256, 256}), alpha_(ggx_alpha(roughness)) {
         graph_.begin_frame(CameraData{}, no_parameters_, {});
-        graph_.set_precision({.format_of = {}, .is_double = [=](const std::string&) { return is_double; }});
+        graph_.set_changes({.format_of = {}, .glsl_of = double_where([=](const std::string&) { return is_double; })});
     }
     HostImage drawn_directions() {
         graph_.compute("experiments/study/stability/precision/lobe_draws.comp")

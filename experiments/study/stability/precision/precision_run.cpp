@@ -17,10 +17,10 @@ struct RoundedInputs {
 
 RoundedInputs rounded_inputs(Device& device, const CaseFrame& frame, const std::set<std::string>& in_half) {
     RoundedInputs rounded{std::make_unique<PassGraph>(device, frame.host->extent()), {}};
-    rounded.graph->set_precision(
+    rounded.graph->set_changes(
         {.format_of = [&in_half](const std::string& image,
                                  Format asked) { return in_half.contains(image) ? as_float16(asked) : asked; },
-         .is_double = {}});
+         .glsl_of = {}});
     rounded.gbuffer = upload_gbuffer(*rounded.graph, *frame.host);
     rounded.gbuffer.environment = frame.gbuffer.environment;
     return rounded;
@@ -60,10 +60,10 @@ PrecisionRun run_precisely(Device& device, const VariantConfig& point, const Cas
                     run.values.push_back(std::move(value));
             }
         });
-        graph.set_precision(wish.precision);
+        graph.set_changes(wish.changes);
         const Reflections reflections = technique.render(frame.camera, stability_seed, gbuffer);
         graph.observe({});
-        graph.set_precision({});
+        graph.set_changes({});
         const Composite composite = technique.compositor->render(frame.gbuffer, reflections);
         if (is_last) run.specular = channels_of(graph.download(composite.specular), 0, 3);
     }

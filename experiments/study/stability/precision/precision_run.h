@@ -6,7 +6,7 @@
 
 /// What one run changes about the arithmetic of a technique.
 struct PrecisionWish {
-    Precision precision;
+    PassChanges changes;
     std::set<std::string> half_inputs;   ///< members of GBuffer that are stored in half; all others in float
     bool is_recording = false;           ///< the rays of the last frame
     std::vector<RecordedRays> replayed;  ///< of the last frame, in place of its own

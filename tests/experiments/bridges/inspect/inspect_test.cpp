@@ -1,13 +1,13 @@
 // What `ssrlab inspect` says of small scenes and images whose facts are known, and which shares warnings get.
 #include "core/error.h"
-#include "core/exr.h"
+#include "core/exr/exr.h"
 #include "core/files.h"
 #include "core/png.h"
-#include "experiments/study/config/shots/scene_warnings.h"
 #include "experiments/bridges/inspect/describe.h"
 #include "experiments/bridges/inspect/first_view_images.h"
 #include "experiments/bridges/inspect/inspect_hint.h"
 #include "experiments/bridges/inspect/page.h"
+#include "experiments/study/config/shots/scene_warnings.h"
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>

@@ -1,7 +1,7 @@
 // What `ssrlab scene-for` writes: the geometry and the materials that the scene draws, and the light that images of
 // other programs are compared with.
 #include "core/error.h"
-#include "core/exr.h"
+#include "core/exr/exr.h"
 #include "core/gbuffer/gbuffer_transfer.h"
 #include "core/gbuffer/rasterizer.h"
 #include "core/gpu/device.h"

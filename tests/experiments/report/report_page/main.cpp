@@ -1,5 +1,5 @@
 #include "core/error.h"
-#include "core/exr.h"
+#include "core/exr/exr.h"
 #include "experiments/cli/diff_command.h"
 #include "experiments/report/report.h"
 #include "metrics/flip.h"

@@ -1,6 +1,6 @@
 // A results folder over its life: whose it is, what is done again, what is left over, and who made what.
 #include "core/error.h"
-#include "core/exr.h"
+#include "core/exr/exr.h"
 #include "core/json.h"
 #include "experiments/report/report.h"
 #include "experiments/results/cells/cell_store.h"

@@ -1,7 +1,7 @@
 // Error against cost: the point that stands for a technique, the front, and what changes are worth, of made-up tables.
 #include "experiments/results/tradeoff/tradeoff.h"
 
-#include "core/gpu/chips/model_range.h"
+#include "experiments/gpu_costs/chips/model_range.h"
 #include "experiments/results/verdicts/interval.h"
 #include "tests/error_message.h"
 

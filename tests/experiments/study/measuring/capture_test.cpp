@@ -2,7 +2,7 @@
 // engine.
 #include "experiments/study/measuring/frames/capture.h"
 #include "core/error.h"
-#include "core/exr.h"
+#include "core/exr/exr.h"
 #include "core/files.h"
 #include "core/gbuffer/gbuffer_checks.h"
 #include "core/gbuffer/pixel_position.h"

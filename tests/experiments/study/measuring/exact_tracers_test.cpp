@@ -244,14 +244,15 @@ TEST_F(ExactTracers, CountingChangesNoBitAndGivesTheSameTwice) {
     Player player("passing_pillars", small);
     const auto technique = [&] { return Probed(player, "amd_sssr", {}, "corrected"); };
     Probed plain = technique(), counted = technique(), again = technique();
+    CostCounter counter, another;
     for (unsigned frame = 0; frame < 2; ++frame) {
         player.play(frame);
-        for (Probed* probed : {&counted, &again}) probed->graph.count_costs(frame == 1);
+        if (frame == 1) counted.graph.watch(&counter), again.graph.watch(&another);
         const Reflections a = plain.render(5), b = counted.render(5);
         again.render(5);
         EXPECT_EQ(differing_bits(plain.graph.download(a.radiance), counted.graph.download(b.radiance)), 0u);
     }
-    const std::vector<PassCost> costs = counted.graph.costs(), twice = again.graph.costs();
+    const std::vector<PassCost> costs = counter.costs(), twice = another.costs();
     ASSERT_GT(costs.size(), 5u);
     ASSERT_EQ(costs.size(), twice.size());
     for (size_t i = 0; i < costs.size(); ++i)
@@ -279,9 +280,10 @@ TEST_F(ExactTracers, CountedFetchesAreThoseOfTheRecordedRays) {
     }
     EXPECT_GT(of_rays, expected / 2);
     probed.probe.is_recording = false;
-    probed.graph.count_costs(true);
+    CostCounter counter;
+    probed.graph.watch(&counter);
     probed.render();
-    const std::vector<PassCost> costs = probed.graph.costs();
+    const std::vector<PassCost> costs = counter.costs();
     ASSERT_EQ(costs.at(0).stage, "mcguire_dda/trace");
     EXPECT_EQ(costs[0].fetches, expected);
     EXPECT_EQ(costs[0].invocations, 160u * 96) << "by 8 x 8 pixels";

@@ -2,6 +2,7 @@
 #include "core/files.h"
 #include "core/scene/load_scene.h"
 #include "experiments/study/config/points/all_points.h"
+#include "experiments/study/stability/precision/double_shader.h"
 #include "tests/variants/variant_fixture.h"
 
 #include <algorithm>
@@ -27,8 +28,9 @@ struct PrecisionStudy : VariantTest {
         std::filesystem::remove_all(folder);
         VariantTest::TearDown();
     }
-    static Precision floats(std::function<bool(const std::string&)> is_double = {}) {
-        return {[](const std::string&, Format asked) { return as_float32(asked); }, std::move(is_double)};
+    static PassChanges floats(std::function<bool(const std::string&)> is_double = {}) {
+        const auto as_float = [](const std::string&, Format asked) { return as_float32(asked); };
+        return {as_float, is_double ? double_where(std::move(is_double)) : nullptr};
     }
     PrecisionRun run(const PrecisionWish& wish) { return run_precisely(device(), mirror, frames(), wish); }
 };
@@ -66,7 +68,7 @@ TEST_F(PrecisionStudy, DifferencesAreRelativeAndLeaveOutWhatIsNothing) {
 }
 
 TEST_F(PrecisionStudy, NothingChangesByItself) {
-    const PrecisionRun a = run({.precision = floats()}), b = run({.precision = floats()});
+    const PrecisionRun a = run({.changes = floats()}), b = run({.changes = floats()});
     EXPECT_EQ(a.specular.values, b.specular.values);
     ASSERT_EQ(a.values.size(), 3u);  // hit; radiance, confidence
     for (size_t i = 0; i < a.values.size(); ++i) {
@@ -77,8 +79,8 @@ TEST_F(PrecisionStudy, NothingChangesByItself) {
 
 /// Device depth in half, and nothing else: standard depths of this scene lie near 1, where halves are 2^-11 apart.
 TEST_F(PrecisionStudy, InputsAreStoredInHalfOneByOne) {
-    const PrecisionRun narrow = run({.precision = floats(), .half_inputs = {"depth"}, .is_recording = true}),
-                       wide = run({.precision = floats(), .is_recording = true});
+    const PrecisionRun narrow = run({.changes = floats(), .half_inputs = {"depth"}, .is_recording = true}),
+                       wide = run({.changes = floats(), .is_recording = true});
     const HostImage& depth = frames().steps[0].host->depth;
     size_t rays = 0, moved = 0;
     for (size_t i = 0; i < wide.rays[0].rays.size(); ++i) {
@@ -96,11 +98,11 @@ TEST_F(PrecisionStudy, InputsAreStoredInHalfOneByOne) {
 /// Recorded rays that are traced again are those rays to the bit; in the double march they end about where they did,
 /// and not everywhere to the bit.
 TEST_F(PrecisionStudy, AMarchIsComparedOnTheSameRays) {
-    const PrecisionRun narrow = run({.precision = floats(), .is_recording = true});
+    const PrecisionRun narrow = run({.changes = floats(), .is_recording = true});
     ASSERT_EQ(narrow.rays.size(), 1u);
     const auto in_double = floats([](const std::string& stage) { return stage == "mcguire_dda/trace"; });
-    const PrecisionRun drawn = run({.precision = in_double, .is_recording = true}),
-                       replayed = run({.precision = in_double, .is_recording = true, .replayed = narrow.rays});
+    const PrecisionRun drawn = run({.changes = in_double, .is_recording = true}),
+                       replayed = run({.changes = in_double, .is_recording = true, .replayed = narrow.rays});
     size_t rays = 0, turned = 0, longer = 0, elsewhere = 0;
     for (size_t i = 0; i < narrow.rays[0].rays.size(); ++i) {
         const RayRecord &a = narrow.rays[0].rays[i], &b = replayed.rays[0].rays[i], &c = drawn.rays[0].rays[i];

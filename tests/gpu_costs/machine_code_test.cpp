@@ -1,0 +1,88 @@
+#include "experiments/gpu_costs/chips/machine_code.h"
+#include "core/error.h"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+const ChipRates rates = *chip_rates("navi21");
+
+/// A store of the mark of that number.
+std::string mark(unsigned number) {
+    return "\tbuffer_store_dword v2, off, s[8:11], 0 offset:" + std::to_string(first_mark_offset + 4 * number) +
+           " glc ; e0704400\n";
+}
+
+/// Marks of as many blocks of a shader, each at its own place.
+MarkedShader marks(unsigned count) {
+    MarkedShader result{.recipe = {}, .blocks = {}, .shader_blocks = count};
+    for (unsigned i = 0; i < count; ++i) result.blocks.push_back(i);
+    return result;
+}
+
+void expect_runs(const BlockRuns& runs, unsigned block, double share, bool is_bound) {
+    EXPECT_EQ(runs.shader_block, block);
+    EXPECT_DOUBLE_EQ(runs.share, share);
+    EXPECT_EQ(runs.is_bound, is_bound);
+}
+
+}  // namespace
+
+TEST(MachineCode, WorkIsThatOfItsInstructions) {
+    const MachineCode code = machine_code_of(
+        "BB0:\n\tv_add_f32_e32 v0, v1, v2 ; 06000302\n\t(then repeated 3 times)\n\tv_rcp_f32_e32 v0, v0\n"
+        "\tv_mul_lo_u32 v5, s4, v0\n\tv_fma_f64 v[0:1], v[2:3], v[4:5], v[6:7]\n\ts_add_u32 s1, s1, 1\n"
+        "\ts_load_dwordx4 s[8:11], s[2:3], 0x80\n\ts_waitcnt lgkmcnt(0)\n\tds_read_b128 v[0:3], v9\n"
+        "\timage_load v0, v[2:3], s[8:15] dmask:0x1 dim:SQ_RSRC_IMG_2D unorm\n"
+        "\timage_sample_lz v5, v[6:7], s[8:15], s[20:23] dmask:0x2 dim:SQ_RSRC_IMG_2D\n"
+        "\timage_store v[0:3], v[2:3], s[8:15] dmask:0xf dim:SQ_RSRC_IMG_2D unorm\n"
+        "\tbuffer_load_dwordx2 v[4:5], v6, s[8:11], 0 offen\n\texp mrt0 v0, v1, v2, v3 done vm\n\ts_endpgm\n",
+        64, rates);
+    ASSERT_EQ(code.blocks.size(), 1u);
+    const ChipWork& work = code.blocks[0].work;
+    EXPECT_EQ(work.vector, 4 * 2 + 4 * 2 + 4 * 2 + 16 * 2);  // two halves of a wave of 64
+    EXPECT_EQ(work.scalar, 2);
+    EXPECT_EQ(work.shared, 64 * 16 / 128);
+    EXPECT_EQ(work.loads, 64);
+    EXPECT_EQ(work.samples, 64);
+    EXPECT_EQ(work.stores, 64);
+    EXPECT_EQ(work.buffers, 128);
+    EXPECT_EQ(work.exports, 64);
+    EXPECT_EQ(code.blocks[0].instructions, 17u);
+    EXPECT_TRUE(code.blocks[0].successors.empty());
+    EXPECT_THROW(machine_code_of("nothing of the kind\n", 64, rates), Error);
+    EXPECT_THROW(machine_code_of("BB0:\n\ts_branch BB7\n", 64, rates), Error);
+}
+
+/// BB0 jumps over BB1 where no lane is left; BB2 follows both; BB3 is a loop that BB4 ends.
+TEST(MachineCode, BlocksWithoutMarksRunAsThoseThatLeadToThem) {
+    const MachineCode code = machine_code_of("BB0:\n" + mark(0) +
+                                                 "\ts_cbranch_execz BB2\nBB1:\n\tv_mov_b32 v0, v1\nBB2:\n"
+                                                 "\tv_mov_b32 v0, v1\nBB3:\n" +
+                                                 mark(1) +
+                                                 "\ts_cbranch_scc0 BB5\nBB4:\n"
+                                                 "\tv_mov_b32 v0, v1\n\ts_branch BB3\nBB5:\n\ts_endpgm\n",
+                                             64, rates);
+    const std::vector<BlockRuns> runs = runs_of(code, marks(2));
+    ASSERT_EQ(runs.size(), 6u);
+    expect_runs(runs[0], 0, 1, false);
+    expect_runs(runs[1], 0, 1, true);   // may be jumped over
+    expect_runs(runs[2], 0, 1, false);  // is not
+    expect_runs(runs[3], 1, 1, false);
+    expect_runs(runs[4], 1, 1, true);   // a loop's head runs once more than its body
+    expect_runs(runs[5], 0, 1, false);  // behind the loop: as often as what led to it
+    EXPECT_TRUE(have_same_flow(code, code));
+}
+
+/// A loop of three turns that was unrolled: each copy has a third, and a block that also starts something else is that.
+TEST(MachineCode, CopiesOfAMarkShareItsRuns) {
+    const MachineCode code = machine_code_of("BB0:\n" + mark(0) + mark(1) + "\ts_cbranch_execz BB3\nBB1:\n" + mark(1) +
+                                                 "\ts_cbranch_execz BB3\nBB2:\n" + mark(1) + "BB3:\n\ts_endpgm\n",
+                                             64, rates);
+    const std::vector<BlockRuns> runs = runs_of(code, marks(2));
+    expect_runs(runs[0], 0, 1, false);
+    expect_runs(runs[1], 1, 1.0 / 3, false);
+    expect_runs(runs[2], 1, 1.0 / 3, false);
+    expect_runs(runs[3], 0, 1, false);
+    EXPECT_THROW(runs_of(code, marks(1)), Error);  // a store that is no mark of the shader
+}
