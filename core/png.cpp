@@ -15,10 +15,14 @@ float srgb_from_linear(float linear) {
     return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
 }
 
-float linear_from_srgb(float code) {
-    if (code < 0.0f) return -linear_from_srgb(-code);
-    return code <= 0.04045f ? code / 12.92f : std::pow((code + 0.055f) / 1.055f, 2.4f);
+template <class Real>
+static Real decoded_srgb(Real code) {
+    if (code < 0) return -decoded_srgb(-code);
+    return code <= Real(0.04045) ? code / Real(12.92) : std::pow((code + Real(0.055)) / Real(1.055), Real(2.4));
 }
+
+float linear_from_srgb(float code) { return decoded_srgb(code); }
+double linear_from_srgb(double code) { return decoded_srgb(code); }
 
 void write_png(const std::filesystem::path& file, const HostImage& rgb, float exposure_ev) {
     if (rgb.pixel_count() == 0) fail("cannot write ", file.string(), ": the image has zero size");

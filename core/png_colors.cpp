@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/icc_profile.h"
 #include "core/near_miss.h"
+#include "core/png.h"
 
 #include <zlib.h>
 #include <algorithm>
@@ -39,7 +40,7 @@ std::map<std::string, Bytes> chunks_before_pixels(Bytes file) {
     return chunks;
 }
 
-double srgb_curve(double code) { return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4); }
+double srgb_curve(double code) { return linear_from_srgb(code); }
 
 /// ITU-T H.273, table 3, values 1, 6, 14 and 15: the inverse of a camera's curve.
 double video_curve(double code) { return code < 0.081 ? code / 4.5 : std::pow((code + 0.099) / 1.099, 1 / 0.45); }

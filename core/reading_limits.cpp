@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/near_miss.h"
+#include "core/number_text.h"
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -21,9 +22,7 @@ std::string size_text(double bytes) {
     const char* const units[] = {"bytes", "kB", "MB", "GB", "TB", "PB", "EB"};
     size_t unit = 0;
     for (; bytes >= 999.5 && unit + 1 < std::size(units); ++unit) bytes /= 1000;
-    char text[64];
-    std::snprintf(text, sizeof text, "%.3g %s", bytes, units[unit]);
-    return text;
+    return number_text(bytes, 3) + " " + units[unit];
 }
 
 const char* kind_of(mode_t mode) {

@@ -1,8 +1,8 @@
 #include "core/gbuffer/scene_facts.h"
+#include "core/number_text.h"
 #include "core/shared/brdf.h"
 
 #include <algorithm>
-#include <cstdio>
 
 PixelFacts pixel_facts(const HostGBuffer& g) {
     PixelFacts facts;
@@ -31,11 +31,7 @@ PixelFacts pixel_facts(const HostGBuffer& g) {
 }
 
 std::vector<SceneFact> list_facts(const PixelFacts& facts) {
-    const auto percent = [](float share) {
-        char text[32];
-        std::snprintf(text, sizeof text, "%.1f %%", 100 * share);
-        return std::string(text);
-    };
+    const auto percent = [](float share) { return fixed_text(100 * share, 1) + " %"; };
     return {{"background_pixels", percent(facts.background), "nothing is drawn there"},
             {"reflective_pixels", percent(facts.reflective), "their specular reflectance is not zero"},
             {"mirror_pixels", percent(facts.mirror), "reflective and not rougher than a mirror"},

@@ -1,5 +1,6 @@
 #include "core/gbuffer/scene_facts.h"
 
+#include "core/number_text.h"
 #include "core/scene/texture_slots.h"
 #include "core/shared/brdf.h"
 
@@ -108,12 +109,6 @@ std::string names_of(const Scene& scene, const std::function<bool(const Material
     return names.empty() ? "no drawn material has it" : "by material " + names;
 }
 
-std::string decimal(float value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
-}
-
 }  // namespace
 
 SceneFacts material_facts(const Scene& scene) {
@@ -134,15 +129,16 @@ SceneFacts derive_facts(const Scene& scene, const SceneCamera& camera, std::span
 
 std::vector<SceneFact> list_facts(const Scene& scene, const SceneFacts& f) {
     const auto yes = [](bool value) { return value ? "yes" : "no"; };
-    const std::string roughness = f.has_reflective ? "perceptual roughness of reflective surfaces is " +
-                                                         decimal(f.min_roughness) + " to " + decimal(f.max_roughness)
-                                                   : "no drawn surface reflects specularly";
+    const std::string roughness = f.has_reflective
+                                      ? "perceptual roughness of reflective surfaces is " +
+                                            number_text(f.min_roughness, 3) + " to " + number_text(f.max_roughness, 3)
+                                      : "no drawn surface reflects specularly";
     return {
         {"has_geometry", yes(f.has_geometry), std::to_string(scene.triangle_count()) + " triangles"},
         {"has_reflective", yes(f.has_reflective), roughness},
         {"has_matte", yes(f.has_matte), names_of(scene, [&](const Material& m) { return is_matte(scene, m); })},
-        {"min_roughness", decimal(f.min_roughness), roughness},
-        {"max_roughness", decimal(f.max_roughness), roughness},
+        {"min_roughness", number_text(f.min_roughness, 3), roughness},
+        {"max_roughness", number_text(f.max_roughness, 3), roughness},
         {"camera_moves", yes(f.camera_moves), "camera poses of successive frames of the shot"},
         {"objects_move", yes(f.objects_move), "drawn nodes, joints and morph weights in successive frames of the shot"},
         {"has_faulty_inputs", yes(f.has_faulty_inputs),

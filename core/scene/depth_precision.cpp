@@ -1,21 +1,15 @@
 #include "core/scene/depth_precision.h"
 
+#include "core/number_text.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-namespace {
-
-std::string three_digits(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 std::string shown_planes(float near, float far) {
-    return "near " + three_digits(near) + " m, far " + three_digits(far) + " m";
+    return "near " + number_text(near, 3) + " m, far " + number_text(far, 3) + " m";
 }
 
 double depth_step(const CameraData& camera, DepthFormat format, double depth) {
@@ -45,7 +39,7 @@ std::string precision_warning(const std::string& whose, const CameraData& camera
     const char* const formats[] = {"d32f", "d24", "d16"};
     const bool reversing_helps = format == DepthFormat::d32f && camera.depth.w == 0.0f && camera.frame.z == 0u;
     return "The planes of " + whose + " (" + shown_planes(camera.depth.x, camera.depth.y) + ") leave depth in " +
-           formats[size_t(format)] + " steps of " + three_digits(step) + " m at " + three_digits(depth) +
+           formats[size_t(format)] + " steps of " + number_text(step, 3) + " m at " + number_text(depth, 3) +
            " m, as far as it sees. No hit of any technique is more exact. " +
            (reversing_helps ? "Reversed depth (--reversed-depth, \"depth_direction\": \"reversed\") is exact. " : "") +
            remedy + ".";

@@ -1,6 +1,7 @@
 // ssrlab judge: how far a renderer's frames are from the truth, and whether they err more than those before.
 #include "core/cache_folder.h"
 #include "core/error.h"
+#include "core/number_text.h"
 #include "core/scene/load_scene.h"
 #include "core/shown_text.h"
 #include "experiments/bridges/judge.h"
@@ -20,14 +21,11 @@ struct JudgeOptions {
 };
 
 std::string error_text(const ViewError& view) {
-    char text[160];
     if (!view.error) return "no error: nothing reflects in this view";
-    std::snprintf(text, sizeof text, "mse %.4g", *view.error);
-    std::string all = text;
-    if (view.low && view.high) std::snprintf(text, sizeof text, " [%.4g, %.4g]", *view.low, *view.high), all += text;
-    if (view.ratio_to_none)
-        std::snprintf(text, sizeof text, ", %.3g times that of no reflections", *view.ratio_to_none), all += text;
-    return all;
+    std::string text = "mse " + number_text(*view.error);
+    if (view.low && view.high) text += " [" + number_text(*view.low) + ", " + number_text(*view.high) + "]";
+    if (view.ratio_to_none) text += ", " + number_text(*view.ratio_to_none, 3) + " times that of no reflections";
+    return text;
 }
 
 void print(const JudgedView& view, const std::string& before) {

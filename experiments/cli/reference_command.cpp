@@ -2,6 +2,7 @@
 #include "core/cache_folder.h"
 #include "core/error.h"
 #include "core/gbuffer/scene_facts.h"
+#include "core/number_text.h"
 #include "core/scene/load_scene.h"
 #include "core/shown_text.h"
 #include "experiments/cli/commands.h"
@@ -39,23 +40,17 @@ Shot load_single_shot(const ShotOptions& options, const CommonOptions& common) {
 
 /// "76900 rays", "4.61 million rays", "1.2 billion rays".
 std::string rays_text(double rays) {
-    char text[64];
-    if (rays < 1e6)
-        std::snprintf(text, sizeof text, "%.0f rays", rays);
-    else
-        std::snprintf(text, sizeof text, "%.3g %s rays", rays / (rays < 1e9 ? 1e6 : 1e9),
-                      rays < 1e9 ? "million" : "billion");
-    return text;
+    if (rays < 1e6) return fixed_text(rays) + " rays";
+    return rays < 1e9 ? number_text(rays * 1e-6, 3) + " million rays" : number_text(rays * 1e-9, 3) + " billion rays";
 }
 
 /// Root of a noise-free mean square with its interval, in percent of `unit`.
 std::string rms_percent(const LadderDifference& difference, double unit) {
     const auto root = [&](double square) { return 100 * std::sqrt(std::max(square, 0.0)) / unit; };
-    char text[64];
-    std::snprintf(text, sizeof text, "%6.2f [%.2f, %.2f]", root(difference.square),
-                  root(difference.square - 1.96 * difference.square_error),
-                  root(difference.square + 1.96 * difference.square_error));
-    return text;
+    const std::string value = fixed_text(root(difference.square), 2);
+    return std::string(value.size() < 6 ? 6 - value.size() : 0, ' ') + value + " [" +
+           fixed_text(root(difference.square - 1.96 * difference.square_error), 2) + ", " +
+           fixed_text(root(difference.square + 1.96 * difference.square_error), 2) + "]";
 }
 
 void print_ladder(const LadderSummary& ladder) {
@@ -90,9 +85,7 @@ static void reference_command(const ReferenceCommandOptions& options, const Comm
     Progress progress(1.0);
     ReferenceRun run;
     run.progress = [&](double fraction, double rays_per_second, double) {
-        char what[64];
-        std::snprintf(what, sizeof what, "%.2f Mray/s", rays_per_second * 1e-6);
-        progress.update(fraction, what);
+        progress.update(fraction, ray_rate_text(rays_per_second));
     };
     run.notice = [&](const std::string& text) { progress.say("note: " + text); };
     Reference reference = cached_reference(shot.scene, frame.scene, frame.camera, shot.config.extent, options.settings,

@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/gpu/device.h"
+#include "core/number_text.h"
 #include "core/path_inside.h"
 #include "core/scene/load_scene.h"
 #include "core/shown_text.h"
@@ -52,11 +53,7 @@ StagePipelines pipelines_of(Device& device, const Shot& shot, const VariantConfi
     return pipelines;
 }
 
-std::string text_of(const std::optional<double>& value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.0f", value.value_or(0));
-    return value ? text : "-";
-}
+std::string text_of(const std::optional<double>& value) { return value ? fixed_text(*value) : "-"; }
 
 std::string place_of(const CompiledRow& row) {
     return row.stage + (row.pipeline > 0 ? " #" + std::to_string(row.pipeline + 1) : "") +

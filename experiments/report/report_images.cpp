@@ -5,6 +5,7 @@
 #include "core/files.h"
 #include "core/json.h"
 #include "core/path_inside.h"
+#include "experiments/results/results_schema.h"
 
 #include <half.h>
 #include <zlib.h>
@@ -233,9 +234,9 @@ std::vector<unsigned char> encode_palette(const HostImage& rgb, json& palette) {
     std::vector<unsigned char> bytes(rgb.pixel_count());
     for (size_t i = 0; i < bytes.size(); ++i) {
         std::array<int, 3> color;
-        for (size_t c = 0; c < 3;
-             ++c)  // as map_of_verdicts() of experiments/study/measuring/rays/judged_hits.h codes them
-            color[c] = int(std::lround(255 * std::pow(std::clamp(rgb.values[i * 3 + c], 0.0f, 1.0f), 1 / 2.2f)));
+        for (size_t c = 0; c < 3; ++c)
+            color[c] =
+                int(std::lround(255 * std::pow(std::clamp(rgb.values[i * 3 + c], 0.0f, 1.0f), 1 / verdict_map_gamma)));
         const auto [place, is_new] = places.emplace(color, places.size());
         if (is_new) palette.push_back(color);
         if (places.size() > 256) fail("a map of verdicts has more than 256 colours");

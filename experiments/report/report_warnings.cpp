@@ -1,5 +1,6 @@
 #include "experiments/report/report_warnings.h"
 
+#include "core/number_text.h"
 #include "experiments/results/answers/answer_text.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 #include "experiments/bridges/inspect/page.h"
 
+#include "core/number_text.h"
 #include "core/shown_text.h"
 #include "experiments/study/progress.h"
 
@@ -18,11 +19,7 @@ size_t width_of(const std::string& text) {
 
 std::string text_of(const Description& value) {
     if (value.is_string()) return shown_text(value.get<std::string>());
-    if (value.is_number_float() || value.is_number_integer()) {
-        char digits[32];
-        std::snprintf(digits, sizeof digits, "%.6g", value.get<double>());
-        return value.is_number_float() ? digits : value.dump();
-    }
+    if (value.is_number_float()) return number_text(value.get<double>(), 6);
     if (!value.is_array()) return value.dump();
     std::string text;
     for (const Description& part : value) text += (text.empty() ? "" : ", ") + text_of(part);
@@ -247,8 +244,7 @@ void add_textures(Page& page, const Description& textures) {
 
 void add_first_view(Page& page, const Description& v) {
     const auto count = [&](const char* key) { return v[key].get<size_t>(); };
-    char share[32];
-    std::snprintf(share, sizeof share, "%.2g %%", 100.0 * double(count("differ")) / double(count("pixels")));
+    const std::string share = percent_text(double(count("differ")) / double(count("pixels")), 2);
     page.fact("first view", text_of(v["picture"]) + ", " + size_text(v) + " pixels: the renderers differ in " +
                                 counted(count("differ"), "pixel") + " (" + share +
                                 "): " + std::to_string(count("other_surface")) + " by surface, " +

@@ -4,6 +4,7 @@
 #include "core/exr/exr.h"
 #include "core/files.h"
 #include "core/near_miss.h"
+#include "core/number_text.h"
 #include "core/path_inside.h"
 #include "core/shared/environment.h"
 #include "experiments/bridges/scene_for/raw_files.h"
@@ -207,11 +208,9 @@ private:
         ReferenceRun run;
         const std::string what = shot.name() + ": light of frame " + std::to_string(now.frame);
         run.progress = [&](double fraction, double rays_per_second, double) {
-            char rate[32];
-            std::snprintf(rate, sizeof rate, ", %.1f Mray/s", rays_per_second * 1e-6);
             const double frames = double(done_.rendered + done_.cached);
             const double all = double(settings_.frames.size() * std::max(settings_.cameras.size(), size_t(1)));
-            settings_.report((frames + fraction) / all, what + rate);
+            settings_.report((frames + fraction) / all, what + ", " + ray_rate_text(rays_per_second));
         };
         run.notice = [&](const std::string& text) { settings_.say("note: " + text); };
         Reference reference = cached_reference(shot.scene, now.scene, now.camera, settings_.extent, settings_.reference,

@@ -1,22 +1,15 @@
 #include "experiments/results/answers/answer_text.h"
 
+#include "core/number_text.h"
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
-std::string shown(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
-}
+std::string shown(double value) { return number_text(value, 3); }
 
 std::string shown_ratio(double ratio, int least_digits) {
-    char text[32];
-    if (ratio < 9.95)
-        std::snprintf(text, sizeof text, "%.*g", std::max(least_digits, std::abs(ratio - 1) < 0.1 ? 3 : 2), ratio);
-    else
-        std::snprintf(text, sizeof text, "%.0f", ratio);
-    return std::string(text) + "x";
+    const int digits = std::max(least_digits, std::abs(ratio - 1) < 0.1 ? 3 : 2);
+    return (ratio < 9.95 ? number_text(ratio, digits) : fixed_text(ratio)) + "x";
 }
 
 std::string interval_text(const std::optional<double>& low, const std::optional<double>& high) {
@@ -47,10 +40,4 @@ std::string shown(const Ratio& r) {
     const int digits = shown_ratio(*r.low) == shown_ratio(*r.high) ? 3 : 2;
     return shown_ratio(r.value, digits) + " [" + shown_ratio(*r.low, digits) + ", " + shown_ratio(*r.high, digits) +
            "]";
-}
-
-std::string percent_text(double share) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g %%", 100 * share);
-    return text;
 }

@@ -25,6 +25,3 @@ struct Ratio {
 };
 /// With a third digit where two would show an interval as a point.
 std::string shown(const Ratio& ratio);
-
-/// "5 %".
-std::string percent_text(double share);

@@ -1,5 +1,6 @@
 #include "experiments/results/answers/answers.h"
 
+#include "core/number_text.h"
 #include "experiments/results/verdicts/interval.h"
 #include "experiments/results/verdicts/power.h"
 #include "experiments/results/verdicts/standings.h"

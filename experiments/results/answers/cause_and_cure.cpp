@@ -1,14 +1,14 @@
 #include "experiments/results/answers/cause_and_cure.h"
 
+#include "core/number_text.h"
+#include "experiments/results/answers/answer_text.h"
 #include "experiments/results/verdicts/interval.h"
 #include "experiments/results/verdicts/power.h"
-#include "experiments/results/answers/answer_text.h"
 #include "metrics/noise.h"
 #include "metrics/temporal.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 
 namespace {
@@ -40,15 +40,7 @@ std::string listed_points(const std::vector<const MetricSummary*>& points, const
 
 /// Two significant digits, and whole numbers from 10 on.
 std::string share_text(double share) {
-    char text[32];
-    std::snprintf(text, sizeof text, share < 0.0995 ? "%.2g %%" : "%.0f %%", 100 * share);
-    return text;
-}
-
-std::string short_number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.2g", value);
-    return text;
+    return share < 0.0995 ? percent_text(share, 2) : fixed_text(100 * share) + " %";
 }
 
 double number_at(const json& object, const char* key) {
@@ -64,8 +56,8 @@ std::string places_sentences(const json& noise) {
     const auto most =
         std::ranges::max_element(classes, {}, [](const json& c) { return number_at(c, "variance_share"); });
     if (most == classes.end() || classes.size() < 2) return text;
-    return text + " Surfaces of roughness " + short_number(number_at(*most, "from")) + " to " +
-           short_number(number_at(*most, "below")) + " hold " + share_text(number_at(*most, "variance_share")) +
+    return text + " Surfaces of roughness " + number_text(number_at(*most, "from"), 2) + " to " +
+           number_text(number_at(*most, "below"), 2) + " hold " + share_text(number_at(*most, "variance_share")) +
            " of it.";
 }
 
@@ -86,10 +78,8 @@ std::string reference_sentences(const JudgedShot& shot, const std::vector<const 
                (first.pixels == 1 ? " pixel." : " pixels.");
         needed = reference_count(least_noise_samples / double(std::max<size_t>(first.pixels, 1)));
     }
-    char counts[200];
-    std::snprintf(counts, sizeof counts, " About %.0f samples per pixel would give %s %s (reference.samples: %.0f).",
-                  needed, first.metric.c_str(), points.size() == 1 ? "an interval" : "intervals", samples);
-    return text + counts;
+    return text + " About " + fixed_text(needed) + " samples per pixel would give " + first.metric +
+           (points.size() == 1 ? " an interval" : " intervals") + " (reference.samples: " + fixed_text(samples) + ").";
 }
 
 /// " flip decides now: it ranks all 4 points."
@@ -158,10 +148,8 @@ std::string power_over_scenes_sentence(std::span<const OverScenesRow* const> row
     const auto visible = visible_over_scenes(rows);
     const auto needed = scenes_needed_for(rows);
     if (!visible || !needed) return "";
-    char scenes[32];
-    std::snprintf(scenes, sizeof scenes, "%.0f", *needed);
     return " Such a study sees a difference of " + share_text(visible->typical) + " in 8 of 10 cases; one of " +
-           share_text(worth_deciding) + " takes " + scenes + " scenes.";
+           share_text(worth_deciding) + " takes " + fixed_text(*needed) + " scenes.";
 }
 
 std::string deciding_over_scenes_sentence(std::span<const OverScenesRow> rows, const OverScenesRow& unranked) {

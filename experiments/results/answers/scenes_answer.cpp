@@ -1,9 +1,10 @@
 #include "experiments/results/answers/scenes_answer.h"
 
-#include "experiments/results/verdicts/standings.h"
-#include "experiments/results/verdicts/study_points.h"
+#include "core/number_text.h"
 #include "experiments/results/answers/answer_text.h"
 #include "experiments/results/answers/cause_and_cure.h"
+#include "experiments/results/verdicts/standings.h"
+#include "experiments/results/verdicts/study_points.h"
 
 #include <algorithm>
 #include <map>
@@ -60,11 +61,7 @@ private:
     std::vector<std::pair<std::string, Names>> found_;
 };
 
-std::string probability(double p) {
-    char text[16];
-    std::snprintf(text, sizeof text, "%.2f", p);
-    return p < 0.005 ? "below 0.01" : p > 0.995 ? "above 0.99" : text;
-}
+std::string probability(double p) { return p < 0.005 ? "below 0.01" : p > 0.995 ? "above 0.99" : fixed_text(p, 2); }
 
 /// "A 0.68, B 0.28": probabilities; the largest is named in any case.
 std::string chances_text(std::vector<const OverScenesRow*> rows, std::optional<double> OverScenesRow::*chance,

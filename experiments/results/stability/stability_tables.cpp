@@ -1,6 +1,7 @@
 #include "experiments/results/stability/stability_tables.h"
 
 #include "core/error.h"
+#include "core/number_text.h"
 #include "core/path_inside.h"
 #include "core/shown_text.h"
 
@@ -115,12 +116,9 @@ std::string stability_lead(const StabilityTables& tables) {
     text += spreading.empty() ? "No fault of an input reaches a pixel whose inputs are sound. "
                               : "Faults of an input reach pixels whose inputs are sound in " +
                                     counted(count, "technique") + ": " + joined(names, "; ") + ". ";
-    if (largest > 0) {
-        char factor[32];
-        std::snprintf(factor, sizeof factor, "%.4g", largest);
-        text += "The most by which one step of an input changes the median pixel is " + std::string(factor) +
+    if (largest > 0)
+        text += "The most by which one step of an input changes the median pixel is " + number_text(largest) +
                 " times the step's own size: of " + where + ".";
-    }
     return text;
 }
 

@@ -40,6 +40,6 @@ std::string technique_name(const std::string& variant, const std::string& point)
 /// The sources among the failures, and how they are fixed, as a table for terminals.
 std::string failures_text(const std::vector<StageFailure>& failures);
 
-/// The values of the section `stability` of report/page/no_scripts.html: the lead, how often each technique got each
+/// The values of the section `stability` of page/no_scripts.html: the lead, how often each technique got each
 /// verdict, and the failures.
 nlohmann::json stability_without_scripts(const StabilityTables& tables);

@@ -1,13 +1,13 @@
 #include "experiments/results/tradeoff/tradeoff.h"
 
 #include "core/error.h"
+#include "core/number_text.h"
+#include "experiments/results/tradeoff/tradeoff_shots.h"
 #include "experiments/results/verdicts/standings.h"
 #include "experiments/results/verdicts/study_points.h"
-#include "experiments/results/tradeoff/tradeoff_shots.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 
 namespace {
@@ -247,11 +247,9 @@ std::vector<AcrossRow> across_at(const std::string& machine, double cost, const 
         }
         is_timed |= shot.is_timed();
     }
-    char cost_text[32];
-    std::snprintf(cost_text, sizeof cost_text, "%.9g", cost);
     std::vector<AcrossRow> rows = across_of(contest, 0, margin, less);
     for (AcrossRow& row : rows) {
-        row.machine = machine, row.cost = cost_text, row.label = row.variant;
+        row.machine = machine, row.cost = number_text(cost, 9), row.label = row.variant;
         if (is_timed) row.scenes_that_fit = double(fitting[row.variant].size());
     }
     return rows;

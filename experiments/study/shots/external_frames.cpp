@@ -2,12 +2,13 @@
 
 #include "core/error.h"
 #include "core/exr/exr_picture.h"
+#include "core/number_text.h"
 #include "core/path_inside.h"
 #include "core/png.h"
 #include "experiments/study/config/points/external_images.h"
 #include "experiments/study/measuring/frames/external_proof.h"
-#include "experiments/study/shots/point_errors.h"
 #include "experiments/study/shots/image_queue.h"
+#include "experiments/study/shots/point_errors.h"
 #include "experiments/study/shots/result_images.h"
 
 #include <algorithm>
@@ -197,11 +198,9 @@ private:
         if (most_leaks_ > 0)
             text += ", with reflections up to " + std::to_string(most_leaks_) +
                     ": the technique adds light where nothing reflects, which counts as its error";
-        if (images_.milliseconds) {
-            char time[64];
-            std::snprintf(time, sizeof time, "%.3g ms", *images_.milliseconds);
-            text += std::string("; it states ") + time + " for a frame's reflections, which ssrlab did not measure";
-        }
+        if (images_.milliseconds)
+            text += "; it states " + number_text(*images_.milliseconds, 3) +
+                    " ms for a frame's reflections, which ssrlab did not measure";
         return text;
     }
 

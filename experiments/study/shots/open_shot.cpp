@@ -3,6 +3,7 @@
 #include "core/files.h"
 #include "core/gbuffer/gbuffer_transfer.h"
 #include "core/gpu/device.h"
+#include "core/number_text.h"
 #include "experiments/study/measuring/noise_places.h"
 #include "experiments/study/measuring/reflection_probe.h"
 #include "experiments/study/measuring/rung_errors.h"
@@ -38,9 +39,8 @@ struct Opening {
 ReferenceRun run_of(const Opening& opening, const std::string& what) {
     ReferenceRun run;
     run.progress = [&opening, what](double fraction, double rays_per_second, double) {
-        char rate[32];
-        std::snprintf(rate, sizeof rate, "%.1f Mray/s", rays_per_second * 1e-6);
-        opening.settings.report(fraction, opening.shot.shot.name() + ": " + what + ", " + rate);
+        opening.settings.report(fraction,
+                                opening.shot.shot.name() + ": " + what + ", " + ray_rate_text(rays_per_second));
     };
     run.notice = [&opening](const std::string& text) { opening.settings.say("note: " + text); };
     return run;

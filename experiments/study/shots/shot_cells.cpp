@@ -1,6 +1,9 @@
 #include "experiments/study/shots/shot_cells.h"
 #include "core/elapsed.h"
 #include "core/error.h"
+#include "core/number_text.h"
+#include "experiments/results/cells/host_info.h"
+#include "experiments/results/cells/provenance.h"
 #include "experiments/study/config/points/conditions.h"
 #include "experiments/study/measuring/costs/costs.h"
 #include "experiments/study/measuring/costs/gpu_estimates.h"
@@ -11,8 +14,6 @@
 #include "experiments/study/shots/external_frames.h"
 #include "experiments/study/shots/open_shot.h"
 #include "experiments/study/shots/point_renders.h"
-#include "experiments/results/cells/host_info.h"
-#include "experiments/results/cells/provenance.h"
 
 #include <algorithm>
 #include <chrono>
@@ -168,10 +169,9 @@ double timing_budget(const StudySession& study, const PlannedShot& shot) {
 /// What was wrong with the machine while times were taken; "" if it was quiet.
 std::string disturbance(const TimingLoad& load) {
     if (load.disturbed == 0) return "";
-    char stolen[64] = "";
-    if (load.stolen > 0.01)
-        std::snprintf(stolen, sizeof stolen, " (other virtual machines took up to %.0f %% of its time)",
-                      100 * load.stolen);
+    const std::string stolen =
+        load.stolen > 0.01 ? " (other virtual machines took up to " + fixed_text(100 * load.stolen) + " % of its time)"
+                           : "";
     return "other programs disturbed " + std::to_string(load.disturbed) + " of " + std::to_string(load.frames) +
            " timed frames" + stolen + ", which are marked; `--times-again` takes these times once more";
 }

@@ -3,8 +3,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/near_miss.h"
-
-#include <cstdio>
+#include "core/number_text.h"
 
 std::string label_of(const nlohmann::json& values) {
     std::string label;
@@ -42,9 +41,8 @@ std::string fill_in(const std::string& text, const nlohmann::json& values, const
             fail(where, " names {", shortened(name), "}, which is not known", suggestion(name, known));
         }
         const nlohmann::json& value = values[name];
-        char digits[32];  // a sampled number has eight, which nobody reads
-        std::snprintf(digits, sizeof digits, "%.4g", value.is_number_float() ? value.get<double>() : 0.0);
-        filled += text.substr(at, open - at) + (value.is_number_float() ? digits : plain_text(value));
+        filled += text.substr(at, open - at);  // a sampled number has eight digits, which nobody reads
+        filled += value.is_number_float() ? number_text(value.get<double>()) : plain_text(value);
         at = close + 1;
     }
     while (filled.ends_with(' ')) filled.pop_back();  // where the last value is empty

@@ -2,11 +2,11 @@
 
 #include "core/error.h"
 #include "core/near_miss.h"
+#include "core/number_text.h"
 #include "core/scene/view_shares.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <map>
 
@@ -70,10 +70,7 @@ private:
 
 std::string share_of_first_view(double share) {
     if (share <= 0) return "not in the first view";
-    char text[64];
-    if (share < 0.001) return "less than 0.1 % of the first view's pixels";
-    std::snprintf(text, sizeof text, "%.3g %% of the first view's pixels", 100 * share);
-    return text;
+    return (share < 0.001 ? "less than 0.1 %" : percent_text(share)) + " of the first view's pixels";
 }
 
 /// Name of the material or node that a warning concerns, as its sentence has it between quotation marks.

@@ -1,5 +1,6 @@
 #include "experiments/study/measuring/frames/external_proof.h"
 
+#include "core/number_text.h"
 #include "core/png.h"
 #include "metrics/tone_map.h"
 
@@ -140,12 +141,9 @@ std::string what_undoes(const HostImage& image, const ProofPixels& proof) {
         })))
         return "it holds sRGB values; write linear ones";
     if (const std::optional<float> factor = common_factor(image, proof);
-        factor && agrees(mapped(image, [&](glm::vec3 c) { return c / *factor; }))) {
-        char text[64];
-        std::snprintf(text, sizeof text, "%.4g", double(*factor));
-        return std::string("all are ") + text +
+        factor && agrees(mapped(image, [&](glm::vec3 c) { return c / *factor; })))
+        return "all are " + number_text(*factor) +
                " times as bright as they should be; exposure must be 1, and units those of the scene";
-    }
     if (is_cut_at_one(image, proof))
         return "nothing is brighter than 1, where the scene is; switch tone mapping off, and write floats";
     return "";

@@ -1,5 +1,6 @@
 #include "experiments/study/measuring/rays/judged_hits.h"
 
+#include "experiments/results/results_schema.h"
 #include "metrics/statistics.h"
 #include "variants/tracers/outcome.h"
 
@@ -189,7 +190,7 @@ HostImage map_of_verdicts(const RecordedRays& recorded, const std::vector<ExactH
         if (ray.is_traced == 0) continue;
         const bool is_hit = ray.outcome == outcome_hit && ray.confidence >= 0.5f;
         const RayVerdict verdict = is_hit ? verdict_of_hit(ray, truth[i]) : verdict_of_miss(truth[i]);
-        map.set_rgb(pixel, glm::pow(codes[size_t(verdict)] / 255.0f, glm::vec3(2.2f)));  // the PNG encodes it again
+        map.set_rgb(pixel, glm::pow(codes[size_t(verdict)] / 255.0f, glm::vec3(verdict_map_gamma)));
     }
     return map;
 }
