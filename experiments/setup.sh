@@ -11,6 +11,7 @@ build_packages=(
     libre2-dev  # regular expressions of scene files, in linear time
     libcpp-httplib-dev  # the page of `ssrlab watch`
     libvalijson-dev  # JSON Schema: glTF files are checked by one
+    esbuild  # bundles the scripts of pages
     nlohmann-json3-dev libcli11-dev libkainjow-mustache-dev libxxhash-dev zlib1g-dev libbenchmark-dev libgtest-dev
     python3 python3-numpy python3-matplotlib python3-pil
     python3-scipy  # distributions and intervals of `ssrlab tradeoff` and `ssrlab tune`

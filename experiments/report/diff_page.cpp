@@ -213,12 +213,12 @@ void write_diff_page(const std::filesystem::path& page, const StudyDiff& diff, c
                     {"without_room", without_room},
                     {"only_before", diff.only_before},
                     {"only_after", diff.only_after}};
-    json values = {{"tables", "results.csv and summary.csv of both folders"},
+    json values = {{"is_diff", true},
+                   {"tables", "results.csv and summary.csv of both folders"},
                    {"warnings",
                     {std::to_string(count_of(diff.errors, change::changed)) + " of " +
                      std::to_string(diff.errors.size()) + " errors changed from " + before.folder.string() + " to " +
                      after.folder.string() + "; `ssrlab diff` lists them."}}};
-    for (size_t i = 0; i < images.all.data.size(); ++i)
-        values["images"].push_back({{"number", i}, {"data", images.all.data[i]}});
-    write_text(page, page_text("What changed", data, values));
+    add_images(values, images.all.data);
+    write_text(page, report_page("diff", "What changed", data, values));
 }

@@ -7,10 +7,6 @@
 
 using nlohmann::json;
 
-std::string page_part(const std::string& name) {
-    return read_text(std::filesystem::path(SSRLAB_SOURCE_DIR) / "experiments/report/page" / name);
-}
-
 std::string script_text(const json& value) {
     std::string escaped;
     for (const char c : value.dump(-1, ' ', false, json::error_handler_t::replace))
@@ -38,12 +34,31 @@ kainjow::mustache::data mustache_data(const json& value) {
 
 }  // namespace
 
-std::string filled_template(const std::string& text, const json& values,
-                            const std::map<std::string, std::string>& partials) {
-    kainjow::mustache::mustache page(text);
+std::string template_file(const std::string& name) {
+    return read_text(std::filesystem::path(SSRLAB_SOURCE_DIR) / "experiments/page" / name);
+}
+
+/// SSRLAB_PAGES is where the build puts what it makes of the scripts and styles.
+std::string built_file(const std::string& name) {
+    const std::string file = SSRLAB_PAGES "/" + name;
+    if (!std::filesystem::exists(file))
+        fail_machine(file, " is missing; the build makes it: cmake --build with the target `pages`");
+    return read_text(file);
+}
+
+std::string page_text(const std::string& script, const std::string& body, const std::string& title, json values) {
+    values["title"] = title;
+    values["style"] = built_file(script + ".css");
+    values["script"] = built_file(script + ".js");
+    kainjow::mustache::mustache page(template_file("frame.html"));
     kainjow::mustache::data all = mustache_data(values);
-    for (const auto& [name, partial] : partials) all.set(name, kainjow::mustache::data(partial));
+    all.set("body", template_file(body + ".html"));
+    all.set("no_scripts", template_file("no_scripts.html"));
     const std::string filled = page.render(all);
-    if (!page.is_valid()) fail("a template of the report is malformed: ", page.error_message());
+    if (!page.is_valid()) fail("a template of pages is malformed: ", page.error_message());
     return filled;
+}
+
+json page_element(const std::string& id, const std::string& text, const std::string& type) {
+    return {{"id", id}, {"text", text}, {"type", type}};
 }

@@ -3,16 +3,17 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "core/number_text.h"
 #include "core/path_inside.h"
-#include "experiments/results/results_schema.h"
-#include "experiments/results/verdicts/study_tables.h"
-#include "experiments/results/verdicts/summary.h"
-#include "experiments/results/answers/answers.h"
 #include "experiments/report/page_template.h"
 #include "experiments/report/report_data.h"
 #include "experiments/report/report_images.h"
 #include "experiments/report/report_warnings.h"
+#include "experiments/results/answers/answers.h"
 #include "experiments/results/answers/scenes_answer.h"
+#include "experiments/results/results_schema.h"
+#include "experiments/results/verdicts/study_tables.h"
+#include "experiments/results/verdicts/summary.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -21,50 +22,6 @@
 namespace {
 
 using nlohmann::json;
-
-/// The page's scripts, in the order in which they build on each other.
-constexpr const char* scripts[] = {"data.js",
-                                   "page.js",
-                                   "points.js",
-                                   "sections/facts.js",
-                                   "plots.js",
-                                   "bars.js",
-                                   "strips.js",
-                                   "ladder.js",
-                                   "mistakes.js",
-                                   "provenance.js",
-                                   "first_screen/summary.js",
-                                   "first_screen/error_time.js",
-                                   "first_screen/answers.js",
-                                   "first_screen/budget.js",
-                                   "first_screen/matrix.js",
-                                   "first_screen/explore.js",
-                                   "sections/hits.js",
-                                   "sections/error_shares.js",
-                                   "sections/costs.js",
-                                   "sections/stages.js",
-                                   "sections/compiled.js",
-                                   "sections/estimates.js",
-                                   "sections/roughness.js",
-                                   "sections/splits.js",
-                                   "sections/effects.js",
-                                   "sections/temporal.js",
-                                   "sections/stability.js",
-                                   "viewer/image_data.js",
-                                   "viewer/image_colors.js",
-                                   "viewer/flip.js",
-                                   "viewer/panes.js",
-                                   "viewer/viewer.js",
-                                   "viewer/viewer_chooser.js",
-                                   "viewer/viewer_look.js",
-                                   "viewer/viewer_input.js",
-                                   "viewer/loss_maps.js",
-                                   "viewer/inspector.js",
-                                   "viewer/crops.js",
-                                   "viewer/viewer_keep.js",
-                                   "diff.js",
-                                   "save_tools.js",
-                                   "start.js"};
 
 /// What the page's Content-Security-Policy allows beside its own scripts where images lie in files: those of its
 /// folder, which browsers call 'self' on a web server, and only by their scheme where the page itself is a file.
@@ -85,13 +42,6 @@ std::vector<const MetricSummary*> headline_rows(std::span<const MetricSummary> e
     narrow(&MetricSummary::metric, metric);
     narrow(&MetricSummary::mask, headline.mask);
     return rows;
-}
-
-/// Four digits, as the page's scripts show numbers.
-std::string number_text(double value) {
-    char buffer[32];
-    std::snprintf(buffer, sizeof buffer, "%.4g", value);
-    return buffer;
 }
 
 json error_table(const std::vector<const MetricSummary*>& rows, const json& metrics) {
@@ -118,7 +68,9 @@ json without_scripts(const json& data, const Headline& headline, std::span<const
                      const PointSet& singles) {
     json values = {{"warnings", data["warnings"]}, {"error_tables", json::array()}};
     if (!data["answers"].empty())
-        values["answers"] = {{"over_scenes", data["over_scenes"]}, {"shots", data["answers"]}};
+        values["answers"] = {{"in_these_scenes", data["in_these_scenes"]},
+                             {"in_scenes_like_these", data["in_scenes_like_these"]},
+                             {"shots", data["answers"]}};
     const std::vector<const MetricSummary*> rows = headline_rows(errors, singles, headline, headline.metric),
                                             others =
                                                 headline_rows(errors, singles, headline, headline.perceptual_metric);
@@ -142,15 +94,14 @@ json data_files(const std::filesystem::path& folder) {
 
 }  // namespace
 
-std::string page_text(const std::string& title, const json& data, json values) {
-    values["title"] = title;
-    values["data"] = script_text(data);
-    values["style"] = page_part("style.css") + page_part("viewer/viewer.css");
-    values["plot"] = page_part("vendor/plot.js");
-    std::string script;
-    for (const char* name : scripts) script += page_part(name);
-    values["script"] = script;
-    return filled_template(page_part("template.html"), values, {{"no_scripts", page_part("no_scripts.html")}});
+std::string report_page(const std::string& script, const std::string& title, const json& data, json values) {
+    values["elements"].push_back(page_element("data", script_text(data), "application/json"));
+    return page_text(script, "report", title, std::move(values));
+}
+
+void add_images(json& values, const std::vector<std::string>& texts) {
+    for (size_t i = 0; i < texts.size(); ++i)
+        values["elements"].push_back(page_element("image-" + std::to_string(i), texts[i]));
 }
 
 StudyAnswers write_report(const std::filesystem::path& folder, bool links_images) {
@@ -162,11 +113,12 @@ StudyAnswers write_report(const std::filesystem::path& folder, bool links_images
             for (const char* key : {"warnings", "notes", "images"}) data[key] = json::array();
             data["manifest"] = data["defaults"] = json::object();
             data["is_study"] = false;
-            write_text(folder / "report.html", page_text("Stability under extreme inputs", data,
-                                                         {{"stability", stability_without_scripts(stability)},
-                                                          {"tables",
-                                                           "stability.csv, stability_cases.csv and "
-                                                           "stability_stages.csv beside it"}}));
+            write_text(folder / "report.html", report_page("report", "Stability under extreme inputs", data,
+                                                           {{"is_stability", true},
+                                                            {"stability", stability_without_scripts(stability)},
+                                                            {"tables",
+                                                             "stability.csv, stability_cases.csv and "
+                                                             "stability_stages.csv beside it"}}));
             return {};
         }
         if (std::filesystem::exists(folder / "study.json"))
@@ -199,19 +151,21 @@ StudyAnswers write_report(const std::filesystem::path& folder, bool links_images
     data["defaults"] = parameter_defaults(manifest);
     data["is_study"] = true;
     json values = without_scripts(data, headline, tables.errors, singles);
+    values["is_study"] = true;
     values["files"] = data_files(folder);
     values["tables"] = "and the images as EXR and PNG in images/, beside it";
     if (!tables.stability.rows.empty()) values["stability"] = stability_without_scripts(tables.stability);
     const json title = manifest.value("title", json());
-    const auto page = [&] { return page_text(title.is_string() ? title.get<std::string>() : "Study", data, values); };
+    const auto page = [&] {
+        return report_page("report", title.is_string() ? title.get<std::string>() : "Study", data, values);
+    };
 
     const size_t used = page().size() + 100'000;  // the descriptions and notes of the images
     const ReportImages images =
         report_images(folder, manifest, links_images || used > page_bytes ? 0 : page_bytes - used);
     data["notes"] = images.notes;
     data["images"] = images.descriptions;
-    for (size_t i = 0; i < images.data.size(); ++i)
-        values["images"].push_back({{"number", i}, {"data", images.data[i]}});
+    add_images(values, images.data);
     if (images.data.size() < images.descriptions.size()) values["script_source"] = linked_scripts;
     write_text(folder / "report.html", page());
     return answers;

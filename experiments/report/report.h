@@ -6,9 +6,13 @@
 /// A page is mailed and opened at once: the images of larger ones lie beside it.
 inline constexpr size_t page_bytes = 30'000'000;
 
-/// A page of `data` (page/data.js). `values`: those of page/template.html that are not the same on all pages, and of
-/// page/no_scripts.html.
-std::string page_text(const std::string& title, const nlohmann::json& data, nlohmann::json values);
+/// A page of `data` (page/study/data.js) with the scripts of `script`, "report" or "diff". `values`: those of
+/// page/report.html and page/no_scripts.html.
+std::string report_page(const std::string& script, const std::string& title, const nlohmann::json& data,
+                        nlohmann::json values);
+
+/// Adds the texts of ReportImages::data to the values of a report_page().
+void add_images(nlohmann::json& values, const std::vector<std::string>& texts);
 
 /// Reads manifest.json, results.csv, splits.csv, effects.csv, times.csv (these three may be absent) and the EXR images
 /// of a results folder (experiments/RESULTS.md), and writes summary.csv, time_summary.csv and report.html into it, each

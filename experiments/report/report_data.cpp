@@ -4,6 +4,7 @@
 #include "experiments/gpu_costs/pass_cost.h"
 #include "experiments/results/tables/counts_spread.h"
 #include "experiments/results/tables/manifest.h"
+#include "metrics/temporal.h"
 
 #include <algorithm>
 #include <map>
@@ -53,6 +54,39 @@ json table(const Rows& rows, Texts& code) {
         values.push_back(std::move(line));
     }
     return {{"columns", std::move(columns)}, {"texts", std::move(texts)}, {"rows", std::move(values)}};
+}
+
+/// As table(), with a column for how far each value is from the best that there is, so that less is better for every
+/// metric; null where a value or its metric's direction is missing.
+json error_table(const std::vector<MetricSummary>& errors, Texts& code) {
+    json all = table<MetricSummary>(errors, code);
+    all["columns"].push_back("badness");
+    for (size_t i = 0; i < errors.size(); ++i) {
+        const std::optional<Better> better = direction_of(errors[i].metric);
+        all["rows"][i].push_back(better && errors[i].value ? json(shortfall(*better, *errors[i].value)) : json());
+    }
+    return all;
+}
+
+const char* direction_text(Better better) {
+    switch (better) {
+        case Better::lower:
+            return "Less is better.";
+        case Better::higher:
+            return "More is better.";
+        case Better::near_zero:
+            return "Nearer to 0 is better.";
+        case Better::near_one:
+            return "Nearer to 1 is better.";
+    }
+    return "";
+}
+
+json described_metrics() {
+    json all = metric_descriptions();
+    for (auto& [name, about] : all.items())
+        if (const std::optional<Better> better = direction_of(name)) about["direction"] = direction_text(*better);
+    return all;
 }
 
 /// As table(), with one row for each stage and a column for each quantity; one that a stage lacks is 0.
@@ -117,7 +151,7 @@ json report_data(const ResultTables& tables, const PointSet& single_changes) {
         else if (known_over_frames.contains(quantity_of(e)) && !single_changes.contains({e.variant, e.point}))
             frames.push_back(e);
     }
-    json data = {{"errors", table<MetricSummary>(errors, code)},
+    json data = {{"errors", error_table(errors, code)},
                  {"frames", table<MetricSummary>(frames, code)},
                  {"splits", table<SplitRow>(tables.splits, code)},
                  {"hits", table<HitRow>(tables.hits, code)},
@@ -129,7 +163,7 @@ json report_data(const ResultTables& tables, const PointSet& single_changes) {
                  {"effects", table<EffectRow>(tables.effects, code)},
                  {"time_effects", table<TimeEffectRow>(tables.time_effects, code)},
                  {"times", table<TimeSummary>(tables.times, code)},
-                 {"metrics", metric_descriptions()}};
+                 {"metrics", described_metrics()}};
     if (!tables.stability.rows.empty()) data["stability"] = stability_data(tables.stability, code);
     data["texts"] = std::move(code.list);
     return data;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-/// The pictures of a report: what its page's viewer reads (page/viewer/image_data.js).
+/// The pictures of a report: what its page's viewer reads (page/images/packed.js).
 struct ReportImages {
     /// One per image: shot, frame, variant, point, kind, target, seed, width, height, `format` and, of palettes,
     /// `palette`; `file`, relative to the folder, where the image lies beside the page.

@@ -29,15 +29,6 @@ constexpr unsigned truth_significand_bits = 7;
 /// Of all frames together: some 30 bytes each in a page, and texts of browsers end at 512 MB.
 constexpr size_t most_pixels = 16'000'000;
 
-/// The page's scripts, in the order in which they build on each other: those of the report, then its own.
-constexpr const char* report_scripts[] = {"viewer/image_data.js", "viewer/image_colors.js"};
-constexpr const char* own_scripts[] = {"texels.js",  "gpu_images.js", "replay.js",
-                                       "compare.js", "controls.js",   "record.js"};
-
-std::string own_part(const std::string& name) {
-    return read_text(std::filesystem::path(SSRLAB_SOURCE_DIR) / "experiments/live/record/page" / name);
-}
-
 json words_of(const CameraData& camera) {
     std::vector<uint32_t> words(sizeof camera / 4);
     std::memcpy(words.data(), &camera, sizeof camera);
@@ -165,15 +156,9 @@ json facts_of(const Shot& shot, const RecordSettings& settings, const Device& de
 
 std::string page_of(const json& recording, const std::vector<std::string>& texts, const std::string& title) {
     const std::string text = recording.dump(-1, ' ', false, json::error_handler_t::replace);
-    json values = {{"title", title},
-                   {"style", page_part("style.css") + own_part("record.css")},
-                   {"recording", base64(compressed({text.begin(), text.end()}))}};
-    std::string script = "\"use strict\";\n";
-    for (const char* name : report_scripts) script += page_part(name);
-    for (const char* name : own_scripts) script += own_part(name);
-    values["script"] = script;
-    for (size_t i = 0; i < texts.size(); ++i) values["texels"].push_back({{"number", i}, {"data", texts[i]}});
-    return filled_template(own_part("template.html"), values);
+    json elements = {page_element("recording", base64(compressed({text.begin(), text.end()})))};
+    for (size_t i = 0; i < texts.size(); ++i) elements.push_back(page_element("texels-" + std::to_string(i), texts[i]));
+    return page_text("record", "record", title, {{"elements", elements}});
 }
 
 }  // namespace

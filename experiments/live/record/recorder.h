@@ -29,8 +29,8 @@ private:
 /// What shaders look at, by their texts: it takes a while to find out.
 using KnownReads = std::map<std::string, ShaderReads>;
 
-/// Writes down what a technique does to the images of a graph, frame by frame, as page/replay.js does it again: its
-/// images, programs in GLSL ES 3.00, and lists of commands. A compute pass or a draw of meshes fails with Error
+/// Writes down what a technique does to the images of a graph, frame by frame, as page/record/replay.js does it again:
+/// its images, programs in GLSL ES 3.00, and lists of commands. A compute pass or a draw of meshes fails with Error
 /// (Limits::webgl2 refuses them before they run), and so does a pass while constants are set.
 class Recorder : private PassWatcher {
 public:

@@ -36,20 +36,6 @@ std::string commands_of(Device& device, const VariantConfig& point, glm::uvec2 e
     return json{frames, recorder.images(), recorder.programs(), recorder.command_lists(), texels.texts()}.dump();
 }
 
-json described(const Parameter& p) {
-    return {{"name", p.name},
-            {"type", p.glsl_type},
-            {"unit", p.unit},
-            {"doc", p.doc},
-            {"value", p.value},
-            {"initial", p.initial},
-            {"min", p.min},
-            {"max", p.max},
-            {"choices", p.choices},
-            {"is_slider", false},
-            {"is_uniform", p.use == Use::uniform}};
-}
-
 /// The ends of what a parameter may be, in place of its value.
 std::vector<json> ends_of(const Parameter& p) {
     if (!p.choices.empty()) return {p.choices.front(), p.choices.back()};
@@ -59,6 +45,11 @@ std::vector<json> ends_of(const Parameter& p) {
 
 }  // namespace
 
+json slider_json(const Parameter& p) {
+    return {{"name", p.name},       {"type", p.glsl_type}, {"unit", p.unit}, {"doc", p.doc},        {"value", p.value},
+            {"initial", p.initial}, {"min", p.min},        {"max", p.max},   {"choices", p.choices}};
+}
+
 json recorded_parameters(Device& device, const VariantConfig& point, glm::uvec2 extent, const std::set<unsigned>& read,
                          KnownReads& known_reads) {
     const std::unique_ptr<Variant> variant = make_variant(point.variant, point.parameters, point.preset);
@@ -66,7 +57,9 @@ json recorded_parameters(Device& device, const VariantConfig& point, glm::uvec2 
     json all = json::array(), compiled_in = json::array();
     unsigned place = 0;
     for (const Parameter& p : variant->params) {
-        json one = described(p);
+        json one = slider_json(p);
+        one["is_slider"] = false;
+        one["is_uniform"] = p.use == Use::uniform;
         if (p.use == Use::constant) {
             one["why_not"] = "compiled into the shaders";
             if (is_read(variant->params, p.name)) compiled_in.push_back(std::move(one));

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-/// An image of float32 without loss, small where neighbours are alike: what page/texels.js decodes.
+/// An image of float32 without loss, small where neighbours are alike: what page/record/texels.js decodes.
 struct TexelStream {
     std::vector<unsigned> shifts;      ///< of each channel: lowest bits that are 0 in all of its values, left out
     std::vector<unsigned char> bytes;  ///< a zlib stream

@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/json.h"
 #include "experiments/gpu_costs/chips/model_range.h"
+#include "experiments/results/cells/image_path.h"
 #include "experiments/results/verdicts/judgement.h"
 #include "experiments/results/verdicts/study_tables.h"
 #include "experiments/study/measuring/rays/error_causes.h"
@@ -87,14 +88,7 @@ json page_numbers(const fs::path& results, const WatchedPoint& point, const std:
         if (name_of(e) != name || e.metric != primary.metric || e.mask != primary.mask || e.target != primary.target)
             continue;
         shots.push_back({{"shot", e.shot},
-                         {"seeds", e.seeds},
-                         {"pixels", e.pixels},
-                         {"non_finite", e.non_finite},
-                         {"error",
-                          {{"value", column_json(e.value)},
-                           {"low", column_json(e.low)},
-                           {"high", column_json(e.high)},
-                           {"interval", e.interval}}},
+                         {"error", row_json(e)},
                          {"images", images_of(results, tables.manifest, e.shot, labels, images)}});
     }
     return {{"shots", shots}, {"verdicts", verdicts}};
@@ -128,26 +122,16 @@ json page_times(const fs::path& results, const WatchedPoint& point, const std::v
                   {"estimates", json::array()},
                   {"model_range", model_range_text()}};
     for (const TimeSummary& t : tables.times)
-        if (name_of(t) == name)
-            times["stages"].push_back({{"stage", t.stage}, {"median", t.median}, {"low", t.low}, {"high", t.high}});
+        if (name_of(t) == name) times["stages"].push_back(row_json(t));
     for (const TimeEffectRow& t : tables.time_effects) {
         if (name_of(t) != name || t.stage != "total") continue;
         for (const WatchedPoint& other : against)
-            if (other.name() == PointName(t.against_variant, t.against_point))
-                times["effects"].push_back({{"label", other.label},
-                                            {"ratio", t.ratio},
-                                            {"low", t.low},
-                                            {"high", t.high},
-                                            {"verdict", t.verdict}});
+            if (other.name() == PointName(t.against_variant, t.against_point)) {
+                times["effects"].push_back(row_json(t));
+                times["effects"].back()["label"] = other.label;
+            }
     }
     for (const EstimateRow& e : tables.estimates)
-        if (name_of(e) == name)
-            times["estimates"].push_back({{"stage", e.stage},
-                                          {"product", e.product},
-                                          {"microseconds", column_json(e.microseconds)},
-                                          {"low", column_json(e.low)},
-                                          {"high", column_json(e.high)},
-                                          {"bound", e.bound},
-                                          {"refusal", e.refusal}});
+        if (name_of(e) == name) times["estimates"].push_back(row_json(e));
     return times;
 }

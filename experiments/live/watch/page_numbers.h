@@ -2,9 +2,9 @@
 #include "experiments/live/watch/page_images.h"
 #include "experiments/live/watch/watch_study.h"
 
-/// What the page shows of a results folder that numbers_study() filled: {"shots": [{"shot", "seeds", "pixels",
-/// "non_finite", "error": {"value", "low", "high", "interval"}, "images": {"truth", "now", "none", label of a point:
-/// {target: PageImages::add()}}}], "verdicts": [{"label", "verdict", "why", "views": [JudgedView]}]}.
+/// What the page shows of a results folder that numbers_study() filled: {"shots": [{"shot", "error": a row of
+/// summary.csv, "images": {"truth", "now", "none", label of a point: {target: PageImages::add()}}}], "verdicts":
+/// [{"label", "verdict", "why", "views": [JudgedView]}]}.
 ///
 /// Verdicts are judge_effects()'s, of `point` against each of `against` and against no reflections; where it cannot
 /// decide, "verdict" is "" and "why" its sentence.
@@ -15,9 +15,7 @@ nlohmann::json page_numbers(const std::filesystem::path& results, const WatchedP
 /// "verdict", "share"}], "hits": {stage: PageImages::add()}}; a list is empty where there is nothing of it.
 nlohmann::json page_why(const std::filesystem::path& results, const WatchedPoint& point, PageImages& images);
 
-/// What the page shows of a folder that times_study() filled: {"stages": [{"stage", "median", "low", "high"}],
-/// "effects":
-/// [{"label", "ratio", "low", "high", "verdict"}], "estimates": [{"stage", "product", "microseconds", "low", "high",
-/// "bound", "refusal"}]}.
+/// What the page shows of a folder that times_study() filled, as rows of its tables: {"stages": of time_summary.csv,
+/// "effects": of time_effects.csv, each with its "label", "estimates": of estimates.csv}.
 nlohmann::json page_times(const std::filesystem::path& results, const WatchedPoint& point,
                           const std::vector<WatchedPoint>& against);

@@ -1,5 +1,6 @@
 #include "experiments/live/watch/page_parameters.h"
 
+#include "experiments/live/record/sliders.h"
 #include "variants/registry.h"
 
 using nlohmann::json;
@@ -13,16 +14,11 @@ json page_parameters(const std::string& technique, const std::string& preset, js
     const auto variant = make_variant(technique, values, preset);
     json parameters = json::array();
     auto initial = plain->params.begin();
-    for (const Parameter& p : variant->params)
-        parameters.push_back({{"name", p.name},
-                              {"type", p.glsl_type},
-                              {"unit", p.unit},
-                              {"doc", p.doc},
-                              {"value", p.value},
-                              {"initial", (initial++)->value},
-                              {"min", p.min},
-                              {"max", p.max},
-                              {"choices", p.choices},
-                              {"is_read", is_read(variant->params, p.name)}});
+    for (const Parameter& p : variant->params) {
+        json one = slider_json(p);
+        one["initial"] = (initial++)->value;
+        one["is_read"] = is_read(variant->params, p.name);
+        parameters.push_back(std::move(one));
+    }
     return parameters;
 }

@@ -5,9 +5,9 @@
 #include "core/shown_text.h"
 #include "experiments/live/watch/error_places.h"
 #include "experiments/live/watch/fresh_images.h"
-#include "experiments/live/watch/page_files.h"
 #include "experiments/live/watch/page_numbers.h"
 #include "experiments/live/watch/page_parameters.h"
+#include "experiments/report/page_template.h"
 #include "variants/registry.h"
 
 #include <algorithm>
@@ -56,6 +56,13 @@ WatchSettings with_absolute_paths(WatchSettings settings) {
         fail("--out ", settings.out.string(),
              " lies in the folder that is watched: what is rendered there would be taken for a save");
     return settings;
+}
+
+/// The page with its script and style, by the names that it asks for.
+std::map<std::string, WatchAnswer> page_files() {
+    return {{"", {"text/html; charset=utf-8", template_file("watch.html")}},
+            {"watch.js", {"text/javascript; charset=utf-8", built_file("watch.js")}},
+            {"watch.css", {"text/css; charset=utf-8", built_file("watch.css")}}};
 }
 
 }  // namespace

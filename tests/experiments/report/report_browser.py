@@ -57,6 +57,17 @@ def until_ready(page):
     WebDriverWait(page, 20).until(
         lambda p: p.execute_script("return document.documentElement.hasAttribute('data-ready')")
     )
+    page.execute_script("Object.assign(window, ssrlab)")  # what its modules export, by name
+
+
+# Calls `saved(blob, name)` of the page in place of saving a file; copied texts are `window.copied`.
+CATCH_SAVES = """
+const blobs = new Map();
+URL.createObjectURL = blob => { blobs.set(`blob:${blobs.size}`, blob); return `blob:${blobs.size - 1}`; };
+HTMLAnchorElement.prototype.click = function() { window.saved(blobs.get(this.getAttribute('href')), this.download); };
+const clipboard = {writeText: async text => { window.copied = text; }};
+Object.defineProperty(navigator, 'clipboard', {value: clipboard, configurable: true});
+"""
 
 
 def choose(page, label, text):

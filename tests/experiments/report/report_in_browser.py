@@ -203,6 +203,10 @@ def test_without_scripts(page, url):
         "Timer validation failed" in text and "mcguire_dda" in text and "mse (radiance^2)" in text,
         f"the part for readers without scripts: {text!r}",
     )
+    data = json.loads(page.find_element(By.ID, "data").get_attribute("textContent"))
+    for sentence in (data["in_these_scenes"], data["in_scenes_like_these"]):
+        check(sentence in text, f"the part for readers without scripts lacks {sentence!r}: {text!r}")
+    check("null" not in text, f"the part for readers without scripts: {text!r}")
     check(not page.find_element(By.TAG_NAME, "main").is_displayed(), "empty sections are shown")
     digits = max(len(word.lstrip("0.")) for word in text.split() if word.replace(".", "").isdigit() and "." in word)
     check(digits <= 4, f"numbers of {digits} digits")

@@ -2,7 +2,7 @@
 
 import xml.etree.ElementTree
 
-from report_browser import By, WebDriverWait, check, choose, equal, pixels, until_ready
+from report_browser import CATCH_SAVES, By, WebDriverWait, check, choose, equal, pixels, until_ready
 from report_crops import SHOT
 from report_viewer import NAMES, OTHER_SHOT, captions
 from selenium.webdriver.common.action_chains import ActionChains
@@ -42,8 +42,8 @@ def test_address(page, url):
 def test_keeping(page):
     """Pictures and tables as files, and for the clipboard."""
     saved = page.execute_async_script(
-        """const done = arguments[0];
-        window.saveFile = async (blob, name) => {
+        CATCH_SAVES + """const done = arguments[0];
+        window.saved = async (blob, name) => {
             const image = await createImageBitmap(blob), c = h('canvas', {width: image.width, height: image.height});
             c.getContext('2d').drawImage(image, 0, 0);
             const pane = viewer.panes[3].canvas, of = (canvas, x, y) => [...canvas.getContext('2d').getImageData(x, y, 1, 1).data];
@@ -58,8 +58,7 @@ def test_keeping(page):
     check(0.75 < cropped < 0.95, f"crops of 4:3 below their captions: {cropped}")
     table = page.execute_async_script(
         """const done = arguments[0];
-        window.saveFile = async (blob, name) => done([await blob.text(), window.copied]);
-        window.copyText = text => { window.copied = text };
+        window.saved = async (blob, name) => done([await blob.text(), window.copied]);
         const [copy, save] = document.querySelectorAll('#summary .controls button');
         copy.click(), save.click()"""
     )
@@ -73,16 +72,16 @@ def test_keeping(page):
 
 def test_save_tools(page):
     """A table or a plot that is pointed at can be saved; the plot's file is whole, with colours of its own."""
-    page.execute_script("window.saveFile = (blob, name) => { window.saved = [blob, name] }")
+    page.execute_script("window.saved = (blob, name) => { window.kept = [blob, name] }")
 
     def saved(selector, place):
         page.execute_script("document.querySelector(arguments[0]).scrollIntoView({block: 'center'})", selector)
         ActionChains(page, duration=0).move_to_element(page.find_element(By.CSS_SELECTOR, selector)).perform()
-        page.execute_script("window.saved = null")
+        page.execute_script("window.kept = null")
         ActionChains(page, duration=0).move_to_element(page.find_elements(By.CSS_SELECTOR, "#save-tools button")[place]).click().perform()
-        WebDriverWait(page, 10).until(lambda p: p.execute_script("return window.saved") is not None, selector)
+        WebDriverWait(page, 10).until(lambda p: p.execute_script("return window.kept") is not None, selector)
         return page.execute_async_script(
-            "const done = arguments[0], [blob, name] = window.saved; blob.text().then(text => done([name, text, blob.size]))"
+            "const done = arguments[0], [blob, name] = window.kept; blob.text().then(text => done([name, text, blob.size]))"
         )
 
     name, text, _ = saved("#scatter .chart > svg", 0)

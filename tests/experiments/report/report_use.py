@@ -211,12 +211,17 @@ def test_chosen_point(page, shot):
 
 
 def opened(page):
-    return page.execute_script("const was = window.opened; window.opened = null; return was")
+    """The shot and the points that the viewer shows, once a click has changed them."""
+    read = """if (viewer.shot === null || at('panes').getAttribute('aria-busy') !== 'false') return null;
+        return {shot: viewer.shot, points: viewer.shown.slice(1).map(s => s.method.label)}"""
+    was = WebDriverWait(page, 20).until(lambda p: p.execute_script(read))
+    page.execute_script("viewer.shot = null")
+    return was
 
 
 def test_matrix(page, shots):
     """What a click on a cell, on a mark and on a picture opens; keys do the same."""
-    page.execute_script("window.openViewer = what => { window.opened = what }")
+    opened(page)
     wanted = {"shot": shots[0], "points": ["mcguire_dda · stride=1", "mcguire_dda · stride=4"]}
     head = page.execute_script("return [...document.querySelectorAll('#matrix thead th')].map(t => t.textContent)")
     scenes = ["mirror_pillars", "fence", "roughness_gradient"]
@@ -239,6 +244,7 @@ def test_matrix(page, shots):
     equal(opened(page), wanted, "what a mark opens")
     page.find_element(By.CSS_SELECTOR, "#answer-pictures [role=button]").click()
     equal(opened(page), wanted, "what a picture opens")
+    page.execute_script("return openViewer({shot: arguments[0]})", shots[0])
     choose_in(page, "results", "Cells relative to", "none")
     equal(texts(page, "#matrix tbody tr:first-child button:not(.time)"), ["1"] * 6, "none over itself")
     choose_in(page, "results", "Cells relative to", "the least")

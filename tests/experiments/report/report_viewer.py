@@ -15,6 +15,7 @@ from report_browser import (
     pane_count,
     pixels,
     srgb_code,
+    until_ready,
     webdriver,
 )
 from report_crops import FIGURES_JSON, SHOT
@@ -432,6 +433,7 @@ def test_frames_of_a_sequence(page, shot):
 def test_linked_images(page, folder):
     """The same page with its images beside it, as a file: they come when they are looked at."""
     page.get("file://" + os.path.join(folder, "report.html"))
+    until_ready(page)
     loaded = "return loadedImages.size"
     check(page.execute_script(loaded) <= 4, "only the pictures of the first screen are loaded before anybody looks at others")
     page.execute_script("at('viewer').scrollIntoView()")

@@ -70,7 +70,7 @@ TEST_F(StudyPlanTest, AnEditRedoesTheCellsThatItMayChange) {
     all.insert({"references", "times"}), all_but_references.insert("times");
 
     for (const char* file :
-         {"experiments/report/report.cpp", "experiments/report/page/page.js",
+         {"experiments/report/report.cpp", "experiments/page/report.js",
           "experiments/results/verdicts/summary.cpp", "experiments/results/verdicts/effects/effects.cpp",
           "experiments/study/manifest_entries.cpp", "experiments/cli/commands.h",
           "experiments/python/ssrlab/tables/__main__.py", "experiments/study/study_results.cpp",

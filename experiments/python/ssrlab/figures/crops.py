@@ -21,7 +21,7 @@ PARTS = ("image", "crops", "maps")
 LINES = ("-", "--", ":", "-.")
 BOX_COLORS = ["#e69f00", "#56b4e9", "#009e73", "#cc79a7", "#d55e00", "#0072b2"]
 
-# From exposed radiance, each channel by itself, as the report's viewer has them (experiments/report/page/viewer/image_colors.js).
+# From exposed radiance, each channel by itself, as the report's viewer has them (experiments/page/images/colors.js).
 TONE_CURVES = {
     "none": lambda v: v,
     "reinhard": lambda v: v / (1 + v),  # Reinhard et al. 2002

@@ -12,7 +12,7 @@ import subprocess
 import sys
 import tempfile
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "report"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "report"))
 from report_browser import WebDriverWait, open_browser
 
 # On the CPU, whatever the machine has, so that the bounds below hold everywhere.
@@ -107,6 +107,7 @@ def open_page(browser, page):
     )
     problem = browser.execute_script("return document.getElementById('problem').textContent")
     check(not problem, f"the page says: {problem}")
+    browser.execute_script("Object.assign(window, ssrlab)")  # what its modules export, by name
 
 
 def faults_of_passes(browser, place):

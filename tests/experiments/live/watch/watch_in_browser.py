@@ -17,7 +17,7 @@ import sys
 import tempfile
 import time
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "report"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "report"))
 from report_browser import WebDriverWait, open_browser
 
 PROGRAM = sys.argv[1]
@@ -77,6 +77,7 @@ class Page:
     def __init__(self, browser, address):
         self.browser = browser
         browser.get(address)
+        browser.execute_script("Object.assign(window, ssrlab)")  # what its modules export, by name
 
     def text(self, place):
         return self.browser.execute_script("return document.getElementById(arguments[0]).innerText", place)

@@ -1,0 +1,99 @@
+// The reader's choice of metric and points, and what it shows: the matrix, charts of error against time, the table.
+
+import {at, choiceBox, h} from "../elements/elements.js";
+import {drawAnswerCharts} from "./answers.js";
+import {costAxis, costOf, errorTimeChart} from "./error_time.js";
+import {matrix, sortedPoints, sortKeys, timeRows} from "./matrix.js";
+import {choiceListeners, chosenRows, otherRows, showChoice, showSummary} from "./summary.js";
+import {pointLegend, pointListeners, pointsChanged} from "../sections/parts.js";
+import {costKinds} from "../study/costs.js";
+import {pointKey, report} from "../study/data.js";
+import {better} from "../study/errors.js";
+import {isOneSeed} from "../study/mistakes.js";
+import {
+    choice, comparedPoints, filteredRows, mostNamed, pointGroups, shownPoints, singleChangeKeys, sweptParameters,
+    variants
+} from "../study/points.js";
+import {unique} from "../values.js";
+
+const matchText = (shown, all) => shown === all ? `${all} points` : `${shown} of ${all} points`;
+
+export function showExplorer() {
+    const swept = unique(variants.flatMap(v => sweptParameters.get(v)));
+    const changed = key => value => {
+        shownPoints[key] = value;
+        pointsChanged();
+    };
+    const choose = (label, key, options) => choiceBox(label, shownPoints, key, options, pointsChanged);
+    const filter = h("input", {
+        type: "search",
+        id: "filter",
+        placeholder: "words of a point's name",
+        input: event => changed("filter")(event.target.value)
+    });
+    const box = (label, key) => h(
+        "label", {},
+        h("input",
+          {type: "checkbox", id: key, checked: shownPoints[key], change: event => changed(key)(event.target.checked)}),
+        label);
+    const colours = [
+        ...(comparedPoints.length <= mostNamed ? [["point", "points"]] : []), ["variant", "variants"],
+        ...(pointGroups.length > 1 ? [["group", "groups"]] : []), ...swept.map(name => [name, name])
+    ];
+    const costs = [["time", "time"], ...Object.entries(costKinds).map(([key, {name}]) => [key, name])];
+    const drawCharts = () => {
+        drawAnswerCharts();
+        drawErrorTime();
+    };
+    const singles = `${singleChangeKeys.size} points that change one parameter of a baseline, too`;
+    at("points-choice").append(...[
+        h("label", {}, "Filter", filter), choose("Sort by", "sort", Object.entries(sortKeys)),
+        box("group by variant", "isGrouped"),
+        variants.includes("none") &&
+            choose("Cells relative to", "relativeTo", [["best", "the least"], ["none", "none"]]),
+        choose("Colours and shapes stand for", "colourBy", colours),
+        report.costs.length > 0 && choiceBox("Charts against", costAxis, "kind", costs, drawCharts),
+        singleChangeKeys.size > 0 && box(singles, "hasSingleChanges"),
+        h("output", {id: "match", "aria-live": "polite"})
+    ].filter(Boolean));
+    showChoice();
+    const draw = () => {
+        drawMatrix();
+        drawErrorTime();
+        showSummary();
+    };
+    choiceListeners.push(draw);
+    pointListeners.push(draw);
+    draw();
+}
+
+function drawMatrix() {
+    const rows = filteredRows(chosenRows());
+    at("match").textContent = matchText(unique(rows.map(pointKey)).length, unique(chosenRows().map(pointKey)).length);
+    at("matrix").replaceChildren(
+        rows.length ? matrix([chosenRows(), otherRows(), timeRows(chosenRows())].filter(own => own.length), sortedPoints(rows)) :
+                      h("p", {class: "note"}, "No point's name has these words."));
+}
+
+function drawErrorTime() {
+    const rows = chosenRows(), others = otherRows();
+    const timed = rows.some(costOf), isLog = better(choice.metric.split("|")[0]) === "lower";
+    at("error-time-note").textContent = [
+        costAxis.kind !== "time" ?
+            "What all stages of a technique do in the last frame, counted: no times of a machine." :
+            timed ? "Total time of a technique's stages, medians over the frames; lines are 95 % intervals." :
+                    "No times were measured.",
+        isLog && timed && "The grey steps join the points that none other beats in both, whatever the intervals say.",
+        "Dashed: none. Dotted: the lower bound for any single-frame technique (see Truth ladder), with its interval.",
+        isLog && "An arrow marks a noise-corrected error that is not above 0.",
+        rows.some(isOneSeed) && "Hollow: one seed alone, which has no interval and is left out of the steps.",
+        "A mark shows its parameters and numbers; a click opens its images."
+    ].filter(Boolean).join(" ");
+    at("legend").replaceChildren(pointLegend(rows));
+    const pairs = unique(rows.map(r => r.shot))
+                      .map(
+                          shot => [rows, others]
+                                      .map(own => errorTimeChart(shot, own.filter(r => r.shot === shot)))
+                                      .filter(Boolean));
+    at("scatter").replaceChildren(...pairs.filter(pair => pair.length).map(pair => h("div", {class: "pair"}, pair)));
+}

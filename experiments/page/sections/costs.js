@@ -1,0 +1,32 @@
+// What stages do, counted (costs.csv): a cost without a clock, beside their times.
+
+import {folded, h} from "../elements/elements.js";
+import {cell, numbers, table} from "../elements/tables.js";
+import {costKinds, howCounted} from "../study/costs.js";
+import {pointLabel, report} from "../study/data.js";
+import {filteredRows} from "../study/points.js";
+import {countText, unique} from "../values.js";
+
+/// Those of a shot that the filter leaves, as rows of bars.
+export const costRows = (shot, kind) =>
+    filteredRows(report.costs.filter(c => c.shot === shot)).map(c => ({...c, value: costKinds[kind].of(c)}));
+
+export function costTable(shot) {
+    const own = filteredRows(report.costs.filter(c => c.shot === shot));
+    if (!own.length) return "";
+    const points = unique(own.map(pointLabel));
+    const sorted = [...own].sort((a, b) => points.indexOf(pointLabel(a)) - points.indexOf(pointLabel(b)));
+    const counted = c => cell(c, countText(c));
+    const row = c =>
+        [pointLabel(c), c.stage === "total" ? h("b", {}, "total") : c.stage,
+         ...[c.invocations, c.idle, c.fetches, c.texels, c.bytesRead, c.bytesWritten, c.uniqueBytes, c.operations].map(
+             counted)];
+    const names = "Invocations, Idle, Fetches, Texels, Bytes read, Bytes written, Unique bytes, Operations".split(", ");
+    return folded(
+        "What the stages do, counted",
+        h("p", {class: "note"}, howCounted,
+          " Idle are invocations that write nothing; unique bytes count what a pass reads or writes of an image or buffer no more than once."),
+        table(
+            ["Variant", "Stage", ...numbers(...names)], sorted.map(row),
+            {groupBy: 0}));
+}

@@ -1,0 +1,49 @@
+// What points take: measured times, and counted costs.
+
+import {manifestShots, pointKey, report} from "./data.js";
+import {makers} from "./makers.js";
+import {list, unique} from "../values.js";
+
+export const totals = new Map(report.times.filter(t => t.stage === "total").map(t => [t.shot + "|" + pointKey(t), t]));
+export const totalTime = row => totals.get(row.shot + "|" + pointKey(row));
+
+/// By name: how charts and controls call a cost, and its value of a row of report.costs, in millions.
+export const costKinds = {
+    fetches: {name: "fetches", axis: "millions of instructions that read images", of: c => c.fetches / 1e6},
+    bytes: {name: "bytes", axis: "MB read and written", of: c => (c.bytesRead + c.bytesWritten) / 1e6},
+    operations:
+        {name: "operations", axis: "millions of scalar operations, as shaders state them", of: c => c.operations / 1e6}
+};
+
+const costTotals = new Map(report.costs.filter(c => c.stage === "total").map(c => [c.shot + "|" + pointKey(c), c]));
+
+/// The total of a point as a value of an axis, like totalTime(); undefined where nothing was counted.
+export function totalCost(row, kind) {
+    const total = costTotals.get(row.shot + "|" + pointKey(row));
+    return total && {value: costKinds[kind].of(total), low: null, high: null};
+}
+
+export const howCounted =
+    "Counted by the shaders as they ran, in the shot's last frame with the first seed; of no machine." +
+    ` Other seeds of a point that draws random numbers count up to ${report.countSpread} % more or less.`;
+
+/// Which machine and size the times of a shot are of: "llvmpipe (a CPU), 256x144"; its name, too, where others took the
+/// times of other shots.
+export function timedOn(shot) {
+    const {width, height} = manifestShots().find(s => s.shot === shot) ?? {};
+    const devices = makers.map(m => m.device).filter(Boolean)
+                        .map(d => d.name.split(" (")[0] + (d.type === "cpu" ? " (a CPU)" : ""));
+    const loads = list(report.manifest.clock?.load), host = loads.find(l => l.shot === shot)?.host;
+    const isOneOfSeveral = unique(loads.map(l => l.host?.name)).length > 1;
+    return [...unique(devices), isOneOfSeveral ? host?.name : "", width ? `${width}x${height}` : ""]
+        .filter(Boolean)
+        .join(", ");
+}
+
+/// By how much times of a shot must differ to differ at all; undefined where no point was timed twice.
+export const aaFloor = shot => report.manifest.clock?.aa_floors?.[shot];
+
+/// Total times of the points in a shot, by ascending time.
+export const timesOf = shot =>
+    report.times.filter(t => t.shot === shot && t.stage === "total" && t.variant && t.variant !== "none")
+        .sort((a, b) => a.value - b.value);

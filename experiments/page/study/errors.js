@@ -1,0 +1,79 @@
+// Rows of errors: their metrics, what is better, and what is compared first.
+
+import {manifestShots, report} from "./data.js";
+import {interval, list, number, preferred, unique} from "../values.js";
+
+/// What the page shows first: the error that a study compares by, and what an eye sees; manifests of other versions
+/// may lack it.
+export const headline = Object.fromEntries(
+    Object.entries({metric: "mse", mask: "reflective", target: "specular", perceptual_metric: "flip", margin: 0.05})
+        .map(([key, usual]) => [key, report.headline?.[key] || usual]));
+
+export const headlineMetric = rows => {
+    const keys = unique(rows.map(metricKey));
+    return preferred(keys, keys.find(m => m.startsWith(headline.metric + "|")));
+};
+
+/// The metric that is read beside it: physical and perceptual errors order techniques differently. Undefined if `rows`
+/// have none.
+export const otherMetric = (key, rows) => {
+    const {metric, perceptual_metric: perceptual} = headline, keys = unique(rows.map(metricKey));
+    const others = key.startsWith(metric + "|") ? [perceptual, "mse", "relmse"] : [metric];
+    return others.map(other => keys.find(k => k !== key && k.startsWith(other + "|"))).find(Boolean);
+};
+
+export const metricName = key => {
+    const [metric, formula] = key.split("|");
+    return metric === formula || !formula ? metric : `${metric} (${formula})`;
+};
+
+export const unitText = metric => {
+    const unit = report.metrics[metric]?.unit;
+    return unit && unit !== "1" ? ` (${unit.replace("^2", "²")})` : "";
+};
+
+/// Which frames a row of errors is of; empty for a shot of one frame.
+export function framesText(row) {
+    const frames = list(manifestShots().find(s => s.shot === row.shot)?.frames);
+    if (frames.length < 2) return "";
+    return row.frame === "" ? "mean over frames" : `frame ${row.frame} alone`;
+}
+
+export const better = metric => report.metrics[metric]?.better;
+export const metricKey = row => `${row.metric}|${row.formula}`;
+
+/// The rows that are significantly the best of their shot, as ssrlab decided (experiments/results/verdicts/standings.h).
+export const bestRows = rows => new Set(rows.filter(r => r.standing === "best"));
+
+/// The row of `none` over the same frames.
+const noneLike = (row, rows) => [...rows, ...report.frames].find(
+    r => r.shot === row.shot && r.variant === "none" && r.frame === row.frame && r.target === row.target &&
+        r.mask === row.mask && metricKey(r) === metricKey(row));
+
+/// value / none with the worst case of both intervals; only where a quotient of errors makes sense.
+export function againstNone(row, rows) {
+    const none = noneLike(row, rows);
+    if (!none || none === row || better(row.metric) !== "lower" || row.value === null || !(none.value > 0)) return null;
+    const isBounded = row.low !== null && none.low > 0;
+    const ends = isBounded ?
+        [row.low / (row.low < 0 ? none.low : none.high), row.high / (row.high < 0 ? none.high : none.low)] :
+        [null, null];
+    return {value: row.value / none.value, low: ends[0], high: ends[1]};
+}
+
+/// Rows of the shot of the headline's target and mask, by the name of a metric.
+export const headlineRows = (shot, metric) => {
+    const {target, mask} = headline;
+    const of = report.errors.filter(r => r.shot === shot && r.metric === metric && r.value !== null);
+    const narrow = (rows, key, wanted) => rows.filter(r => r[key] === preferred(unique(rows.map(r => r[key])), wanted));
+    return narrow(narrow(of, "target", target), "mask", mask);
+};
+
+/// Names of the metrics that stand side by side: one or two.
+export const headlineMetrics = () => {
+    if (!report.errors.length) return [];
+    const first = headlineMetric(report.errors);
+    return [first, otherMetric(first, report.errors)].filter(Boolean).map(key => key.split("|")[0]);
+};
+
+export const rowText = row => `${row.metric} ${number(row.value)} ${interval(row)}${unitText(row.metric)}`;

@@ -1,0 +1,79 @@
+// The points that a study compares: which are shown, and the number, colour and shape that each keeps on the page.
+
+import {ownLabel, pointKey, pointLabel, report} from "./data.js";
+import {list, unique} from "../values.js";
+
+export const singleChangeKeys = new Set(report.singleChanges.map(pointKey));
+export const isSingleChange = row => singleChangeKeys.has(pointKey(row));
+
+/// Of a capture without truth, which has no errors, those that it ran.
+export const allPoints = [...new Map((report.errors.length ? report.errors : list(report.manifest.variants))
+                                  .map(r => [pointKey(r), {variant: r.variant, point: r.point}]))
+                       .values()];
+export const comparedPoints = allPoints.filter(p => !isSingleChange(p));
+export const places = new Map(allPoints.map((p, i) => [pointKey(p), i]));
+export const variants = unique(allPoints.map(p => p.variant));
+export const mostNamed = 30;  // more names than that cover each other
+/// The point's name at a mark, no longer than it takes to differ from the others.
+export const markName = (() => {
+    const count = variant => comparedPoints.filter(p => p.variant === variant).length;
+    const techniques = variants.filter(v => v !== "none");
+    return row => ownLabel(row) ??
+        (count(row.variant) === 1    ? row.variant :
+             techniques.length === 1 ? row.point :
+                                       pointLabel(row));
+})();
+
+/// What the reader chose to see. `hidden`: keys of points that legends switched off.
+export const shownPoints = {
+    filter: "",
+    sort: "study",
+    isGrouped: false,
+    relativeTo: "best",  // or none: what cells of the matrix are divided by
+    colourBy: comparedPoints.length <= mostNamed ? "point" : "variant",
+    // A grid has holes without them; a list of changes to a baseline is shown by its effects.
+    hasSingleChanges: comparedPoints.some(p => (p.point.match(/=/g) ?? []).length > 1),
+    hidden: new Set()
+};
+
+const parametersByPoint = new Map(list(report.manifest.variants).map(v => [pointKey(v), v.parameters ?? {}]));
+export const parametersOf = row => parametersByPoint.get(pointKey(row)) ?? {};
+const groupsByPoint = new Map(list(report.manifest.variants).map(v => [pointKey(v), v.group ?? ""]));
+export const groupOf = row => groupsByPoint.get(pointKey(row)) ?? "";
+export const pointGroups = unique(allPoints.map(groupOf));
+
+/// Names of parameters in which points of one variant differ.
+export const sweptParameters = (() => {
+    const swept = new Map();
+    for (const variant of variants) {
+        const all = allPoints.filter(p => p.variant === variant).map(parametersOf);
+        const names = unique(all.flatMap(Object.keys));
+        swept.set(variant, names.filter(name => unique(all.map(p => JSON.stringify(p[name]))).length > 1));
+    }
+    return swept;
+})();
+
+const mostParameters = 8;  // in a tip
+/// For tips: the parameters that differ among the points of the variant; a swept point's name has them already.
+export function parameterLines(row) {
+    if (row.point.includes("=")) return [];
+    const names = sweptParameters.get(row.variant) ?? [], parameters = parametersOf(row);
+    const shown = names.slice(0, mostParameters), rest = names.length - shown.length;
+    return [
+        ...shown.map(name => `${name} = ${JSON.stringify(parameters[name])}`),
+        ...(rest ? [`and ${rest} more parameters, see Parameters`] : [])
+    ];
+}
+/// What the point is, for tips: its name, and those parameters.
+export const pointText = row => [pointLabel(row), ...parameterLines(row)].join("\n");
+export const mayShow = row => shownPoints.hasSingleChanges || !isSingleChange(row);
+/// By what is read, and by what results are keyed by.
+const matchesFilter = row => {
+    const names = `${pointLabel(row)} ${row.variant} ${row.point} ${groupOf(row)}`.toLowerCase();
+    return shownPoints.filter.toLowerCase().split(/\s+/).every(word => names.includes(word));
+};
+/// Rows of the points that the reader has not filtered out.
+export const filteredRows = rows => rows.filter(r => mayShow(r) && matchesFilter(r));
+/// Those of them that no legend switched off: what charts draw.
+export const chartedRows = rows => filteredRows(rows).filter(r => !shownPoints.hidden.has(pointKey(r)));
+export const choice = {};
