@@ -24,10 +24,10 @@ int parse_and_run(int argc, char** argv) {
         "Print version, commit and the hash of all code, as manifest.json has them");
     Commands line(app);
     for (const auto add :
-         {add_run,       add_plan,      add_merge,    add_report,     add_figures, add_diff,    add_judge,
-          add_scene_for, add_tables,    add_tradeoff, add_statistics, add_tune,    add_compare, add_reference,
-          add_gbuffer,   add_capture,   add_inspect,  add_needs,      add_shaders, add_rays,    add_record,
-          add_watch,     add_stability, add_new,      add_describe,   add_list})
+         {add_run,       add_plan,    add_merge,    add_report,  add_figures, add_diff,      add_judge,
+          add_scene_for, add_tables,  add_tradeoff, add_tune,    add_compare, add_reference, add_gbuffer,
+          add_capture,   add_inspect, add_needs,    add_shaders, add_rays,    add_record,    add_watch,
+          add_stability, add_new,     add_describe, add_list})
         add(line);
     if (argc > 1 && argv[1][0] != '-') refuse_unknown_command(app, argv[1]);
     try {

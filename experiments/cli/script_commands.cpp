@@ -1,4 +1,4 @@
-// The commands that are modules of Python: figures, tables, tradeoff, tune.
+// The commands that are modules of Python (figures, tables, tune), and tradeoff.
 #include "experiments/cli/script_commands.h"
 #include "core/child_process.h"
 #include "core/error.h"
@@ -7,10 +7,8 @@
 #include "experiments/cli/commands.h"
 #include "experiments/cli/config_of_study.h"
 #include "experiments/gpu_costs/chips/chip_compiler.h"
-#include "experiments/gpu_costs/chips/model_range.h"
 #include "experiments/results/cells/host_info.h"
-#include "experiments/results/tables/counts_spread.h"
-#include "experiments/results/tradeoff/tradeoff.h"
+#include "experiments/results/tradeoff/tradeoff_answers.h"
 #include "experiments/results/verdicts/study_points.h"
 #include "experiments/study/config/config.h"
 #include "experiments/study/config/config_parts.h"
@@ -20,6 +18,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <iostream>
 #include <nlohmann/json.hpp>
 
 namespace {
@@ -37,9 +36,7 @@ struct TuneOptions {
 };
 
 /// Runs a module of experiments/python/ssrlab: 0 done, 2 a mistake of the user, else a fault of the machine (3).
-/// Scripts ask this program for their statistics (experiments/python/ssrlab/statistics.py).
 int run_module(const std::string& name, const std::vector<std::string>& arguments) {
-    setenv("SSRLAB_PROGRAM", this_program().c_str(), 1);
     std::vector<std::string> command = {SSRLAB_PYTHON, "-B", SSRLAB_SOURCE_DIR "/experiments/python", name};
     command.insert(command.end(), arguments.begin(), arguments.end());
     const int code = run_program(command);
@@ -82,36 +79,16 @@ static int tradeoff_command(const TradeoffOptions& options) {
     write_rows(out / "across.csv", found.across);
     write_rows(out / "stages.csv", found.changes);
     write_text(out / "frozen.json", nlohmann::json{{"frozen", frozen_json(found.to_freeze)}}.dump(2) + "\n");
-    nlohmann::json asked = {{"results", options.results.string()},
-                            {"out", out.string()},
-                            {"baseline", found.baseline},
-                            {"times", costs},
-                            {"factors", options.factors},
-                            {"target", error.target},
-                            {"metric", error.metric},
-                            {"mask", error.mask},
-                            {"costs", found.kind == CostKind::timed     ? "timed"
-                                      : found.kind == CostKind::counted ? "counted"
-                                                                        : "estimated"},
-                            {"unit", found.unit},
-                            {"model_range", model_range_text()},
-                            {"model_decides_from", model_decides_from},
-                            {"counts_spread", counts_spread},
-                            {"refused", nlohmann::json::array()},
-                            {"divisors", nlohmann::json::object()},
-                            {"chosen", nlohmann::json::array()}};
-    for (const auto& [shot, divisor] : found.divisors) asked["divisors"][shot] = column_json(divisor);
-    for (const RefusedEstimate& r : found.refused)
-        asked["refused"].push_back({{"point", r.point}, {"shots", r.shots}, {"why", r.refusal}});
-    for (const ChosenPoint& c : found.chosen)
-        asked["chosen"].push_back({{"shot", c.shot},
-                                   {"variant", c.variant},
-                                   {"cost", c.cost},
-                                   {"point", c.point},
-                                   {"chosen_on", c.chosen_on},
-                                   {"fits", c.fits}});
-    write_text(out / "asked.json", asked.dump(1) + "\n");
-    return run_module("tradeoff", {(out / "asked.json").string()});
+    std::vector<double> factors = options.factors;
+    std::ranges::sort(factors, std::greater());
+    const BetweenPoints between = between_points(tables, error, found, costs, factors);
+    write_rows(out / "error_at_cost.csv", between.error_at_cost);
+    write_rows(out / "cost_to_error.csv", between.cost_to_error);
+    write_rows(out / "fits.csv", between.fits);
+    write_rows(out / "limits.csv", between.limits);
+    write_text(out / "answers.md", tradeoff_answers(tables, error, found, between, costs, factors));
+    std::cout << (out / "answers.md").string() << "\n";
+    return 0;
 }
 
 namespace {

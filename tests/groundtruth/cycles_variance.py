@@ -208,7 +208,6 @@ def main():
     parser.add_argument("--keep", help="folder for the images; default: none")
     arguments = parser.parse_args()
     arguments.ssrlab = str(Path(arguments.ssrlab).resolve())
-    os.environ["SSRLAB_PROGRAM"] = arguments.ssrlab
     if arguments.repeats < 3 or arguments.samples < 32 or min(arguments.size) < 1:
         raise ResultsError("--repeats is at least 3, --samples at least 32, and --size positive.")
     if not os.access(arguments.ssrlab, os.X_OK):

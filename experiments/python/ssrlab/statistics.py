@@ -1,47 +1,34 @@
-"""Statistics of numbers that scripts choose, as ssrlab itself computes them: asked of the program, so that each is written once
-(experiments/cli/statistics_command.cpp). One process answers all questions of a script, some 20 microseconds each."""
+"""Statistics over scenes of what tables and documents choose, by the rules of the C++ (experiments/results/verdicts/effects/over_scenes.h): scenes are the
+sample, shots of one asset are averaged first, and below four assets there is no interval."""
 
-import functools
-import json
 import math
-import os
-import subprocess
+import statistics
 
-from ssrlab.mistakes import Fault
+from scipy import stats
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-BUILT = os.path.join(HERE, "../../../build/release/ssrlab")
-
-
-def program():
-    """That which started the script, else the one that was built beside it."""
-    found = os.environ.get("SSRLAB_PROGRAM") or BUILT
-    if not os.path.exists(found):
-        raise Fault(f"{os.path.normpath(found)} is missing: build ssrlab, or name the program in SSRLAB_PROGRAM")
-    return found
+LEAST_SCENES = 4
+MODEL_RANGE = (0.22, 12.8)  # experiments/gpu_costs/chips/model_range.h
+MODEL_RANGE_TEXT = "measured times of stages were {:.3g} to {:.3g} times such estimates (NVIDIA H200, gpu_measured)".format(*MODEL_RANGE)
+COUNTS_SPREAD = 0.025  # relative, of a point's seeds: experiments/results/tables/counts_spread.h
 
 
-@functools.cache
-def _answering():
-    return subprocess.Popen([program(), "statistics"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-
-
-def _ask(question, values, **options):
-    process = _answering()
-    try:
-        process.stdin.write(json.dumps({"ask": question, "values": values} | options) + "\n")
-        process.stdin.flush()
-        answer = json.loads(process.stdout.readline())
-    except (OSError, ValueError) as e:
-        raise Fault(f"{program()} statistics ended, or is another program than this script's; build ssrlab anew") from e
-    if isinstance(answer, dict):
-        raise ValueError(f"{question}: {answer['error']}")
-    return answer
+def mean(values):
+    """(mean, low, high) by Student's t, of two values or more."""
+    half = stats.t.ppf(0.975, len(values) - 1) * statistics.stdev(values) / math.sqrt(len(values))
+    return statistics.fmean(values), statistics.fmean(values) - half, statistics.fmean(values) + half
 
 
 def mean_over_scenes(values):
-    """(mean, low, high, scenes) of (asset, value) pairs, one for each shot; no ends below four scenes."""
-    return tuple(_ask("mean_over_scenes", [[asset, float(v)] for asset, v in values]))
+    """(mean, low, high, scenes) of (asset, value) pairs, one for each shot: Student's t of n - 2 degrees of freedom."""
+    of_asset = {}
+    for asset, value in values:
+        of_asset.setdefault(asset, []).append(float(value))
+    means = [sum(of) / len(of) for _, of in sorted(of_asset.items())]
+    n, middle = len(means), sum(means) / len(means)
+    if n < LEAST_SCENES:
+        return middle, None, None, n
+    half = stats.t.ppf(0.975, n - 2) * math.sqrt(sum((v - middle) ** 2 for v in means) / (n - 1) / n)
+    return middle, middle - half, middle + half, n
 
 
 def geometric_mean_over_scenes(logarithms):
@@ -50,39 +37,13 @@ def geometric_mean_over_scenes(logarithms):
     return (*(None if v is None else math.exp(v) for v in ends), scenes)
 
 
-def bootstrap_over_scenes(values, seed=1):
-    """(low, high) of the mean, each None where there is none."""
-    return tuple(_ask("bootstrap_over_scenes", [float(v) for v in values], seed=seed))
-
-
-def mean(values):
-    """(mean, low, high) by Student's t, of two values or more."""
-    return tuple(_ask("mean", [float(v) for v in values]))
-
-
 def p_holm(effects, degrees):
     """p-values of "the mean is 0" of (mean, half width of its 95 % interval by Student's t of so many degrees of freedom) pairs, adjusted
-    together (Holm)."""
-    return _ask("p_holm", [[float(mean), float(half)] for mean, half in effects], degrees=degrees)
-
-
-@functools.cache
-def model_range():
-    """(low, high, sentence): by so many times a stage's measured time was its estimate (experiments/gpu_costs/chips/model_range.h)."""
-    return tuple(_ask("model_range", []))
-
-
-@functools.cache
-def counts_spread():
-    """By how much the counts of a point's seeds spread at most (experiments/results/tables/counts_spread.h), relative."""
-    return _ask("counts_spread", [])[0]
-
-
-def median(values):
-    """(median, low, high) of values in order of time."""
-    return tuple(_ask("median", [float(v) for v in values]))
-
-
-def sign_factor(values):
-    """By how much more than those of independent values the signs of these, in order of time, scatter about their median."""
-    return _ask("sign_factor", [float(v) for v in values])[0]
+    together (Holm 1979)."""
+    quantile = stats.t.ppf(0.975, degrees)
+    p_values = [2 * stats.t.cdf(-abs(mean) * quantile / half, degrees) for mean, half in effects]
+    adjusted, most = [0.0] * len(p_values), 0.0
+    for place, i in enumerate(sorted(range(len(p_values)), key=p_values.__getitem__)):
+        most = max(most, min((len(p_values) - place) * p_values[i], 1.0))
+        adjusted[i] = most
+    return adjusted

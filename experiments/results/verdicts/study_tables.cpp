@@ -14,7 +14,7 @@ using nlohmann::json;
 /// manifest.json as far as commands read it.
 const json& manifest_types() {
     static const json types = json::parse(R"({
-        "title?": "text", "is_complete?": "true or false",
+        "title?": "text", "is_complete?": "true or false", "study?": {"name?": "text", "config?": "text"},
         "primary?": {"metric?": "text", "mask?": "text", "target?": "text", "margin?": "number"},
         "written?": {"ssrlab?": "object"}, "config?": "object",
         "variants?": [{"variant?": "text", "point?": "text", "label?": "text", "group?": "text",

@@ -25,17 +25,9 @@ import tables_study
 from ssrlab import judge
 from ssrlab.figures import stability as stability_figure
 from ssrlab.tune import studies
-from ssrlab.tradeoff.points import Study
 from ssrlab.mistakes import exit_code
 
 STRIDE = int(sys.argv.pop()) if len(sys.argv) > 1 else 31
-ASKED = {
-    **{"baseline": ["sssr", "default"], "times": [5], "factors": [0.5], "target": "specular", "metric": "mse", "mask": "all", "costs": "timed", "unit": "ms"},
-    **{"refused": [{"point": ["sssr", "default"], "shots": ["floor"], "why": "no radv"}]},
-    **{"divisors": {"floor": 1, "wall": 1}, "chosen": [{"shot": "floor", "variant": "sssr", "cost": 5, "point": "default", "chosen_on": "all", "fits": "surely"}]},
-}
-FRONT = "shot,scene,machine,variant,point,label,error,error_low,error_high,cost,cost_low,cost_high,verdict\nfloor,s,m,sssr,default,l,1,0.9,1.1,2,1.9,2.1,front\n"
-
 
 class BrokenFiles(unittest.TestCase):
     def setUp(self):
@@ -109,17 +101,6 @@ class BrokenFiles(unittest.TestCase):
         make, figures.make = figures.make, lambda *_: 0
         self.addCleanup(setattr, figures, "make", make)
         self.break_files(("figures.json", "manifest.json", "summary.csv", "time_summary.csv"), figures.main, self.folder, "--choice", self.path("figures.json"), "--mask", "all")
-
-    def test_tradeoff(self):
-        tables_study.write_results(self.folder)
-        self.write("tradeoff/asked.json", ASKED | {"results": self.folder, "out": self.path("tradeoff")})
-        self.write("tradeoff/front.csv", FRONT)
-        self.write("tradeoff/across.csv", "variant,label,cost,ratio\nsssr,l,5,1\n")
-        self.write("tradeoff/stages.csv", "shot,variant,cost\nfloor,sssr,1\n")
-        self.write("results.csv", "shot,variant,point,seed,target,metric,mask,value,represents_shot\nfloor,sssr,default,0,specular,mse,all,1,1\n")
-        self.write("times.csv", "shot,variant,point,seed,stage,frame,milliseconds\nfloor,sssr,default,0,total,1,2\n")
-        names = ["manifest.json", "results.csv", "times.csv", *(f"tradeoff/{name}" for name in ("asked.json", "front.csv", "across.csv", "stages.csv"))]
-        self.break_files(names, lambda: Study(self.path("tradeoff")) and None)
 
     def test_a_search_that_goes_on(self):
         self.write("minutes.json", {"search/start": 1.5})

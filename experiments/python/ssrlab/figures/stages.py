@@ -92,7 +92,7 @@ def draw_estimates(results, shot, chosen):
     points = results.estimates_of(shot, chip)
     whole = {key: stages for key, stages in points.items() if "total" in stages}
     lacking = ", ".join(results.point_label(*key) for key in points if key not in whole)
-    low, high, _ = statistics.model_range()
+    low, high = statistics.MODEL_RANGE
     said = f"microseconds on {chip} (estimate) with the 95 % interval of the total by sampling; measured times were {low:.3g} to {high:.3g} times such estimates"
     said += f"; left out, since a stage has no estimate: {lacking}" if lacking else ""
     return _draw(results, shot, chosen, whole, said, numbers.with_interval)

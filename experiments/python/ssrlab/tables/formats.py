@@ -106,9 +106,9 @@ def other_notes(table, cells):
     if any(c.interval == EXACT for c in cells):
         found.append("numbers of the compiler, shown with three digits; k, M, G: thousands, millions, billions")
     if any(c.interval == COUNTED for c in cells):
-        found.append(f"counts of the last frame with one seed; those of other seeds differ by up to {100 * statistics.counts_spread():.2g} %; k, M, G: thousands, millions, billions")
+        found.append(f"counts of the last frame with one seed; those of other seeds differ by up to {100 * statistics.COUNTS_SPREAD:.2g} %; k, M, G: thousands, millions, billions")
     if table.get("is_estimated"):
-        found.append(f"estimated: no GPU ran anything; intervals are of sampling alone, {statistics.model_range()[2]}")
+        found.append(f"estimated: no GPU ran anything; intervals are of sampling alone, {statistics.MODEL_RANGE_TEXT}")
     if any(c.value is None for c in cells):
         found.append(f"{NO_VALUE}: no value")
     share = max((c.disturbed_share for c in cells if c.disturbed_share), default=None)

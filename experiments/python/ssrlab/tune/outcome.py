@@ -122,7 +122,7 @@ class Outcome:
         if not self.studies.has_time:
             return "time: not measured, the program's own"
         baseline = markdown_code(self.tuning.baseline)
-        open_range = f"; an estimate, of which no interval holds what its model leaves open: {statistics.model_range()[2]}" if self.studies.is_estimated else ""
+        open_range = f"; an estimate, of which no interval holds what its model leaves open: {statistics.MODEL_RANGE_TEXT}" if self.studies.is_estimated else ""
         return f"{self.time_word()}: likewise (that of {baseline}: {self.tuning.baseline_cost:.4g} {self.unit}; on the scenes of the search without an interval){open_range}"
 
     def time_cell(self, ratio):

@@ -1,19 +1,16 @@
-"""The statistics that scripts ask of ssrlab, against scipy's, and by closed forms.
-
-usage: SSRLAB_PROGRAM=SSRLAB statistics_test.py
-"""
+"""The statistics over scenes of tables and documents: against closed forms, and constants of the C++ against its headers."""
 
 import os
 import sys
 import tempfile
 import unittest
 
-
 import numpy as np
 from ssrlab.tables import documents, summary_file
 from ssrlab.tables.cell import Cell
 from scipy import stats
 from ssrlab import statistics
+from ssrlab.repository import ROOT
 
 QUANTILES = 2e-8  # so far off are scipy's of Student's t: of 2 degrees of freedom over_scenes_test.cpp has the closed form
 
@@ -55,26 +52,16 @@ class Statistics(unittest.TestCase):
         low, high = stats.t.interval(0.95, 5, values.mean(), stats.sem(values))
         np.testing.assert_allclose(statistics.mean(values), (values.mean(), low, high), rtol=QUANTILES)
 
-    def test_bootstraps_are_scipys(self):
-        values = self.random.exponential(1, 12)
-        found = stats.bootstrap((values,), np.mean, n_resamples=20000, method="BCa", random_state=2).confidence_interval
-        # 1999 resamples give an end of 95 % to about 6 % of the standard error; here to within four times that.
-        np.testing.assert_allclose(statistics.bootstrap_over_scenes(values), found, atol=0.25 * stats.sem(values))
-        self.assertEqual(statistics.bootstrap_over_scenes(values), statistics.bootstrap_over_scenes(values))
-        self.assertEqual(statistics.bootstrap_over_scenes(values[:3]), (None, None))
-        self.assertEqual(statistics.bootstrap_over_scenes([1.0] * 5), (None, None))
+    def test_constants_are_those_of_the_program(self):
+        model, counts = ((ROOT / file).read_text() for file in ("experiments/gpu_costs/chips/model_range.h", "experiments/results/tables/counts_spread.h"))
+        self.assertIn("model_range{{{:g}, {:g}}}".format(*statistics.MODEL_RANGE), model)
+        self.assertIn(f'"{statistics.MODEL_RANGE_TEXT}"', model)
+        self.assertIn(f"counts_spread = {statistics.COUNTS_SPREAD:g};", counts)
 
-    def test_slow_halves_scatter_more_than_rounds_in_turn(self):
-        self.assertEqual(statistics.sign_factor([8, 1, 15, 4, 11, 2, 14, 6, 9, 3, 13, 5, 12, 7, 10]), 2)
-        self.assertGreater(statistics.sign_factor(range(15)), 4)
-
-    def test_medians_have_the_ends_of_their_ranks(self):
-        values = [8, 1, 15, 4, 11, 2, 14, 6, 9, 3, 13, 5, 12, 7, 10]  # ranks 7.5 -+ 1.96 sqrt(2 x 15) / 2
-        self.assertEqual(statistics.median(values), (8, 3, 13))
-
-    def test_mistakes_are_said(self):
-        with self.assertRaisesRegex(ValueError, "at least two values"):
-            statistics.mean([1.0])
+    def test_p_values_are_adjusted_together(self):
+        half = stats.t.ppf(0.975, 4)  # of a mean whose standard error is 1
+        alone = [2 * stats.t.sf(t, 4) for t in (5, 3, 1)]
+        np.testing.assert_allclose(statistics.p_holm([(3, half), (5, half), (-1, half)], 4), [2 * alone[1], 3 * alone[0], alone[2]])
 
 
 if __name__ == "__main__":

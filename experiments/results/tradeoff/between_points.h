@@ -1,0 +1,132 @@
+#pragma once
+#include "experiments/results/tradeoff/curves.h"
+#include "experiments/results/tradeoff/fits.h"
+
+// What `ssrlab tradeoff` reads off curves between points, and off laws that are fitted to them.
+
+/// A number of these tables: nine significant digits in files.
+struct NineDigits : std::optional<double> {
+    using std::optional<double>::optional;
+    NineDigits(const std::optional<double>& value) : std::optional<double>(value) {}
+};
+std::string csv_field(const NineDigits& value);
+
+/// The error that a cost buys: on a variant's curve, and by the point that stands for it there (ChosenPoint).
+struct ErrorAtCostRow {
+    std::string shot, scene, machine, variant, label;
+    NineDigits cost;
+    std::string unit;
+    std::string status;  ///< "between", "at", "past end" or "before start" of the front
+    NineDigits error, low, high;
+    std::string fits;
+    NineDigits start, end;  ///< costs between which the front was measured
+    std::string point;
+    NineDigits point_error, point_low, point_high;
+    std::string chosen_on;
+
+    static constexpr auto columns() {
+        using Row = ErrorAtCostRow;
+        return std::tuple(Column{"shot", &Row::shot}, Column{"scene", &Row::scene}, Column{"machine", &Row::machine},
+                          Column{"variant", &Row::variant}, Column{"label", &Row::label}, Column{"cost", &Row::cost},
+                          Column{"unit", &Row::unit}, Column{"status", &Row::status}, Column{"error", &Row::error},
+                          Column{"low", &Row::low}, Column{"high", &Row::high}, Column{"fits", &Row::fits},
+                          Column{"start", &Row::start}, Column{"end", &Row::end}, Column{"point", &Row::point},
+                          Column{"point_error", &Row::point_error}, Column{"point_low", &Row::point_low},
+                          Column{"point_high", &Row::point_high}, Column{"chosen_on", &Row::chosen_on});
+    }
+};
+
+/// The cost that an error asks for on a variant's curve.
+struct CostToErrorRow {
+    std::string shot, scene, machine, variant, label;
+    NineDigits factor, error;  ///< the latter so many times the baseline's
+    std::string unit;
+    std::string status;  ///< "between", "at", "before start" or "not reached"
+    NineDigits cost, low, high, share_that_reach, start, end;
+
+    static constexpr auto columns() {
+        using Row = CostToErrorRow;
+        return std::tuple(Column{"shot", &Row::shot}, Column{"scene", &Row::scene}, Column{"machine", &Row::machine},
+                          Column{"variant", &Row::variant}, Column{"label", &Row::label},
+                          Column{"factor", &Row::factor}, Column{"error", &Row::error}, Column{"unit", &Row::unit},
+                          Column{"status", &Row::status}, Column{"cost", &Row::cost}, Column{"low", &Row::low},
+                          Column{"high", &Row::high}, Column{"share_that_reach", &Row::share_that_reach},
+                          Column{"start", &Row::start}, Column{"end", &Row::end});
+    }
+};
+
+/// A law along a QualityAxis, and its floor beside a rung of the truth ladder.
+struct FitRow {
+    std::string shot, scene, machine, variant, label, parameter, fixed;
+    size_t points = 0;
+    std::string point_names;
+    NineDigits cost_from, cost_to;
+    std::string unit;
+    NineDigits floor, floor_low, floor_high, a, b, b_low, b_high, misfit;
+    std::string status, rung;
+    NineDigits rung_error, rung_low, rung_high, floor_over_rung, floor_over_rung_low, floor_over_rung_high;
+
+    static constexpr auto columns() {
+        using Row = FitRow;
+        return std::tuple(
+            Column{"shot", &Row::shot}, Column{"scene", &Row::scene}, Column{"machine", &Row::machine},
+            Column{"variant", &Row::variant}, Column{"label", &Row::label}, Column{"parameter", &Row::parameter},
+            Column{"fixed", &Row::fixed}, Column{"points", &Row::points}, Column{"point_names", &Row::point_names},
+            Column{"cost_from", &Row::cost_from}, Column{"cost_to", &Row::cost_to}, Column{"unit", &Row::unit},
+            Column{"floor", &Row::floor}, Column{"floor_low", &Row::floor_low}, Column{"floor_high", &Row::floor_high},
+            Column{"a", &Row::a}, Column{"b", &Row::b}, Column{"b_low", &Row::b_low}, Column{"b_high", &Row::b_high},
+            Column{"misfit", &Row::misfit}, Column{"status", &Row::status}, Column{"rung", &Row::rung},
+            Column{"rung_error", &Row::rung_error}, Column{"rung_low", &Row::rung_low},
+            Column{"rung_high", &Row::rung_high}, Column{"floor_over_rung", &Row::floor_over_rung},
+            Column{"floor_over_rung_low", &Row::floor_over_rung_low},
+            Column{"floor_over_rung_high", &Row::floor_over_rung_high});
+    }
+};
+
+/// The least error of all ranked points of a shot beside a rung of the truth ladder.
+struct LimitRow {
+    std::string shot, scene, machine, rung;
+    NineDigits rung_error, rung_low, rung_high;
+    std::string variant, point, label;
+    NineDigits error, error_low, error_high, over_rung, over_rung_low, over_rung_high, cost;
+    std::string unit;
+
+    static constexpr auto columns() {
+        using Row = LimitRow;
+        return std::tuple(Column{"shot", &Row::shot}, Column{"scene", &Row::scene}, Column{"machine", &Row::machine},
+                          Column{"rung", &Row::rung}, Column{"rung_error", &Row::rung_error},
+                          Column{"rung_low", &Row::rung_low}, Column{"rung_high", &Row::rung_high},
+                          Column{"variant", &Row::variant}, Column{"point", &Row::point}, Column{"label", &Row::label},
+                          Column{"error", &Row::error}, Column{"error_low", &Row::error_low},
+                          Column{"error_high", &Row::error_high}, Column{"over_rung", &Row::over_rung},
+                          Column{"over_rung_low", &Row::over_rung_low}, Column{"over_rung_high", &Row::over_rung_high},
+                          Column{"cost", &Row::cost}, Column{"unit", &Row::unit});
+    }
+};
+
+/// A shot of a Tradeoff with its points, and what is known of its truth and its clock.
+struct MeasuredShot {
+    std::string name, label, scene, machine;
+    std::optional<double> divisor;  ///< the baseline's error; none where it is no measure
+    double floor = 0;               ///< relative difference of costs below which nothing is said
+    bool is_clock_proven = true;    ///< also of costs that are not timed
+    std::vector<MeasuredPoint> points;
+    std::vector<std::tuple<std::string, double, std::optional<double>, std::optional<double>>> ladder;  ///< rungs
+    std::vector<std::pair<std::string, Curve>> curves;  ///< by variant, of its judged points
+};
+
+/// The rungs of the truth ladder that answers name, the first that a study has before the others.
+inline constexpr std::array<const char*, 2> rungs = {"on_screen", "camera_radiance"};
+
+/// `found` as tradeoff_of() decided it; lists of shots refer to points of `shots`.
+struct BetweenPoints {
+    std::vector<std::unique_ptr<MeasuredShot>> shots;
+    std::vector<ErrorAtCostRow> error_at_cost;
+    std::vector<CostToErrorRow> cost_to_error;
+    std::vector<FitRow> fits;
+    std::vector<LimitRow> limits;
+};
+
+/// `costs`, and `factors` of the baseline's error: what is asked for.
+BetweenPoints between_points(const StudyTables& tables, const PrimaryComparisons& error, const Tradeoff& found,
+                             std::span<const double> costs, std::span<const double> factors);
