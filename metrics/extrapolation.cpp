@@ -1,6 +1,6 @@
 #include "metrics/extrapolation.h"
 
-#include "metrics/quantiles.h"
+#include "metrics/statistics/quantiles.h"
 #include "metrics/tiles.h"
 
 #include <algorithm>
@@ -72,12 +72,12 @@ Extrapolated without_noise(double at_one, double at_two, double at_four) {
     return {at_one, of_power, growth < 2 ? at_one - first * (c + 1) / (c - 1) : at_one - first};
 }
 
-NoiseGrowth noise_growth(const NoisierMaps& maps, const Mask& mask) {
-    const Mask inside = within_margin(mask, maps.own);
-    const std::vector<double> counts = tile_counts(inside), own = tile_sums(maps.own, inside),
-                              of_a = tile_sums(maps.half_a, inside), of_b = tile_sums(maps.half_b, inside),
-                              moved_a = tile_sums(maps.moved_to_a, inside),
-                              moved_b = tile_sums(maps.moved_to_b, inside);
+NoiseGrowth noise_growth(const std::array<const Plane*, 5>& maps, const Mask& mask) {
+    const Mask inside = within_margin(mask, *maps[0]);
+    const std::vector<double> counts = tile_counts(inside);
+    std::array<std::vector<double>, 5> sums_of;
+    std::ranges::transform(maps, sums_of.begin(), [&](const Plane* map) { return tile_sums(*map, inside); });
+    const auto& [own, of_a, of_b, moved_a, moved_b] = sums_of;
     const double count = double(inside.count());
     if (occupied(counts) < 2) return {};
     NoiseGrowth growth(growth_columns * growth_groups);
@@ -106,7 +106,7 @@ bool follows_a_law(const NoiseGrowth& growth) {
     return second >= std::min(0.6 * first, 2.5 * first) && second <= std::max(0.6 * first, 2.5 * first);
 }
 
-MapInterval extrapolated_interval(const NoiseGrowth& growth) {
+std::optional<Interval> extrapolated_interval(const NoiseGrowth& growth) {
     if (growth.empty()) return {};
     const std::vector<std::vector<double>> columns = mean_columns(growth);
     const double groups = occupied(columns[0]);
@@ -118,7 +118,7 @@ MapInterval extrapolated_interval(const NoiseGrowth& growth) {
     const auto widened = [&](double end) {
         return std::hypot(half_width, end == found.own ? 0.0 : correction_half_width);
     };
-    return {found.low() - widened(found.low()), found.high() + widened(found.high())};
+    return Interval{found.low() - widened(found.low()), found.high() + widened(found.high())};
 }
 
 std::optional<SharedScatter> extrapolated_scatter(const NoiseGrowth& a, const NoiseGrowth& b) {

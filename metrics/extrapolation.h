@@ -1,6 +1,6 @@
 #pragma once
 #include "metrics/plane.h"
-#include "metrics/statistics.h"
+#include "metrics/statistics/estimates.h"
 
 #include <array>
 #include <optional>
@@ -40,11 +40,8 @@ enum class GrowthColumn {
     swapped   ///< half the change when half A is believed in place of half B
 };
 
-/// Maps of one metric against the reference, its halves, and the reference moved on to either side.
-struct NoisierMaps {
-    const Plane &own, &half_a, &half_b, &moved_to_a, &moved_to_b;
-};
-NoiseGrowth noise_growth(const NoisierMaps& maps, const Mask& mask);
+/// `maps`: of one metric against the reference, its halves A and B, and the reference moved on to the side of either.
+NoiseGrowth noise_growth(const std::array<const Plane*, 5>& maps, const Mask& mask);
 
 /// The mean with and without the noise; none of an empty growth.
 std::optional<Extrapolated> extrapolated_mean(const NoiseGrowth& growth);
@@ -55,10 +52,6 @@ std::optional<Extrapolated> extrapolated_mean(const NoiseGrowth& growth);
 /// otherwise. False of an empty one.
 bool follows_a_law(const NoiseGrowth& growth);
 
-struct MapInterval {
-    std::optional<double> low, high;
-};
-
 /// The 95 % interval that the reference's noise leaves to the mean. Where the mean would lie without noise, widened by
 ///
 /// - half its change when half A is believed in place of half B, summed over tiles, whose squares add up as those of
@@ -68,7 +61,7 @@ struct MapInterval {
 /// - on the side that is extrapolated to, by how well the tiles agree on how far (jackknife_variance()).
 ///
 /// None of an empty one. metrics/README.md has the measured coverage.
-MapInterval extrapolated_interval(const NoiseGrowth& growth);
+std::optional<Interval> extrapolated_interval(const NoiseGrowth& growth);
 
 /// What the noise of their common reference leaves of ln(a / b), two means over one mask: the change of the ratio when
 /// half A is believed in place of half B, in which what both share cancels, and how well the tiles agree on how far it

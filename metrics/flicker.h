@@ -1,5 +1,6 @@
 #pragma once
-#include "metrics/statistics.h"
+#include "metrics/seed_pairs.h"
+#include "metrics/statistics/estimates.h"
 #include "metrics/temporal.h"
 
 #include <span>

@@ -7,11 +7,10 @@
 
 namespace {
 
-/// Of one step and each pixel: the squared error of the frame difference without and with the reference's noise, and
-/// what that noise does to it.
+/// Of one step and each pixel: the squared error of the frame difference without and with the reference's noise.
 struct DifferencePlanes {
-    Plane corrected, uncorrected;
-    NoiseTerms noise;
+    NoisyMap corrected;
+    Plane uncorrected;
 };
 
 double step_of(const HostImage& before, const HostImage& now, size_t i) {
@@ -22,8 +21,9 @@ DifferencePlanes difference_planes(const HostImage& test_before, const HostImage
                                    const MetricReference& now, bool is_relative, const Mask& finite) {
     const bool has_halves = before.halves && now.halves;
     const double samples = has_halves ? std::min(before.halves->samples, now.halves->samples) : 0;
-    DifferencePlanes planes{Plane(test.extent), Plane(test.extent), {test.extent, samples}};
-    planes.noise.is_difference = true;
+    DifferencePlanes planes{noisy_map(test.extent, samples), Plane(test.extent)};
+    planes.corrected.error = planes.uncorrected;
+    planes.corrected.is_difference = true;
     for (size_t p = 0; p < finite.inside.size(); ++p) {
         if (!finite.inside[p]) continue;
         SquaredErrorVariance variance;
@@ -35,24 +35,13 @@ DifferencePlanes difference_planes(const HostImage& test_before, const HostImage
             const double step_a = step_of(before.halves->a, now.halves->a, i);
             const double step_b = step_of(before.halves->b, now.halves->b, i);
             const double from_a = step - step_a, from_b = step - step_b;
-            planes.corrected.values[p] += weight * from_a * from_b;
-            planes.noise.swapped.values[p] += weight * (from_a * from_a - from_b * from_b) / 2;
+            planes.corrected.error.values[p] += weight * from_a * from_b;
+            planes.corrected.swapped.values[p] += weight * (from_a * from_a - from_b * from_b) / 2;
             variance.add(weight, error, double(before.halves->variance.values[i]) + now.halves->variance.values[i]);
         }
-        planes.noise.variance.values[p] = variance.value();
+        planes.corrected.variance.values[p] = variance.value();
     }
     return planes;
-}
-
-void add_masked(NoiseTerms& sum, const NoiseTerms& terms, const Mask& mask) {
-    if (sum.is_empty()) sum = NoiseTerms(terms.swapped.extent, terms.samples);
-    sum.samples = std::min(sum.samples, terms.samples);
-    sum.is_difference = sum.is_difference || terms.is_difference;
-    for (size_t i = 0; i < mask.inside.size(); ++i)
-        if (mask.inside[i]) {
-            sum.swapped.values[i] += terms.swapped.values[i];
-            sum.variance.values[i] += terms.variance.values[i];
-        }
 }
 
 double masked_sum(const Plane& plane, const Mask& mask) {
@@ -76,9 +65,9 @@ void FrameDifference::add(const HostImage& test_before, const HostImage& test, c
             difference_planes(test_before, test, reference_before, reference, is_relative, finite);
         for (size_t m = 0; m < masks.size(); ++m) {
             const Mask inside = intersection(masks[m], finite);
-            sums[m].corrected[is_relative] += masked_sum(planes.corrected, inside);
+            sums[m].corrected[is_relative] += masked_sum(planes.corrected.error, inside);
             sums[m].uncorrected[is_relative] += masked_sum(planes.uncorrected, inside);
-            add_masked(sums[m].noise[is_relative], planes.noise, inside);
+            add_noise(sums[m].noise[is_relative], planes.corrected, inside);
             if (is_relative) continue;
             sums[m].pixels += inside.count();
             sums[m].left_out += masks[m].count() - inside.count();
@@ -107,7 +96,7 @@ std::vector<TemporalScore> FrameDifference::scores() const {
             row.value = has_halves ? s.corrected[is_relative] / n : *row.uncorrected;
             if (!has_halves) continue;
             // The halves of all frames are exchanged together, so noise that steps share is counted as it adds up.
-            const NoiseTerms& noise = s.noise[is_relative];
+            const NoisyMap& noise = s.noise[is_relative];
             const std::optional<double> half_width = noise_half_width(noise, full_mask(noise.swapped.extent));
             if (!half_width) continue;
             row.low = row.value - *half_width / n;

@@ -22,7 +22,7 @@ struct FrameDifference {
     struct Sums {
         std::string mask;
         std::array<double, 2> corrected{}, uncorrected{};  ///< squared, and relative
-        std::array<NoiseTerms, 2> noise;                   ///< of those sums; 0 outside of the mask
+        std::array<NoisyMap, 2> noise;                     ///< of those sums; 0 outside of the mask
         size_t pixels = 0, left_out = 0;
     };
     std::vector<Sums> sums;  ///< of each mask

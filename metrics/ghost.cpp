@@ -19,29 +19,29 @@ using Totals = std::span<const double>;
 /// The change between the references at each pixel, means over channels.
 struct Change {
     HostImage difference;  ///< R_before - R_after
-    Plane energy;          ///< its square, free of noise where there are halves
-    NoiseTerms noise;      ///< of the energy; 0 without halves
+    NoisyMap energy;       ///< its square; without halves neither free of noise nor moved by it
 };
 
 Change change_between(const MetricReference& before, const MetricReference& after) {
     const glm::uvec2 extent = after.image.extent;
     const bool has_halves = before.halves && after.halves;
     const double samples = has_halves ? std::min(before.halves->samples, after.halves->samples) : 0;
-    Change change{before.image, Plane(extent), {extent, samples}};
-    change.noise.is_difference = true;
-    for (size_t p = 0; p < change.energy.values.size(); ++p) {
+    Change change{before.image, noisy_map(extent, samples)};
+    change.energy.error = Plane(extent);
+    change.energy.is_difference = true;
+    for (size_t p = 0; p < change.energy.error.values.size(); ++p) {
         SquaredErrorVariance variance;
         for (size_t i = 3 * p; i < 3 * p + 3; ++i) {
             const double d = double(before.image.values[i]) - after.image.values[i];
             change.difference.values[i] = float(d);
             const double a = has_halves ? double(before.halves->a.values[i]) - after.halves->a.values[i] : d;
             const double b = has_halves ? double(before.halves->b.values[i]) - after.halves->b.values[i] : d;
-            change.energy.values[p] += a * b / 3;
-            change.noise.swapped.values[p] += (a * a - b * b) / 2 / 3;
+            change.energy.error.values[p] += a * b / 3;
+            change.energy.swapped.values[p] += (a * a - b * b) / 2 / 3;
             if (has_halves)
                 variance.add(1.0 / 3, d, double(before.halves->variance.values[i]) + after.halves->variance.values[i]);
         }
-        change.noise.variance.values[p] = variance.value();
+        change.energy.variance.values[p] = variance.value();
     }
     return change;
 }
@@ -173,9 +173,9 @@ std::vector<Ghost> ghost_scores(std::span<const HostImage> frames, const MetricR
     for (const Mask& mask : masks) {
         MaskSums& s = sums.emplace_back(MaskSums{.inside = intersection(mask, finite)});
         s.counts = tile_counts(s.inside);
-        s.energy = tile_sums(change.energy, s.inside);
-        s.mean_energy = masked_mean(change.energy, s.inside);
-        s.energy_half_width = noise_half_width(change.noise, s.inside).value_or(INFINITY) / double(s.inside.count());
+        s.energy = tile_sums(change.energy.error, s.inside);
+        s.mean_energy = masked_mean(change.energy.error, s.inside);
+        s.energy_half_width = noise_half_width(change.energy, s.inside).value_or(INFINITY) / double(s.inside.count());
     }
     for (const HostImage& frame : frames) {
         const Plane projected = projection(frame, change.difference), error = squared_error(frame, after);

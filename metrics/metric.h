@@ -3,6 +3,7 @@
 #include "metrics/plane.h"
 #include "metrics/tone_map.h"
 
+#include <cmath>
 #include <optional>
 #include <span>
 #include <string>
@@ -70,6 +71,7 @@ struct Metric {
     /// of the images do, to first order; nullptr for metrics that are no such mean, or for which `layers` has the map.
     Plane (*mean_map)(std::span<const Plane> layers, const Mask& mask) = nullptr;
     double (*of_mean)(double mean) = nullptr;  ///< monotonic; nullptr: the mean itself
+    double greatest = INFINITY;                ///< upper bound
 };
 
 /// All metrics, in the order of lists and tables.

@@ -1,7 +1,7 @@
 #include "metrics/noise.h"
 
-#include "metrics/quantiles.h"
-#include "metrics/summation.h"
+#include "metrics/statistics/quantiles.h"
+#include "metrics/statistics/summation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,9 +24,25 @@ void SquaredErrorVariance::add(double weight, double error, double variance) {
     product += weight * of_half;
 }
 
-NoiseTerms squared_error_noise(const HostImage& test, const ReferenceHalves& halves, const HostImage& weighing,
-                               double (*weight)(double)) {
-    NoiseTerms terms(test.extent, halves.samples);
+NoisyMap noisy_map(glm::uvec2 extent, double samples) {
+    return {.error = {}, .swapped = Plane(extent), .variance = Plane(extent), .samples = samples};
+}
+
+void add_noise(NoisyMap& sum, const NoisyMap& terms, const Mask& mask) {
+    if (sum.is_empty()) sum = noisy_map(terms.swapped.extent, terms.samples);
+    sum.samples = std::min(sum.samples, terms.samples);
+    sum.is_difference = sum.is_difference || terms.is_difference;
+    for (size_t i = 0; i < mask.inside.size(); ++i)
+        if (mask.inside[i]) {
+            sum.swapped.values[i] += terms.swapped.values[i];
+            sum.variance.values[i] += terms.variance.values[i];
+        }
+}
+
+NoisyMap squared_error(const HostImage& test, const ReferenceHalves& halves, const HostImage& weighing,
+                       double (*weight)(double)) {
+    NoisyMap terms = noisy_map(test.extent, halves.samples);
+    terms.error = cross_error(test, halves.a, halves.b, weighing, weight);
     for (size_t i = 0; i < terms.swapped.values.size(); ++i) {
         SquaredErrorVariance variance;
         for (size_t c = 3 * i; c < 3 * i + 3; ++c) {
@@ -41,8 +57,8 @@ NoiseTerms squared_error_noise(const HostImage& test, const ReferenceHalves& hal
     return terms;
 }
 
-NoiseTerms mean_noise(const ReferenceHalves& halves) {
-    NoiseTerms terms(halves.a.extent, halves.samples);
+NoisyMap mean_noise(const ReferenceHalves& halves) {
+    NoisyMap terms = noisy_map(halves.a.extent, halves.samples);
     for (size_t i = 0; i < terms.swapped.values.size(); ++i) {
         double deviation = 0;  // as if the channels' noises were one
         for (size_t c = 3 * i; c < 3 * i + 3; ++c) {
@@ -54,7 +70,7 @@ NoiseTerms mean_noise(const ReferenceHalves& halves) {
     return terms;
 }
 
-std::optional<double> noise_half_width(const NoiseTerms& terms, const Mask& mask) {
+std::optional<double> noise_half_width(const NoisyMap& terms, const Mask& mask) {
     const auto sum = [&](const auto& term) {
         return ordered_sum(mask.inside.size(), [&](size_t i) { return mask.inside[i] ? term(i) : 0.0; });
     };

@@ -1,6 +1,6 @@
 #pragma once
 #include "metrics/plane.h"
-#include "metrics/summation.h"
+#include "metrics/statistics/summation.h"
 
 #include <span>
 

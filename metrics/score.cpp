@@ -4,6 +4,7 @@
 #include "metrics/pooling.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string_view>
 
@@ -15,19 +16,12 @@ HostImage blackened(HostImage image, const Mask& kept) {
     return image;
 }
 
-/// The estimates of the halves for a metric at each pixel.
-struct NoiseMaps {
-    Plane corrected;   ///< its value without the reference's noise; empty if it is not corrected
-    NoiseTerms terms;  ///< empty if the metric has no interval
-};
-
 bool is_guided(const Metric& metric) { return !metric.guided_formula.empty(); }
 
-NoiseMaps noise_maps(const Metric& metric, const ReferenceHalves& halves, const HostImage& test) {
-    if (const auto weight = metric.squared_error_weight)
-        return {cross_error(test, halves.a, halves.b, halves.guide, weight),
-                squared_error_noise(test, halves, halves.guide, weight)};
-    if (metric.name == "bias" || metric.name == "energy_ratio") return {{}, mean_noise(halves)};
+/// Empty if the noise gives the metric no interval, or one that is extrapolated.
+NoisyMap noisy_terms(const Metric& metric, const ReferenceHalves& halves, const HostImage& test) {
+    if (const auto weight = metric.squared_error_weight) return squared_error(test, halves, halves.guide, weight);
+    if (metric.name == "bias" || metric.name == "energy_ratio") return mean_noise(halves);
     return {};
 }
 
@@ -64,8 +58,8 @@ Slope set_ratio(Score& row, double reference_mean, std::optional<double> half_wi
 }
 
 /// The terms of the mean over `inside`, times the slope.
-NoiseTerms scaled(const NoiseTerms& terms, const Mask& inside, double slope, double pixels) {
-    NoiseTerms scaled(terms.swapped.extent, terms.samples);
+NoisyMap scaled(const NoisyMap& terms, const Mask& inside, double slope, double pixels) {
+    NoisyMap scaled = noisy_map(terms.swapped.extent, terms.samples);
     for (size_t i = 0; i < inside.inside.size(); ++i)
         if (inside.inside[i]) {
             scaled.swapped.values[i] = terms.swapped.values[i] * slope / pixels;
@@ -74,21 +68,17 @@ NoiseTerms scaled(const NoiseTerms& terms, const Mask& inside, double slope, dou
     return scaled;
 }
 
-/// The test image against references of more noise, for metrics that are extrapolated.
-struct NoisierPairs {
-    std::vector<ImagePair> halves;    ///< against A and B: twice the variance of the reference's noise
-    std::vector<ImagePair> moved_on;  ///< against R +- sqrt(3) (A - B) / 2: four times
-};
-
-NoisierPairs noisier_pairs(const MetricReference& reference, const HostImage& test) {
+/// The test image against references of more noise, for metrics that are extrapolated: A and B, which have twice the
+/// variance of the reference's noise, and R +- sqrt(3) (A - B) / 2, four times.
+std::vector<ImagePair> noisier_pairs(const MetricReference& reference, const HostImage& test) {
     const ReferenceHalves& h = *reference.halves;
-    NoisierPairs pairs;
-    for (const HostImage* half : {&h.a, &h.b}) pairs.halves.push_back(image_pair(*half, test, reference.settings));
+    std::vector<ImagePair> pairs;
+    for (const HostImage* half : {&h.a, &h.b}) pairs.push_back(image_pair(*half, test, reference.settings));
     for (const double sign : {1.0, -1.0}) {
         HostImage moved = reference.image;
         for (size_t i = 0; i < moved.values.size(); ++i)
             moved.values[i] += float(sign * extrapolation_step * (double(h.a.values[i]) - h.b.values[i]) / 2);
-        pairs.moved_on.push_back(image_pair(blackened(std::move(moved), reference.finite), test, reference.settings));
+        pairs.push_back(image_pair(blackened(std::move(moved), reference.finite), test, reference.settings));
     }
     return pairs;
 }
@@ -107,57 +97,47 @@ bool is_extrapolated(const Metric& metric) {
     return metric.mean_map || (!metric.squared_error_weight && metric.pool == pooled_mean && metric.name != "bias");
 }
 
-/// Layers of one metric against references of more noise.
-struct NoisierLayers {
-    std::vector<std::vector<Plane>> halves, moved_on;
-};
-
-NoisierLayers noisier_layers(const Metric& metric, const NoisierPairs& pairs) {
-    NoisierLayers layers;
-    for (const ImagePair& pair : pairs.halves) layers.halves.push_back(metric.layers(pair));
-    for (const ImagePair& pair : pairs.moved_on) layers.moved_on.push_back(metric.layers(pair));
-    return layers;
-}
-
 /// The value stays what everyone computes from both images; the interval reaches to where it would lie without the
-/// reference's noise.
-void set_extrapolated(Score& row, const std::vector<Plane>& own, const NoisierLayers& noisier, const Mask& inside) {
+/// reference's noise. `noisier`: the metric's layers of noisier_pairs().
+void set_extrapolated(Score& row, const std::vector<Plane>& own, std::span<const std::vector<Plane>> noisier,
+                      const Mask& inside) {
     const Metric& metric = *row.metric;
-    std::vector<Plane> made;
-    made.reserve(5);
-    const auto map = [&](const std::vector<Plane>& layers) -> const Plane& {
-        return metric.mean_map ? made.emplace_back(metric.mean_map(layers, inside)) : layers.front();
-    };
-    row.growth = noise_growth(
-        {map(own), map(noisier.halves[0]), map(noisier.halves[1]), map(noisier.moved_on[0]), map(noisier.moved_on[1])},
-        inside);
+    std::array<Plane, 5> made;
+    std::array<const Plane*, 5> maps;
+    for (size_t i = 0; i < maps.size(); ++i) {
+        const std::vector<Plane>& layers = i == 0 ? own : noisier[i - 1];
+        if (metric.mean_map) made[i] = metric.mean_map(layers, inside);
+        maps[i] = metric.mean_map ? &made[i] : &layers.front();
+    }
+    row.growth = noise_growth(maps, inside);
     if (std::ranges::count(of_absolutes, metric.name) > 0 && !follows_a_law(row.growth)) row.growth.clear();
-    const MapInterval found = extrapolated_interval(row.growth);
-    row.low = found.low, row.high = found.high;
-    if (!found.low) return;
+    const std::optional<Interval> found = extrapolated_interval(row.growth);
+    row.low = row.high = std::nullopt;
+    if (!found) return;
+    row.low = found->low, row.high = found->high;
     if (metric.of_mean) {
-        const double ends[] = {metric.of_mean(std::max(*found.low, 0.0)), metric.of_mean(*found.high)};
+        const double ends[] = {metric.of_mean(std::max(found->low, 0.0)), metric.of_mean(found->high)};
         row.low = std::min(ends[0], ends[1]), row.high = std::max(ends[0], ends[1]);
     }
     if (metric.better == Better::lower) row.low = std::max(*row.low, 0.0);
 }
 
 /// Corrects the row where it can be, and gives it its interval; returns how noise moves its value.
-NoiseTerms set_noise(Score& row, const NoiseMaps& maps, std::span<const Plane> layers, const Mask& inside,
-                     bool wants_terms) {
-    if (maps.terms.is_empty()) return {};
-    std::optional<double> half_width = noise_half_width(maps.terms, inside);
+NoisyMap set_noise(Score& row, const NoisyMap& terms, std::span<const Plane> layers, const Mask& inside,
+                   bool wants_terms) {
+    if (terms.is_empty()) return {};
+    std::optional<double> half_width = noise_half_width(terms, inside);
     if (half_width) *half_width /= double(row.pixels);
     Slope slope = 1.0;
-    if (!maps.corrected.values.empty()) {
-        slope = set_corrected(row, masked_mean(maps.corrected, inside), half_width);
+    if (!terms.error.values.empty()) {
+        slope = set_corrected(row, masked_mean(terms.error, inside), half_width);
     } else if (row.metric->name == "energy_ratio") {
         slope = set_ratio(row, masked_mean(layers[1], inside), half_width);
     } else if (half_width) {
         set_interval(row, row.value, *half_width, [](double v) { return v; });
     }
     if (!wants_terms || !slope) return {};
-    return scaled(maps.terms, inside, *slope, double(row.pixels));
+    return scaled(terms, inside, *slope, double(row.pixels));
 }
 
 }  // namespace
@@ -182,20 +162,20 @@ MetricReference metric_reference(HostImage image, std::optional<ReferenceHalves>
 }
 
 std::vector<Score> score(const MetricReference& reference, const HostImage& test, std::span<const Mask> masks,
-                         PixelCounts* counts, std::vector<NoiseTerms>* noise) {
+                         PixelCounts* counts, std::vector<NoisyMap>* noise) {
     const ImagePair pair = image_pair(reference.image, test, reference.settings);
     if (counts) *counts = pair.test_counts;
     const Mask finite = intersection(pair.finite, reference.finite);
     std::vector<Score> scores;
-    std::optional<NoisierPairs> noisier;
+    std::vector<ImagePair> noisier;
     for (size_t m = 0; m < reference.metrics.size(); ++m) {
         const Metric& metric = *reference.metrics[m];
         const std::vector<Plane> layers = layers_of(metric, pair, reference.halves);
-        const NoiseMaps maps = reference.halves ? noise_maps(metric, *reference.halves, pair.test) : NoiseMaps{};
-        std::optional<NoisierLayers> extrapolated;
+        const NoisyMap terms = reference.halves ? noisy_terms(metric, *reference.halves, pair.test) : NoisyMap{};
+        std::vector<std::vector<Plane>> extrapolated;
         if (reference.halves && is_extrapolated(metric)) {
-            if (!noisier) noisier = noisier_pairs(reference, test);
-            extrapolated = noisier_layers(metric, *noisier);
+            if (noisier.empty()) noisier = noisier_pairs(reference, test);
+            for (const ImagePair& each : noisier) extrapolated.push_back(metric.layers(each));
         }
         for (const Mask& mask : masks) {
             const Mask inside = intersection(mask, finite);
@@ -210,9 +190,9 @@ std::vector<Score> score(const MetricReference& reference, const HostImage& test
             row.pixels = inside.count();
             const bool has_noise = reference.halves && row.pixels > 0;
             if (has_noise) row.floor = metric.pool(reference.floor_layers[m], inside);
-            NoiseTerms terms = has_noise ? set_noise(row, maps, layers, inside, noise != nullptr) : NoiseTerms{};
-            if (has_noise && extrapolated) set_extrapolated(row, layers, *extrapolated, inside);
-            if (noise) noise->push_back(std::move(terms));
+            NoisyMap of_value = has_noise ? set_noise(row, terms, layers, inside, noise != nullptr) : NoisyMap{};
+            if (has_noise && !extrapolated.empty()) set_extrapolated(row, layers, extrapolated, inside);
+            if (noise) noise->push_back(std::move(of_value));
         }
     }
     return scores;

@@ -48,4 +48,4 @@ MetricReference metric_reference(HostImage image, std::optional<ReferenceHalves>
 /// reference's noise in their value; their intervals reach to where it would lie without (metrics/extrapolation.h). The
 /// forms of SSIM have none.
 std::vector<Score> score(const MetricReference& reference, const HostImage& test, std::span<const Mask> masks,
-                         PixelCounts* counts = nullptr, std::vector<NoiseTerms>* noise = nullptr);
+                         PixelCounts* counts = nullptr, std::vector<NoisyMap>* noise = nullptr);

@@ -1,7 +1,8 @@
 #include "metrics/seed_pairs.h"
 
 #include "core/error.h"
-#include "metrics/summation.h"
+#include "metrics/metric.h"
+#include "metrics/statistics/summation.h"
 
 namespace {
 
@@ -59,4 +60,21 @@ Jackknifed jackknifed_pairs(std::span<const double> of_pairs, std::span<const si
     for (size_t i = 0; i < chosen.size() && chosen.size() > 2; ++i)
         mean.without.push_back(mean_of_pairs(of_pairs, chosen, chosen[i]));
     return mean;
+}
+
+void SeedMoments::add(const HostImage& rgb) {
+    if (count == 0) {
+        extent = rgb.extent;
+        mean.assign(rgb.pixel_count() * 3, 0.0);
+        squares = mean;
+        finite = full_mask(extent);
+    }
+    if (rgb.extent != extent || rgb.channels != 3) fail("all seeds need images of one size and three channels");
+    ++count;
+    for (size_t i = 0; i < mean.size(); ++i) {
+        const double before = rgb.values[i] - mean[i];
+        mean[i] += before / count;
+        squares[i] += before * (rgb.values[i] - mean[i]);
+        if (!std::isfinite(rgb.values[i])) finite.inside[i / 3] = 0;
+    }
 }

@@ -1,5 +1,7 @@
 #pragma once
-#include "metrics/statistics.h"
+#include "core/host_image.h"
+#include "metrics/plane.h"
+#include "metrics/statistics/estimates.h"
 
 /// Estimates from each two of N seeds, as means over channels and pixels. The pair of the seeds i < j, counted from 0,
 /// has index j (j - 1) / 2 + i.
@@ -21,3 +23,15 @@ SeedPairs seed_pairs(std::span<const HostImage> seeds, const HostImage& half_a, 
 ///
 /// metrics/README.md has the measured coverage of jackknifed_ratio() of these.
 Jackknifed jackknifed_pairs(std::span<const double> of_pairs, std::span<const size_t> chosen);
+
+/// Mean and variance of each channel of each pixel over independent seeds, one image at a time (Welford 1962).
+struct SeedMoments {
+    glm::uvec2 extent{0, 0};
+    unsigned count = 0;
+    std::vector<double> mean, squares;  ///< sums of squared distances from the mean, per channel
+    Mask finite;                        ///< pixels that were finite in every image
+
+    /// Fails on an image of another extent than the first one's.
+    void add(const HostImage& rgb);
+    double variance(size_t value) const { return squares[value] / (count - 1); }
+};

@@ -14,7 +14,8 @@ const std::vector<TemporalMetric>& temporal_metrics() {
          "mean of that variance / (r^2 + 0.01), the weight of relmse", "temporal_variance_a_guided"},
         {"flicker_correlation", "temporal_lag_1", "1", near_zero,
          "1 - mean (x_t - x_(t-1))^2 / (2 mean variance over the frames): 0 where frames are independent, towards 1 "
-         "where each repeats the last, which buys little flicker by lag"},
+         "where each repeats the last, which buys little flicker by lag",
+         "", 1},
         {"frame_difference", "frame_difference_mse", "radiance^2", lower,
          "mean ((x_t - x_(t-1)) - (r_t - r_(t-1)))^2: changes that are not the truth's"},
         {"frame_difference_relative", "frame_difference_a", "1", lower, "that / (r_t^2 + 0.01), the weight of relmse",
@@ -34,38 +35,6 @@ const TemporalMetric& temporal_metric_named(const std::string& name) {
     std::vector<std::string> names;
     for (const TemporalMetric& metric : temporal_metrics()) names.push_back(metric.name);
     fail("no temporal metric named '", name, "'", suggestion(name, names));
-}
-
-std::optional<Better> direction_of(const std::string& metric) {
-    const auto direction_in = [&](const auto& table, auto name, auto better) -> std::optional<Better> {
-        const auto found = std::ranges::find(table, metric, name);
-        if (found == table.end()) return {};
-        return (*found).*better;
-    };
-    if (const auto found = direction_in(all_metrics(), &Metric::name, &Metric::better)) return found;
-    return direction_in(temporal_metrics(), &TemporalMetric::name, &TemporalMetric::better);
-}
-
-double shortfall(Better better, double value) {
-    switch (better) {
-        case Better::lower:
-            return value;
-        case Better::higher:
-            return -value;
-        case Better::near_zero:
-            return std::abs(value);
-        case Better::near_one:
-            return std::abs(value - 1);
-    }
-    return value;
-}
-
-bool is_error(const std::string& metric) { return direction_of(metric) == Better::lower; }
-
-double greatest_value(const std::string& metric) {
-    const bool is_at_most_one = metric.find("ssim") != metric.npos || metric == "flip" || metric == "hdr_flip" ||
-                                metric == "flicker_correlation";
-    return is_at_most_one ? 1 : INFINITY;
 }
 
 TemporalScore empty_score(const std::string& metric, const Mask& mask, const Mask& finite) {

@@ -15,6 +15,7 @@ struct TemporalMetric {
     Better better;
     std::string doc;
     std::string guided_formula = {};  ///< as Metric::guided_formula
+    double greatest = INFINITY;       ///< upper bound
 };
 
 /// flicker, flicker_relative, flicker_correlation (flicker.h); frame_difference, frame_difference_relative
@@ -23,20 +24,6 @@ const std::vector<TemporalMetric>& temporal_metrics();
 
 /// Fails on an unknown name, with the nearest known one.
 const TemporalMetric& temporal_metric_named(const std::string& name);
-
-/// Which values of a metric, of one frame or of a sequence, are good; none for unknown names.
-std::optional<Better> direction_of(const std::string& metric);
-
-/// Distance of a value from the best one, so that less is better for every metric: the value itself, its
-/// negative, or its distance from 0 or 1. Only its differences are meaningful where `better` is `higher`.
-double shortfall(Better better, double value);
-
-/// Whether less of the metric, of one frame or of a sequence, is better. Such values are never negative, except through
-/// the correction of noise. False for unknown names.
-bool is_error(const std::string& metric);
-
-/// Upper bound of the metric: 1 of SSIM, FLIP and the correlation of flicker; of all others, infinity.
-double greatest_value(const std::string& metric);
 
 /// One row of results.
 struct TemporalScore {

@@ -1,7 +1,7 @@
 #include "metrics/tiles.h"
 
-#include "metrics/quantiles.h"
-#include "metrics/summation.h"
+#include "metrics/statistics/quantiles.h"
+#include "metrics/statistics/summation.h"
 
 #include <algorithm>
 #include <cmath>

@@ -53,9 +53,9 @@ void print_left_out(const std::vector<LeftOutBy>& all) {
     if (lines.empty()) std::printf("  nothing\n");
 }
 
-std::string percent(const MedianInterval& share) {
+std::string percent(const Estimate& share) {
     char text[64];
-    std::snprintf(text, sizeof text, "%5.1f %% [%.1f, %.1f]", 100 * share.median, 100 * share.low, 100 * share.high);
+    std::snprintf(text, sizeof text, "%5.1f %% [%.1f, %.1f]", 100 * share.value, 100 * share.low, 100 * share.high);
     return text;
 }
 
@@ -64,7 +64,7 @@ std::string csv_of(const Shot& shot, const std::vector<MeasuredSaving>& savings)
         "shot,variant,point,complete_ms,saved_share,low,high,keeps_bits,repeats_itself,has_same_bits,largest_"
         "difference\n";
     for (const MeasuredSaving& s : savings)
-        text += csv_line(shot.name(), s.time.variant, s.time.point, s.time.complete_ms, s.time.share.median,
+        text += csv_line(shot.name(), s.time.variant, s.time.point, s.time.complete_ms, s.time.share.value,
                          s.time.share.low, s.time.share.high, s.keeps_bits, s.repeats_itself, s.has_same_bits,
                          double(s.largest_difference));
     return text;

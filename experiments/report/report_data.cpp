@@ -4,6 +4,7 @@
 #include "experiments/gpu_costs/pass_cost.h"
 #include "experiments/results/tables/counts_spread.h"
 #include "experiments/results/tables/manifest.h"
+#include "metrics/direction.h"
 #include "metrics/temporal.h"
 
 #include <algorithm>

@@ -62,7 +62,7 @@ Saving saving_of(const std::string& who, const std::vector<double>& lean, const 
     std::vector<double> shares;
     for (size_t i = 0; i < lean.size(); ++i) shares.push_back(1 - lean[i] / complete[i]);
     return {
-        .variant = who, .point = "", .complete_ms = median_interval(complete).median, .share = median_interval(shares)};
+        .variant = who, .point = "", .complete_ms = median_interval(complete).value, .share = median_interval(shares)};
 }
 
 MeasuredSaving measure_rasterizer(Device& device, const Shot& shot, unsigned frames) {

@@ -7,7 +7,7 @@
 #include "groundtruth/paths/path_tracer.h"
 #include "groundtruth/reference/reference.h"
 #include "groundtruth/reference/reference_error.h"
-#include "metrics/quantiles.h"
+#include "metrics/statistics/quantiles.h"
 
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>

@@ -1,6 +1,6 @@
 #include "metrics/ghost.h"
 #include "core/error.h"
-#include "metrics/statistics.h"
+#include "metrics/statistics/estimates.h"
 #include "tests/metrics/sequences.h"
 
 #include <gtest/gtest.h>

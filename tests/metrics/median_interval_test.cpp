@@ -1,4 +1,4 @@
-#include "metrics/median_interval.h"
+#include "metrics/statistics/median_interval.h"
 
 #include <gtest/gtest.h>
 #include <vector>
@@ -6,8 +6,8 @@
 TEST(MedianInterval, IsOfRanksForAnyOrder) {
     std::vector<double> values;
     for (int i = 15; i >= 1; --i) values.push_back(i);
-    const MedianInterval m = median_interval(values);  // falling: as correlated as can be
-    EXPECT_EQ(m.median, 8.0);
+    const Estimate m = median_interval(values);  // falling: as correlated as can be
+    EXPECT_EQ(m.value, 8.0);
     EXPECT_EQ(m.low, 1.0);
     EXPECT_EQ(m.high, 15.0);
     // Taking turns about the median: the least factor, 2, and so the ranks 3 and 13 of 15, which of independent values
@@ -16,6 +16,6 @@ TEST(MedianInterval, IsOfRanksForAnyOrder) {
     EXPECT_EQ(median_interval(turns).low, 3.0);
     EXPECT_EQ(median_interval(turns).high, 13.0);
     const std::vector<double> few = {1, 2, 3, 4};
-    EXPECT_EQ(median_interval(few).median, 2.5);
+    EXPECT_EQ(median_interval(few).value, 2.5);
     EXPECT_EQ(median_interval(few).low, 1.0);
 }

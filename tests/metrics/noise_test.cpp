@@ -1,7 +1,7 @@
 #include "metrics/noise.h"
 #include "core/error.h"
 #include "metrics/score.h"
-#include "metrics/statistics.h"
+#include "metrics/statistics/estimates.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>
@@ -190,7 +190,7 @@ TEST(Noise, NoIntervalIsGivenWhereNoneWouldCover) {
     one.values[1000] = 0.5;
     EXPECT_EQ(simulate("mse", truth, test, one, 20, full_mask(extent)).intervals, 0) << "one pixel carries the noise";
     const Mask ten = some_pixels(extent, {3, 99, 300, 441, 640, 807, 999, 1203, 1500, 2001});
-    NoiseTerms terms(extent, 410);
+    NoisyMap terms = noisy_map(extent, 410);
     for (double& v : terms.swapped.values) v = 2;
     for (double& v : terms.variance.values) v = 4;
     ASSERT_TRUE(noise_half_width(terms, ten));
@@ -214,7 +214,7 @@ TEST(Noise, IntervalsOfRarePathsAreNotThoseOfLuckyReferencesAlone) {
     constexpr int references = 2000;
     int given = 0, covered = 0, lucky = 0, covered_of_lucky = 0;
     for (int i = 0; i < references; ++i) {
-        NoiseTerms terms(extent, 64);
+        NoisyMap terms = noisy_map(extent, 64);
         double sum = 0, squares = 0, fourths = 0;
         for (size_t p = 0; p < terms.swapped.values.size(); ++p) {
             double halves[2];
@@ -244,7 +244,7 @@ TEST(Noise, OfDifferencesIsToldByFewPixelsIfEitherSaysSo) {
     // difference 64. If they find it in 10 of them alone it is 10. Student's t from tables.
     const Mask all = full_mask({8, 8});
     const auto half_width = [&](size_t swapped_pixels, size_t variance_pixels, bool is_difference) {
-        NoiseTerms terms({8, 8}, 1024);
+        NoisyMap terms = noisy_map({8, 8}, 1024);
         std::fill_n(terms.swapped.values.begin(), swapped_pixels, 1.0);
         std::fill_n(terms.variance.values.begin(), variance_pixels, 2.0);
         terms.is_difference = is_difference;
@@ -285,13 +285,13 @@ TEST(Noise, ValuesOfSeveralFramesMoveAsTheirNoiseTells) {
     ReferenceHalves halves = noisy_halves(truth, constant(extent, 1e-3), random);
     const Mask all = full_mask(extent);
     for (const char* metric : {"mse", "relmse", "bias", "energy_ratio"}) {
-        const auto value_of = [&](const HostImage& a, std::vector<NoiseTerms>* noise) {
+        const auto value_of = [&](const HostImage& a, std::vector<NoisyMap>* noise) {
             ReferenceHalves only = halves;
             only.a = only.b = a;
             const MetricReference reference = metric_reference(a, noise ? halves : only, {metric}, {});
             return score(reference, test, std::span(&all, 1), nullptr, noise).front().value;
         };
-        std::vector<NoiseTerms> noise;
+        std::vector<NoisyMap> noise;
         value_of(mean_of(halves.a, halves.b), &noise);
         ASSERT_EQ(noise.size(), 1u);
         double sum = 0;

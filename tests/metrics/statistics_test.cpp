@@ -1,6 +1,6 @@
-#include "metrics/statistics.h"
 #include "core/error.h"
-#include "metrics/quantiles.h"
+#include "metrics/statistics/estimates.h"
+#include "metrics/statistics/quantiles.h"
 
 #include <gtest/gtest.h>
 #include <cmath>

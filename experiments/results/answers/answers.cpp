@@ -1,14 +1,14 @@
 #include "experiments/results/answers/answers.h"
 
 #include "core/number_text.h"
+#include "experiments/results/answers/answer_text.h"
+#include "experiments/results/answers/cause_and_cure.h"
+#include "experiments/results/tables/manifest.h"
 #include "experiments/results/verdicts/interval.h"
 #include "experiments/results/verdicts/power.h"
 #include "experiments/results/verdicts/standings.h"
 #include "experiments/results/verdicts/study_points.h"
-#include "experiments/results/answers/answer_text.h"
-#include "experiments/results/answers/cause_and_cure.h"
-#include "experiments/results/tables/manifest.h"
-#include "metrics/temporal.h"
+#include "metrics/direction.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +29,8 @@ std::string others_text(const ShotAnswer& answer, const Headline& headline) {
     constexpr size_t most_named = 3;
     std::string text;
     if (!answer.near.empty())
-        text += " Within " + percent_text(headline.margin) + " of it for certain: " + listed(answer.near, most_named) + ".";
+        text +=
+            " Within " + percent_text(headline.margin) + " of it for certain: " + listed(answer.near, most_named) + ".";
     if (!answer.tied.empty()) text += " Undecided beside it: " + listed(answer.tied, most_named) + ".";
     if (text.empty() || answer.behind.empty()) return text;
     return text + (answer.behind.size() == 1

@@ -4,8 +4,8 @@
 #include "experiments/results/answers/answer_text.h"
 #include "experiments/results/verdicts/interval.h"
 #include "experiments/results/verdicts/power.h"
+#include "metrics/direction.h"
 #include "metrics/noise.h"
-#include "metrics/temporal.h"
 
 #include <algorithm>
 #include <cmath>

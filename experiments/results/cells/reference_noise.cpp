@@ -1,7 +1,7 @@
 #include "experiments/results/cells/reference_noise.h"
 
+#include "metrics/direction.h"
 #include "metrics/noise.h"
-#include "metrics/temporal.h"
 
 #include <cmath>
 
@@ -31,11 +31,11 @@ std::vector<double> group_sums(const Plane& plane, const Mask& mask) {
 }
 
 Plane swapped_error(const Metric& metric, const MetricReference& reference, const HostImage& test) {
-    return squared_error_noise(test, *reference.halves, reference.halves->guide, metric.squared_error_weight).swapped;
+    return squared_error(test, *reference.halves, reference.halves->guide, metric.squared_error_weight).swapped;
 }
 
-void ReferenceNoiseMeans::add(const std::string& frame, const std::string& target, const MetricReference& reference,
-                              const HostImage& test, std::span<const Mask> masks) {
+void add_swapped_errors(SumsOfErrors& noise, const std::string& frame, const std::string& target,
+                        const MetricReference& reference, const HostImage& test, std::span<const Mask> masks) {
     if (!reference.halves) return;
     for (const Metric* metric : reference.metrics) {
         if (!metric->squared_error_weight) continue;
@@ -43,36 +43,28 @@ void ReferenceNoiseMeans::add(const std::string& frame, const std::string& targe
         for (const Mask& mask : masks) {
             const Mask inside = intersection(mask, reference.finite);
             if (inside.count() == 0) continue;
-            Sum& sum = sums_[{target, metric->name, mask.name, frame}];
-            sum.groups.resize(noise_groups);
-            const std::vector<double> groups = group_sums(swapped, inside);
-            for (size_t g = 0; g < noise_groups; ++g) sum.groups[g] += groups[g];
-            ++sum.count;
+            noise[{target, metric->name, mask.name, frame}].add(group_sums(swapped, inside));
         }
     }
 }
 
-void ReferenceNoiseMeans::add(const std::string& frame, const std::string& target, const std::string& metric,
-                              const std::string& mask, const NoiseGrowth& growth) {
+void add_growth(SumsOfErrors& noise, const ErrorName& error, const NoiseGrowth& growth) {
     // No ratio of two counts of outliers was simulated, and the intervals of ratios of mean absolute differences did
     // not cover (metrics/README.md): such effects have no interval.
-    if (growth.empty() || !is_error(metric) || metric == "outliers" || metric == "mae") return;
-    Sum& sum = sums_[{target, metric, mask, frame}];
-    sum.groups.resize(growth.size()), sum.is_growth = true;
-    for (size_t i = 0; i < growth.size(); ++i) sum.groups[i] += growth[i];
-    ++sum.count;
+    if (growth.empty() || !is_error(error.metric) || error.metric == "outliers" || error.metric == "mae") return;
+    noise[error].add(growth);
 }
 
-std::vector<ReferenceNoise> ReferenceNoiseMeans::means(const ReferenceNoise& shared) const {
+std::vector<ReferenceNoise> means_of(const SumsOfErrors& noise, const ReferenceNoise& shared) {
     std::vector<ReferenceNoise> all;
-    for (const auto& [key, sum] : sums_) {
-        const auto& [target, metric, mask, frame] = key;
-        if (frame != over_frames && sums_.contains({target, metric, mask, over_frames})) continue;
-        ReferenceNoise noise = shared;
-        noise.frame = frame, noise.target = target, noise.metric = metric, noise.mask = mask;
-        std::vector<float>& means = sum.is_growth ? noise.growth : noise.sums;
-        for (const double group : sum.groups) means.push_back(float(group / double(sum.count)));
-        all.push_back(std::move(noise));
+    for (const auto& [error, sum] : noise) {
+        if (error.frame != over_frames && noise.contains({error.target, error.metric, error.mask, over_frames}))
+            continue;
+        ReferenceNoise row = shared;
+        row.frame = error.frame, row.target = error.target, row.metric = error.metric, row.mask = error.mask;
+        std::vector<float>& means = metric_named(error.metric).squared_error_weight ? row.sums : row.growth;
+        for (const double total : sum.total) means.push_back(float(total / double(sum.count)));
+        all.push_back(std::move(row));
     }
     return all;
 }

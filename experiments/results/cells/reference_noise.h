@@ -4,7 +4,6 @@
 #include <map>
 #include <span>
 #include <string>
-#include <tuple>
 #include <vector>
 
 /// What the noise of the reference does to one error of one variant point, so that errors of other points against the
@@ -19,7 +18,7 @@ struct ReferenceNoise {
     NoiseGrowth growth = {};
 };
 
-/// The error that the noise of the lit colour adds, as LitNoises (lit_noise.h) estimates it.
+/// The error that the noise of the lit colour adds, as lit_noise.h estimates it.
 struct LitNoise {
     double added = 0;       ///< to the error, on average; 0 for errors that are linear in the result
     double half_width = 0;  ///< of the 95 % interval of the error due to this noise
@@ -38,27 +37,34 @@ Plane swapped_error(const Metric& metric, const MetricReference& reference, cons
 /// The `frame` of rows that stand for all frames of a shot: none, so that the column holds numbers alone.
 inline const std::string over_frames;
 
-/// Collects ReferenceNoise over the seeds of a point, and over the frames of its shot.
-class ReferenceNoiseMeans {
-public:
-    /// One result of one seed; `frame` as in ResultRow. Frames of a shot that its mean is of are added as
-    /// over_frames: noises of poses that look different are independent and partly cancel, those of one pose do not.
-    void add(const std::string& frame, const std::string& target, const MetricReference& reference,
-             const HostImage& test, std::span<const Mask> masks);
-    /// The same of an error that is extrapolated, as score() gives it.
-    void add(const std::string& frame, const std::string& target, const std::string& metric, const std::string& mask,
-             const NoiseGrowth& growth);
-
-    /// The means over what was added; `shared` holds shot, variant and point. Of quantities that are known over all
-    /// frames, those of single frames are left out.
-    std::vector<ReferenceNoise> means(const ReferenceNoise& shared) const;
-
-private:
-    using Key = std::tuple<std::string, std::string, std::string, std::string>;  // target, metric, mask, frame
-    struct Sum {
-        std::vector<double> groups;
-        size_t count = 0;
-        bool is_growth = false;
-    };
-    std::map<Key, Sum> sums_;
+/// Names one error of a point in a shot.
+struct ErrorName {
+    std::string target, metric, mask, frame;
+    auto operator<=>(const ErrorName&) const = default;
 };
+
+/// Sums over what was added, number by number, to make their means of.
+struct SumOfRows {
+    std::vector<double> total;
+    size_t count = 0;
+
+    template <class Row>
+    void add(const Row& row) {
+        total.resize(row.size());
+        for (size_t i = 0; i < row.size(); ++i) total[i] += row[i];
+        ++count;
+    }
+};
+using SumsOfErrors = std::map<ErrorName, SumOfRows>;
+
+/// Adds ReferenceNoise::sums of one result of one seed; `frame` as in ResultRow. Frames of a shot that its mean is of
+/// are added as over_frames: noises of poses that look different are independent and partly cancel, those of one pose
+/// do not.
+void add_swapped_errors(SumsOfErrors& noise, const std::string& frame, const std::string& target,
+                        const MetricReference& reference, const HostImage& test, std::span<const Mask> masks);
+/// Adds ReferenceNoise::growth of an error that is extrapolated, as score() gives it.
+void add_growth(SumsOfErrors& noise, const ErrorName& error, const NoiseGrowth& growth);
+
+/// The means over what was added; `shared` holds shot, variant and point. Of quantities that are known over all frames,
+/// those of single frames are left out.
+std::vector<ReferenceNoise> means_of(const SumsOfErrors& noise, const ReferenceNoise& shared);

@@ -1,6 +1,6 @@
 #include "experiments/results/tradeoff/fits.h"
 
-#include "metrics/quantiles.h"
+#include "metrics/statistics/quantiles.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,10 +1,10 @@
 #include "experiments/results/tradeoff/pairs.h"
 
-#include "experiments/results/verdicts/standings.h"
-#include "experiments/results/tradeoff/other_costs.h"
 #include "experiments/results/tables/manifest.h"
-#include "metrics/statistics.h"
-#include "metrics/temporal.h"
+#include "experiments/results/tradeoff/other_costs.h"
+#include "experiments/results/verdicts/standings.h"
+#include "metrics/direction.h"
+#include "metrics/statistics/estimates.h"
 
 #include <algorithm>
 #include <cmath>
@@ -68,8 +68,8 @@ Costs costs_of(const StudyTables& tables, const std::string& shot, const std::st
 struct OpenPair {
     PairRow row;
     const MetricSummary *a, *b;
-    PairP p = {};                     ///< of the error, not adjusted
-    MedianInterval cost = {1, 1, 1};  ///< of the costs' ratio
+    PairP p = {};               ///< of the error, not adjusted
+    Estimate cost = {1, 1, 1};  ///< of the costs' ratio
     double cost_p = 1;
     bool has_cost = false;
     bool is_timed = false;
@@ -170,7 +170,7 @@ void decide(std::vector<OpenPair>& pairs) {
         }
         if (pair.has_cost && row.cost_verdict.empty()) {
             row.cost_p_holm = costs[cost++];
-            row.cost_verdict = verdict_of({*row.cost_p_holm}, pair.cost.median);
+            row.cost_verdict = verdict_of({*row.cost_p_holm}, pair.cost.value);
         }
     }
 }
@@ -185,9 +185,9 @@ void set_dominance(OpenPair& pair) {
     // A difference that two copies of one point may have is none.
     const bool is_same_cost = row.cost_verdict == verdict::equal;
     const bool costs_no_more =
-                   pair.is_timed ? pair.cost.median <= 1 && pair.cost.high <= 1 + floor : is_cheaper || is_same_cost,
-               costs_no_less = pair.is_timed ? pair.cost.median >= 1 && pair.cost.low * (1 + floor) >= 1
-                                             : is_dearer || is_same_cost;
+                   pair.is_timed ? pair.cost.value <= 1 && pair.cost.high <= 1 + floor : is_cheaper || is_same_cost,
+               costs_no_less =
+                   pair.is_timed ? pair.cost.value >= 1 && pair.cost.low * (1 + floor) >= 1 : is_dearer || is_same_cost;
     const auto says = [](bool is_certain, bool is_possible) {
         return is_certain ? "yes" : is_possible ? "maybe" : "no";
     };

@@ -1,6 +1,6 @@
 #include "experiments/results/tradeoff/tradeoff.h"
-#include "metrics/quantiles.h"
-#include "metrics/statistics.h"
+#include "metrics/statistics/estimates.h"
+#include "metrics/statistics/quantiles.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "experiments/results/verdicts/family.h"
 
-#include "metrics/quantiles.h"
+#include "metrics/statistics/quantiles.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "experiments/results/verdicts/interval.h"
 #include "experiments/results/verdicts/standings.h"
-#include "metrics/quantiles.h"
+#include "metrics/statistics/quantiles.h"
 
 #include <algorithm>
 #include <cmath>

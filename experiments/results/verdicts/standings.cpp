@@ -2,9 +2,9 @@
 
 #include "experiments/results/verdicts/family.h"
 #include "experiments/results/verdicts/interval.h"
-#include "metrics/quantiles.h"
-#include "metrics/statistics.h"
-#include "metrics/temporal.h"
+#include "metrics/direction.h"
+#include "metrics/statistics/estimates.h"
+#include "metrics/statistics/quantiles.h"
 
 #include <algorithm>
 #include <array>

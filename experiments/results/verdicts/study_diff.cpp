@@ -3,12 +3,12 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "experiments/results/evaluation.h"
+#include "experiments/results/tables/manifest.h"
 #include "experiments/results/verdicts/interval.h"
 #include "experiments/results/verdicts/standings.h"
 #include "experiments/results/verdicts/study_points.h"
-#include "experiments/results/tables/manifest.h"
-#include "metrics/quantiles.h"
-#include "metrics/statistics.h"
+#include "metrics/statistics/estimates.h"
+#include "metrics/statistics/quantiles.h"
 
 #include <algorithm>
 #include <cmath>

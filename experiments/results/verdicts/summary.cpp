@@ -1,10 +1,11 @@
 #include "experiments/results/verdicts/summary.h"
 
 #include "core/error.h"
-#include "experiments/results/verdicts/interval.h"
 #include "experiments/results/cells/study_rows.h"
-#include "metrics/median_interval.h"
-#include "metrics/quantiles.h"
+#include "experiments/results/verdicts/interval.h"
+#include "metrics/direction.h"
+#include "metrics/statistics/median_interval.h"
+#include "metrics/statistics/quantiles.h"
 #include "metrics/temporal.h"
 
 #include <algorithm>
@@ -168,11 +169,11 @@ std::vector<TimeSummary> summarise(std::span<const TimeRow> rows, const std::map
         for (const auto& [frame, milliseconds] : of_frame) times.push_back(milliseconds);
         const auto disturbed = std::ranges::count_if(group, [](const TimeRow* row) { return row->is_disturbed; });
         const TimeRow& first = *group.front();
-        const MedianInterval m = median_interval(times);
+        const Estimate m = median_interval(times);
         const auto floor = floors.find(first.shot);
         const double near = 1 + (floor == floors.end() ? 0.0 : floor->second);
-        summaries.push_back({first.shot, first.variant, first.point, first.stage, first.clock, times.size(), m.median,
-                             m.low, m.high, std::max(m.high, m.median * near), std::min(m.low, m.median / near),
+        summaries.push_back({first.shot, first.variant, first.point, first.stage, first.clock, times.size(), m.value,
+                             m.low, m.high, std::max(m.high, m.value * near), std::min(m.low, m.value / near),
                              double(disturbed) / double(group.size())});
     }
     return summaries;

@@ -8,6 +8,7 @@
 #include "experiments/study/config/extends.h"
 #include "experiments/study/config/points/read_variants.h"
 #include "experiments/study/config/shots/read_shots.h"
+#include "metrics/direction.h"
 #include "metrics/masks.h"
 #include "metrics/metric.h"
 #include "metrics/temporal.h"

@@ -1,19 +1,10 @@
 #include "experiments/study/measuring/frame_means.h"
 
-#include "metrics/temporal.h"
+#include "metrics/direction.h"
 
 #include <algorithm>
 
 namespace {
-
-void add_noise(NoiseTerms& sum, const NoiseTerms& terms) {
-    if (sum.is_empty()) sum = NoiseTerms(terms.swapped.extent, terms.samples);
-    sum.samples = std::min(sum.samples, terms.samples);
-    for (size_t i = 0; i < terms.swapped.values.size(); ++i) {
-        sum.swapped.values[i] += terms.swapped.values[i];
-        sum.variance.values[i] += terms.variance.values[i];
-    }
-}
 
 /// Of means of maps; that of decibels is none.
 NoiseGrowth mean_growth(const std::vector<ResultRow>& rows) {
@@ -43,7 +34,7 @@ void FrameMeans::add(const FrameRows& frame) {
         Sums& sums = sums_[{row.metric, row.formula, row.mask}];
         sums.rows.push_back(row);
         if (frame.noise[i].is_empty()) sums.has_noise = false;
-        if (sums.has_noise) add_noise(sums.noise, frame.noise[i]);
+        if (sums.has_noise) add_noise(sums.noise, frame.noise[i], full_mask(frame.noise[i].swapped.extent));
     }
 }
 
@@ -65,9 +56,8 @@ std::vector<ResultRow> FrameMeans::rows() const {
                 r.low = *r.value - half_width, r.high = *r.value + half_width;
             }
         r.growth = mean_growth(sums.rows);
-        if (const MapInterval found = extrapolated_interval(r.growth); found.low && r.value) {
-            r.low = is_error(r.metric) ? std::max(*found.low, 0.0) : *found.low, r.high = found.high;
-        }
+        if (const auto found = extrapolated_interval(r.growth); found && r.value)
+            r.low = is_error(r.metric) ? std::max(found->low, 0.0) : found->low, r.high = found->high;
         r.growth.clear();
         means.push_back(std::move(r));
     }

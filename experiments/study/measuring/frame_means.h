@@ -18,7 +18,7 @@ public:
 private:
     struct Sums {
         std::vector<ResultRow> rows;
-        NoiseTerms noise;
+        NoisyMap noise;
         bool has_noise = true;  ///< that of all frames is known
     };
     std::map<std::tuple<std::string, std::string, std::string>, Sums> sums_;  ///< by metric, formula, mask

@@ -2,7 +2,7 @@
 
 #include "metrics/noise.h"
 #include "metrics/pooling.h"
-#include "metrics/quantiles.h"
+#include "metrics/statistics/quantiles.h"
 #include "metrics/tiles.h"
 
 #include <cmath>
@@ -57,6 +57,23 @@ Mask finite_in(const HostImage& of_a, const HostImage& of_b, const Mask& finite)
 
 bool is_told_for(const Metric& metric) { return metric.squared_error_weight || metric.name == "bias"; }
 
+void add(LitNoiseOfErrors& noise, const MetricReference& reference, const std::string& target, const HostImage& of_a,
+         const HostImage& of_b, std::span<const Mask> masks, const std::string& frame) {
+    if (!reference.halves) return;
+    const Mask finite = finite_in(of_a, of_b, reference.finite);
+    for (const Metric* metric : reference.metrics) {
+        const bool is_bias = metric->name == "bias";
+        if (!is_told_for(*metric)) continue;
+        const LitMaps maps = is_bias ? bias_maps(of_a, of_b) : squared_error_maps(*metric, reference, of_a, of_b);
+        for (const Mask& mask : masks) {
+            const Mask inside = intersection(mask, finite);
+            if (inside.count() == 0) continue;
+            (*noise)[{target, metric->name, mask.name, frame}] = {masked_mean(maps.added, inside),
+                                                                  half_width_of(maps.swapped, inside)};
+        }
+    }
+}
+
 }  // namespace
 
 bool is_noisy(const ReferenceHalves& light) {
@@ -67,45 +84,27 @@ bool is_noisy(const ReferenceHalves& light) {
     return false;
 }
 
-void LitNoises::add(const MetricReference& reference, const std::string& target, const HostImage& of_a,
-                    const HostImage& of_b, std::span<const Mask> masks, const std::string& frame) {
-    if (!reference.halves) return;
-    const Mask finite = finite_in(of_a, of_b, reference.finite);
-    for (const Metric* metric : reference.metrics) {
-        const bool is_bias = metric->name == "bias";
-        if (!is_told_for(*metric)) continue;
-        const LitMaps maps = is_bias ? bias_maps(of_a, of_b) : squared_error_maps(*metric, reference, of_a, of_b);
-        for (const Mask& mask : masks) {
-            const Mask inside = intersection(mask, finite);
-            if (inside.count() == 0) continue;
-            noises_[{frame, target, metric->name, mask.name}] = {masked_mean(maps.added, inside),
-                                                                 half_width_of(maps.swapped, inside)};
-        }
-    }
-}
-
-void LitNoises::add_targets(const PoseTruth& truth, const CompositedImages& of_a, const CompositedImages& of_b,
-                            std::span<const Mask> masks, const std::string& frame) {
+void add_lit_noise_of_targets(LitNoiseOfErrors& noise, const PoseTruth& truth, const CompositedImages& of_a,
+                              const CompositedImages& of_b, std::span<const Mask> masks, const std::string& frame) {
     const HostImage image_a = composited_image(truth, of_a), image_b = composited_image(truth, of_b);
     for (const auto& [target, reference] : truth.targets)
         if (const HostImage& a = tested_image(target, of_a, image_a); !a.values.empty())
-            add(reference, target, a, tested_image(target, of_b, image_b), masks, frame);
+            add(noise, reference, target, a, tested_image(target, of_b, image_b), masks, frame);
 }
 
-void LitNoises::add_frame(const PoseTruth& truth, const CompositedImages& of_a, const CompositedImages& of_b,
-                          std::span<const Mask> masks, const std::string& frame) {
-    add(*truth.frame_reference, "specular", of_a.specular, of_b.specular, masks, frame);
+void add_lit_noise_of_frame(LitNoiseOfErrors& noise, const PoseTruth& truth, const CompositedImages& of_a,
+                            const CompositedImages& of_b, std::span<const Mask> masks, const std::string& frame) {
+    add(noise, *truth.frame_reference, "specular", of_a.specular, of_b.specular, masks, frame);
 }
 
-std::optional<LitNoise> LitNoises::of(const std::string& frame, const std::string& target, const std::string& metric,
-                                      const std::string& mask) const {
-    if (is_without_) return is_told_for(metric_named(metric)) ? std::optional(LitNoise{}) : std::nullopt;
-    const auto found = noises_.find({frame, target, metric, mask});
-    return found == noises_.end() ? std::nullopt : std::optional(found->second);
+std::optional<LitNoise> lit_noise_of(const LitNoiseOfErrors& noise, const ErrorName& error) {
+    if (!noise) return is_told_for(metric_named(error.metric)) ? std::optional(LitNoise{}) : std::nullopt;
+    const auto found = noise->find(error);
+    return found == noise->end() ? std::nullopt : std::optional(found->second);
 }
 
-void LitNoises::set(std::span<ResultRow> rows) const {
+void set_lit_noise(std::span<ResultRow> rows, const LitNoiseOfErrors& noise) {
     for (ResultRow& row : rows)
-        if (const auto noise = of(row.frame, row.target, row.metric, row.mask))
-            row.lit_noise = noise->added, row.lit_half_width = noise->half_width;
+        if (const auto known = lit_noise_of(noise, {row.target, row.metric, row.mask, row.frame}))
+            row.lit_noise = known->added, row.lit_half_width = known->half_width;
 }

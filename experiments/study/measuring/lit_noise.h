@@ -4,15 +4,15 @@
 
 #include <map>
 #include <string>
-#include <tuple>
 
 /// Whether the halves' light differs by more than 1e-5 of itself anywhere: less is the rounding of means.
 bool is_noisy(const ReferenceHalves& light);
 
-/// LitNoise of a technique's errors. Techniques read the path-traced lit colour of the
-/// reference that they are compared with. All seeds read the same, so its noise is a bias of all of them, which neither
-/// the correction for the reference's noise nor the scatter of the seeds includes. A reflection probe is no part of it:
-/// its noise does not depend on the reference (reflection_probe.h).
+/// LitNoise of a technique's errors, by their names; nullopt: the light of both halves is the same, as where all of it
+/// is emission, and nothing is added to any error. Techniques read the path-traced lit colour of the reference that
+/// they are compared with. All seeds read the same, so its noise is a bias of all of them, which neither the correction
+/// for the reference's noise nor the scatter of the seeds includes. A reflection probe is no part of it: its noise does
+/// not depend on the reference (reflection_probe.h).
 ///
 /// It is estimated from two further runs of the point, with one seed, that read the lit colour of half A and of half B.
 /// To first order a result is linear in what it reads, so that with x_a, x_b those two results
@@ -25,30 +25,18 @@ bool is_noisy(const ReferenceHalves& light);
 /// modern_hall_mirror_floor adds 0.0175 (0.0175 +- 0.0019) to a relmse of 0.165, in breakfast_room_glossy_floor 0.0036
 /// (0.0040 +- 0.0019) to an mse of 0.130; frostbite_sssr 0.0155 (0.0149 +- 0.0026) to a relmse of 0.433, and 0.0006
 /// (0.0018 +- 0.0004) to an mse of 0.120. Scenes whose lit colour is emission alone have none.
-class LitNoises {
-public:
-    /// One frame of both results, composited and compared as measure_targets() (the full measure of the shot's last
-    /// frame) and measure_frame() do.
-    void add_targets(const PoseTruth& truth, const CompositedImages& of_a, const CompositedImages& of_b,
-                     std::span<const Mask> masks, const std::string& frame);
-    void add_frame(const PoseTruth& truth, const CompositedImages& of_a, const CompositedImages& of_b,
-                   std::span<const Mask> masks, const std::string& frame);
+using LitNoiseOfErrors = std::optional<std::map<ErrorName, LitNoise>>;
+inline const LitNoiseOfErrors unknown_lit_noise = std::map<ErrorName, LitNoise>();
 
-    /// The light of both halves is the same, as where all of it is emission: nothing is added to any error, and no
-    /// result needs to be rendered to know that.
-    void add_none() { is_without_ = true; }
+/// Adds one frame of both results, composited and compared as measure_targets() (the full measure of the shot's last
+/// frame) and measure_frame() do.
+void add_lit_noise_of_targets(LitNoiseOfErrors& noise, const PoseTruth& truth, const CompositedImages& of_a,
+                              const CompositedImages& of_b, std::span<const Mask> masks, const std::string& frame);
+void add_lit_noise_of_frame(LitNoiseOfErrors& noise, const PoseTruth& truth, const CompositedImages& of_a,
+                            const CompositedImages& of_b, std::span<const Mask> masks, const std::string& frame);
 
-    /// What it adds to one number; nothing where that is not known.
-    std::optional<LitNoise> of(const std::string& frame, const std::string& target, const std::string& metric,
-                               const std::string& mask) const;
+/// What it adds to one number; nothing where that is not known.
+std::optional<LitNoise> lit_noise_of(const LitNoiseOfErrors& noise, const ErrorName& error);
 
-    /// Writes lit_noise and lit_half_width into the rows of whose error they are known.
-    void set(std::span<ResultRow> rows) const;
-
-private:
-    bool is_without_ = false;
-    void add(const MetricReference& reference, const std::string& target, const HostImage& of_a, const HostImage& of_b,
-             std::span<const Mask> masks, const std::string& frame);
-    std::map<std::tuple<std::string, std::string, std::string, std::string>, LitNoise>
-        noises_;  ///< by frame, target, metric, mask
-};
+/// Writes lit_noise and lit_half_width into the rows of whose error they are known.
+void set_lit_noise(std::span<ResultRow> rows, const LitNoiseOfErrors& noise);

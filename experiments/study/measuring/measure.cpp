@@ -67,12 +67,12 @@ ReferenceHalves halves_of(const ReferenceOutput& output, const HostImage& guide,
             .samples = least_samples(reference)};
 }
 
-RungHalves rung_halves(const std::string& rung, const Reference& reference) {
+PoseTruth::Rung rung_halves(const std::string& rung, const Reference& reference) {
     const ReferenceOutput& incident = target_output(rung, reference);
     const TruthLadder::ErrorVariance& error =
         rung == "on_screen" ? reference.ladder.on_screen_error : reference.ladder.camera_radiance_error;
-    RungHalves halves{rung, halves_of(incident, reference.guide.incident, reference),
-                      halves_of(reflected(reference, incident), reference.guide.specular, reference)};
+    PoseTruth::Rung halves{rung, halves_of(incident, reference.guide.incident, reference),
+                           halves_of(reflected(reference, incident), reference.guide.specular, reference)};
     halves.incident.variance = error.incident, halves.specular.variance = error.specular;
     return halves;
 }
@@ -112,9 +112,9 @@ std::vector<size_t> needed_pixels(std::span<const Mask> masks, const MetricRefer
 /// gives a row without a value.
 void add_rows(std::vector<ResultRow>& rows, const MetricReference& reference, const std::string& target,
               const HostImage& test, std::span<const Mask> masks, const ResultRow& shared,
-              std::vector<NoiseTerms>* noise = nullptr) {
+              std::vector<NoisyMap>* noise = nullptr) {
     PixelCounts counts;
-    std::vector<NoiseTerms> terms;
+    std::vector<NoisyMap> terms;
     std::vector<Score> scores = score(reference, test, masks, &counts, noise ? &terms : nullptr);
     const std::vector<size_t> needed = needed_pixels(masks, reference);
     for (size_t i = 0; i < scores.size(); ++i) {

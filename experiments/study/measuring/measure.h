@@ -1,7 +1,7 @@
 #pragma once
 #include "core/gbuffer/gbuffer_file.h"
-#include "experiments/study/config/config.h"
 #include "experiments/results/cells/cell.h"
+#include "experiments/study/config/config.h"
 #include "groundtruth/reference/reference.h"
 #include "metrics/masks.h"
 #include "metrics/score.h"
@@ -19,13 +19,6 @@ struct CompositedImages {
     HostImage image = {};       ///< all light, of another program; of ours the truth's own light is added
 };
 
-/// A rung of the truth ladder as an output: what is composited where `incident` is known only so far. The variances are
-/// those of its difference from the truth, with which it shares samples.
-struct RungHalves {
-    std::string name;
-    ReferenceHalves incident, specular;
-};
-
 /// What all frames of one pose are measured against: made once, used for every variant, point and seed.
 struct PoseTruth {
     HostImage diffuse;                          ///< the truth's own: the lit colour that variants read
@@ -34,7 +27,13 @@ struct PoseTruth {
     std::map<std::string, MetricReference> targets;  ///< by name, with all metrics; where everything is measured
     std::optional<MetricReference> frame_reference;  ///< `specular` with Config::frame_metrics; in shots of several
                                                      ///< frames, of those that are compared
-    std::vector<RungHalves> rungs;                   ///< those among Config::targets, where everything is measured
+    /// A rung of the truth ladder as an output: what is composited where `incident` is known only so far. The variances
+    /// are those of its difference from the truth, with which it shares samples.
+    struct Rung {
+        std::string name;
+        ReferenceHalves incident, specular;
+    };
+    std::vector<Rung> rungs;  ///< those among Config::targets, where everything is measured
     HostImage view_depth, normal, material_id;
     FlipExposures flip_exposures;
     std::string content_hash;  ///< of the reference's pixels
@@ -71,7 +70,7 @@ std::vector<ResultRow> measure_targets(const PoseTruth& truth, const CompositedI
 /// What one frame of a shot adds to the mean over its frames.
 struct FrameRows {
     std::vector<ResultRow> rows;
-    std::vector<NoiseTerms> noise;  ///< of each row's value, as score() gives it
+    std::vector<NoisyMap> noise;  ///< of each row's value, as score() gives it
 };
 
 /// Config::frame_metrics x masks of one frame's specular.

@@ -12,12 +12,12 @@ const HostImage& half_a(const MetricReference& r) { return r.halves ? r.halves->
 const HostImage& half_b(const MetricReference& r) { return r.halves ? r.halves->b : r.image; }
 
 /// Of (m - A)(m - B), m the mean over the seeds; without halves there is none.
-NoiseTerms bias_noise(const SeedSplit& split) {
+NoisyMap bias_noise(const SeedSplit& split) {
     const MetricReference& reference = split.reference;
-    if (!reference.halves) return {reference.image.extent, 0};
+    if (!reference.halves) return noisy_map(reference.image.extent, 0);
     HostImage mean(reference.image.extent, 3);
     std::ranges::transform(split.moments.mean, mean.values.begin(), [](double v) { return float(v); });
-    return squared_error_noise(mean, *reference.halves, reference.image, [](double) { return 1.0; });
+    return squared_error(mean, *reference.halves, reference.image, [](double) { return 1.0; });
 }
 
 /// Half the width of Student's interval over the pairs of seeds 0 and 1, 2 and 3 and so on; none below two pairs.
@@ -56,19 +56,19 @@ void SeedSplit::add(unsigned seed, const HostImage& rgb) {
 }
 
 std::vector<SplitRow> split_rows(const SeedSplit& split, std::span<const Mask> masks, const SplitRow& shared,
-                                 bool depends_on_seed, const LitNoises& lit_noise) {
+                                 bool depends_on_seed, const LitNoiseOfErrors& lit_noise) {
     std::vector<SplitRow> rows;
     if (split.images.empty() || (depends_on_seed && split.images.size() < 2)) return rows;
     const std::vector<HostImage> twice(2, split.images.front());
     const std::vector<HostImage>& images = split.images.size() < 2 ? twice : split.images;
     const MetricReference& reference = split.reference;
-    const NoiseTerms noise = bias_noise(split);
+    const NoisyMap noise = bias_noise(split);
     for (const Mask& mask : masks) {
         const Mask inside = intersection(intersection(mask, split.moments.finite), reference.finite);
         if (inside.count() == 0) continue;
         SplitRow row = shared;
         row.mask = mask.name, row.pixels = inside.count();
-        if (const auto of_light = lit_noise.of(row.frame, row.target, "mse", row.mask))
+        if (const auto of_light = lit_noise_of(lit_noise, {row.target, "mse", row.mask, row.frame}))
             row.lit_noise = of_light->added, row.lit_half_width = of_light->half_width;
         row.seeds = unsigned(split.seeds.size()), row.seed_numbers = split.seeds;
         row.pairs = seed_pairs(images, half_a(reference), half_b(reference), inside);

@@ -20,4 +20,4 @@ struct SeedSplit {
 /// (noise_half_width(); none where that is unknown), and the `lit_noise` of `mse`. `shared` holds shot,
 /// frame, variant, point and target.
 std::vector<SplitRow> split_rows(const SeedSplit& split, std::span<const Mask> masks, const SplitRow& shared,
-                                 bool depends_on_seed = true, const LitNoises& lit_noise = {});
+                                 bool depends_on_seed = true, const LitNoiseOfErrors& lit_noise = unknown_lit_noise);

@@ -167,12 +167,12 @@ private:
 
     /// What the noise of the truth's light without reflections adds, which is taken from the image: all of it, or of a
     /// given light what is reflected of it, where the image was rendered in each half of that light, too.
-    LitNoises lit_noise() const {
-        LitNoises noise;
+    LitNoiseOfErrors lit_noise() const {
+        LitNoiseOfErrors noise = unknown_lit_noise;
         for (const FrameStep& step : point_.shot.steps) {
             if (!step.is_measured) continue;
             const PoseTruth& pose = *truth(step).pose;
-            if (!pose.lit_halves) return {};
+            if (!pose.lit_halves) return unknown_lit_noise;
             const HostImage highlights = difference(pose.direct, pose.diffuse);
             const bool has_halves = images_.has_halves(point_.shot, step.frame);
             const auto composited = [&](char which, const HostImage& lit) {
@@ -183,8 +183,9 @@ private:
             const CompositedImages a = composited('a', pose.lit_halves->a), b = composited('b', pose.lit_halves->b);
             const std::vector<Mask> masks = masks_of(truth(step), {}, point_.config);
             const std::string name = std::to_string(step.frame);
-            if (pose.frame_reference && point_.shot.config.frames.size() > 1) noise.add_frame(pose, a, b, masks, name);
-            if (point_.is_last(step)) noise.add_targets(pose, a, b, masks, name);
+            if (pose.frame_reference && point_.shot.config.frames.size() > 1)
+                add_lit_noise_of_frame(noise, pose, a, b, masks, name);
+            if (point_.is_last(step)) add_lit_noise_of_targets(noise, pose, a, b, masks, name);
         }
         return noise;
     }

@@ -21,7 +21,7 @@ std::vector<Mask> masks_of_surfaces(const FrameTruth& truth) {
 void PointErrors::measure_last(const FrameTruth& truth, const CompositedImages& images, const ResultRow& row,
                                std::span<const Mask> masks) {
     std::vector<ResultRow> rows = measure_targets(*truth.pose, images, masks, row);
-    lit_noise_.set(rows);
+    set_lit_noise(rows, lit_noise_);
     keep_growth(rows, row.frame);
     rows_.insert(rows_.end(), rows.begin(), rows.end());
     const HostImage image = composited_image(*truth.pose, images);
@@ -29,13 +29,13 @@ void PointErrors::measure_last(const FrameTruth& truth, const CompositedImages& 
         const HostImage& tested = tested_image(target, images, image);
         if (tested.values.empty()) continue;
         splits_.try_emplace(target, reference).first->second.add(row.seed, tested);
-        noise_.add(row.frame, target, reference, tested, masks);
+        add_swapped_errors(noise_, row.frame, target, reference, tested, masks);
     }
 }
 
 /// Moves it from the rows to what effects are made of.
 void PointErrors::keep_growth(std::vector<ResultRow>& rows, const std::string& frame) {
-    for (ResultRow& r : rows) noise_.add(frame, r.target, r.metric, r.mask, std::exchange(r.growth, {}));
+    for (ResultRow& r : rows) add_growth(noise_, {r.target, r.metric, r.mask, frame}, std::exchange(r.growth, {}));
 }
 
 /// Whether the full measure of the last frame holds this row already.
@@ -49,12 +49,12 @@ bool PointErrors::is_in_full_measure(const ResultRow& row) const {
 void PointErrors::measure_in_passing(SeedErrors& seed, const PoseTruth& truth, const HostImage& specular,
                                      std::span<const Mask> masks, const ResultRow& row) {
     FrameRows frame = measure_frame(truth, specular, masks, row);
-    lit_noise_.set(frame.rows);
+    set_lit_noise(frame.rows, lit_noise_);
     const bool makes_means = !point_.shot.config.measures_last_only;
     if (makes_means) seed.means.add(frame), keep_growth(frame.rows, over_frames);
     seed.frame_rows.insert(seed.frame_rows.end(), frame.rows.begin(), frame.rows.end());
     if (!makes_means) return;
-    noise_.add(over_frames, "specular", *truth.frame_reference, specular, masks);
+    add_swapped_errors(noise_, over_frames, "specular", *truth.frame_reference, specular, masks);
 }
 
 void PointErrors::add(SeedErrors& seed, const FrameStep& step, const CompositedImages& images) {
@@ -143,7 +143,7 @@ std::vector<std::string> PointErrors::notes() const {
 void PointErrors::move_to(Cell& cell) {
     cell.rows = std::move(rows_);
     cell.splits = rows_of_splits();
-    cell.reference_noise =
-        noise_.means({.shot = point_.shot.name(), .variant = point_.variant.variant, .point = point_.variant.point});
+    cell.reference_noise = means_of(
+        noise_, {.shot = point_.shot.name(), .variant = point_.variant.variant, .point = point_.variant.point});
     cell.notes = notes();
 }

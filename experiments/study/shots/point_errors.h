@@ -23,7 +23,8 @@ struct SeedErrors {
 class PointErrors {
 public:
     /// `lit_noise`: what the noise of the lit colour adds to them.
-    PointErrors(const PointInShot& point, LitNoises lit_noise) : point_(point), lit_noise_(std::move(lit_noise)) {}
+    PointErrors(const PointInShot& point, LitNoiseOfErrors lit_noise)
+        : point_(point), lit_noise_(std::move(lit_noise)) {}
 
     /// Adds one rendered frame, in the order of the shot's steps.
     void add(SeedErrors& seed, const FrameStep& step, const CompositedImages& images);
@@ -44,10 +45,10 @@ private:
     bool is_in_full_measure(const ResultRow& row) const;
 
     const PointInShot& point_;
-    LitNoises lit_noise_;
+    LitNoiseOfErrors lit_noise_;
     std::vector<ResultRow> rows_;
     std::map<std::string, SeedSplit> splits_;  ///< by target, of the last frame
-    ReferenceNoiseMeans noise_;
+    SumsOfErrors noise_;
     /// Masks under which a temporal metric has no value, by its name and the reason.
     std::map<std::pair<std::string, std::string>, std::set<std::string>> missing_;
 };

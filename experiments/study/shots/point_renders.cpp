@@ -2,9 +2,9 @@
 
 #include "core/gpu/device.h"
 #include "experiments/study/measuring/render_variant.h"
+#include "experiments/study/shots/image_queue.h"
 #include "experiments/study/shots/point_errors.h"
 #include "experiments/study/shots/point_rays.h"
-#include "experiments/study/shots/image_queue.h"
 #include "experiments/study/shots/result_images.h"
 
 #include <algorithm>
@@ -169,13 +169,10 @@ private:
     }
 
     /// Plays the shot with the light of each half of the reference: what the noise of the light adds to errors.
-    LitNoises lit_noise() {
-        LitNoises noise;
+    LitNoiseOfErrors lit_noise() {
+        LitNoiseOfErrors noise = unknown_lit_noise;
         if (!reads_reference_light(point_)) return noise;
-        if (!reads_noisy_light(point_)) {
-            noise.add_none();
-            return noise;
-        }
+        if (!reads_noisy_light(point_)) return {};
         if (!point_.config.measures_lit_noise) return noise;
         Renderer of_a = renderer(), of_b = renderer();
         for (const FrameStep& step : point_.shot.steps) {
@@ -189,8 +186,8 @@ private:
             const std::vector<Mask> masks = masks_of(*truth, a.confidence, point_.config);
             const std::string name = std::to_string(step.frame);
             if (truth->pose->frame_reference && point_.shot.config.frames.size() > 1)
-                noise.add_frame(*truth->pose, a, b, masks, name);
-            if (point_.is_last(step)) noise.add_targets(*truth->pose, a, b, masks, name);
+                add_lit_noise_of_frame(noise, *truth->pose, a, b, masks, name);
+            if (point_.is_last(step)) add_lit_noise_of_targets(noise, *truth->pose, a, b, masks, name);
         }
         return noise;
     }

@@ -1,8 +1,8 @@
 #include "experiments/results/verdicts/effects/effects.h"
 
 #include "experiments/results/verdicts/interval.h"
-#include "metrics/statistics.h"
-#include "metrics/temporal.h"
+#include "metrics/direction.h"
+#include "metrics/statistics/estimates.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #pragma once
+#include "experiments/results/cells/cell.h"
 #include "experiments/results/tables/comparisons.h"
 #include "experiments/results/verdicts/interval.h"
-#include "experiments/results/cells/cell.h"
-#include "metrics/statistics.h"
+#include "metrics/statistics/estimates.h"
 
 #include <functional>
 #include <set>

@@ -1,9 +1,9 @@
 #include "experiments/results/verdicts/effects/time_effects.h"
 
-#include "experiments/results/verdicts/interval.h"
 #include "experiments/results/tables/manifest.h"
-#include "metrics/quantiles.h"
-#include "metrics/statistics.h"
+#include "experiments/results/verdicts/interval.h"
+#include "metrics/statistics/estimates.h"
+#include "metrics/statistics/quantiles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,9 +39,9 @@ std::vector<TimeEffectRow> time_effects(std::span<const TimeRow> times, const st
                     base != other->second.of_round.end() && base->second > 0 && milliseconds > 0)
                     ratios.push_back(milliseconds / base->second);
             if (ratios.empty()) continue;
-            const MedianInterval m = median_interval(ratios);
+            const Estimate m = median_interval(ratios);
             effects.push_back({shot, variant, point, c.against, c.baseline->variant, c.baseline->point, stage,
-                               timed.clock, ratios.size(), m.median, m.low, m.high});
+                               timed.clock, ratios.size(), m.value, m.low, m.high});
         }
     return effects;
 }
@@ -58,8 +58,8 @@ std::pair<double, double> TimeRatio::interval(double level) const {
     return {std::exp(log_ratio - half), std::exp(log_ratio + half)};
 }
 
-TimeRatio time_ratio(const MedianInterval& rounds, double aa_floor, size_t aa_pairs) {
-    return {.log_ratio = std::log(rounds.median),
+TimeRatio time_ratio(const Estimate& rounds, double aa_floor, size_t aa_pairs) {
+    return {.log_ratio = std::log(rounds.value),
             .half_width = std::hypot(std::log(rounds.high / rounds.low) / 2, std::log1p(aa_floor)),
             .degrees = aa_pairs};
 }

@@ -1,8 +1,8 @@
 #pragma once
+#include "experiments/results/cells/cell.h"
 #include "experiments/results/tables/comparisons.h"
 #include "experiments/results/verdicts/effects/effects.h"
-#include "experiments/results/cells/cell.h"
-#include "metrics/median_interval.h"
+#include "metrics/statistics/median_interval.h"
 
 #include <nlohmann/json.hpp>
 #include <span>
@@ -50,7 +50,7 @@ struct TimeRatio {
 };
 
 /// `rounds`: the interval of the ratio over the rounds; above 0.
-TimeRatio time_ratio(const MedianInterval& rounds, double aa_floor, size_t aa_pairs);
+TimeRatio time_ratio(const Estimate& rounds, double aa_floor, size_t aa_pairs);
 
 /// Decides `verdict` of all effects on the total in shots where points were timed twice: of less or more time. They are
 /// a family, whose p-values are adjusted together (holm_adjusted()). Stages by themselves have none: copies are

@@ -1,7 +1,7 @@
 #include "experiments/study/measuring/rays/error_causes.h"
 
 #include "metrics/noise.h"
-#include "metrics/statistics.h"
+#include "metrics/statistics/estimates.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "experiments/study/measuring/rays/judged_hits.h"
 
 #include "experiments/results/results_schema.h"
-#include "metrics/statistics.h"
+#include "metrics/statistics/estimates.h"
 #include "variants/tracers/outcome.h"
 
 #include <algorithm>

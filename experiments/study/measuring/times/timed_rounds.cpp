@@ -1,6 +1,6 @@
 #include "experiments/study/measuring/times/timed_rounds.h"
 
-#include "metrics/median_interval.h"
+#include "metrics/statistics/median_interval.h"
 
 #include <algorithm>
 #include <chrono>
@@ -47,8 +47,8 @@ std::vector<bool> open_orders(const std::vector<std::vector<double>>& times) {
         for (size_t b = a + 1; b < times.size(); ++b) {
             std::vector<double> ratios;
             for (size_t i = 0; i < times[a].size(); ++i) ratios.push_back(std::log(times[a][i] / times[b][i]));
-            const MedianInterval m = median_interval(ratios);
-            if (2 * m.low - m.median > 0 || 2 * m.high - m.median < 0) continue;
+            const Estimate m = median_interval(ratios);
+            if (2 * m.low - m.value > 0 || 2 * m.high - m.value < 0) continue;
             is_open[a] = is_open[b] = true;
         }
     return is_open;

@@ -54,8 +54,9 @@ private:
 std::vector<size_t> chosen_rounds(std::span<const RoundLoad> rounds, size_t wanted);
 
 /// By point: whether its place among the others by time is open after these rounds; `times`: by point and round, above
-/// 0, the same rounds for all. It is settled where the interval of the median ratio (metrics/median_interval.h) to
-/// every other point lies apart from 1 by as much again as it reaches from the median. A point that stops here thus
-/// stops for a difference far beyond what chance gives, so that intervals of those that go on, and of those that do
-/// not, cover as they would without a look (TimedRounds.LooksDoNotSpoilTheCoverage).
+/// 0, the same rounds for all. It is settled where the interval of the median ratio
+/// (metrics/statistics/median_interval.h) to every other point lies apart from 1 by as much again as it reaches from
+/// the median. A point that stops here thus stops for a difference far beyond what chance gives, so that intervals of
+/// those that go on, and of those that do not, cover as they would without a look
+/// (TimedRounds.LooksDoNotSpoilTheCoverage).
 std::vector<bool> open_orders(const std::vector<std::vector<double>>& times);

@@ -67,7 +67,7 @@ struct TimedCopy {
     double median_total(const std::vector<size_t>& rounds) const {
         std::vector<double> totals;
         for (const size_t round : rounds) totals.push_back(frames[round].total);
-        return median_interval(totals).median;
+        return median_interval(totals).value;
     }
     /// None if the stage did not run.
     std::optional<double> median_of(const std::string& stage, const std::vector<size_t>& rounds) const {
@@ -76,7 +76,7 @@ struct TimedCopy {
             for (const PassTime& t : frames[round].stages)
                 if (t.stage == stage) times.push_back(t.milliseconds);
         if (times.empty()) return {};
-        return median_interval(times).median;
+        return median_interval(times).value;
     }
 };
 
@@ -243,7 +243,7 @@ double floor_of(const nlohmann::json& pairs, const nlohmann::json& proofs) {
     const double place = 0.95 * double(differences.size() - 1), share = place - std::floor(place);
     const size_t below = size_t(place), above = std::min(below + 1, differences.size() - 1);
     const double of_pairs = (1 - share) * differences[below] + share * differences[above];
-    return std::max(of_pairs, median_interval(differences).median * normal_quantile / normal_median);
+    return std::max(of_pairs, median_interval(differences).value * normal_quantile / normal_median);
 }
 
 }  // namespace
@@ -366,7 +366,7 @@ nlohmann::json timing_entry(const ShotTimes& times, const std::string& shot, con
                            {"variant", s.variant},
                            {"point", s.point},
                            {"complete_ms", s.complete_ms},
-                           {"share", s.share.median},
+                           {"share", s.share.value},
                            {"low", s.share.low},
                            {"high", s.share.high}});
     return {{"shot", shot},

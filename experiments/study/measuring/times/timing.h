@@ -5,7 +5,7 @@
 #include "experiments/study/config/config.h"
 #include "experiments/study/config/shots/shot.h"
 #include "experiments/study/measuring/frames/frame_source.h"
-#include "metrics/median_interval.h"
+#include "metrics/statistics/median_interval.h"
 
 #include <functional>
 
@@ -28,7 +28,7 @@ struct SavedTime {
 struct Saving {
     std::string variant, point;
     double complete_ms = 0;  ///< median total of the copy that leaves nothing out
-    MedianInterval share;    ///< of that, over the rounds: 1 - total / complete total
+    Estimate share;          ///< of that, over the rounds: 1 - total / complete total
 };
 
 /// How quiet the machine was while times were taken.

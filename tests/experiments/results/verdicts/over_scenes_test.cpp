@@ -5,7 +5,7 @@
 #include "experiments/results/verdicts/interval.h"
 #include "experiments/results/verdicts/standings.h"
 
-#include "metrics/quantiles.h"
+#include "metrics/statistics/quantiles.h"
 
 #include <gtest/gtest.h>
 #include <cmath>

@@ -1,9 +1,10 @@
 // The table of times in metrics/README.md: time_coverage_study RESULTS, a folder of many timed frames
-// (experiments/studies/configs/tradeoff_coverage.json). All frames of a shot are the truth, windows of 15 successive ones the trials.
+// (experiments/studies/configs/tradeoff_coverage.json). All frames of a shot are the truth, windows of 15 successive
+// ones the trials.
 #include "core/error.h"
 #include "experiments/results/cells/cell.h"
 #include "experiments/results/tables/columns.h"
-#include "metrics/median_interval.h"
+#include "metrics/statistics/median_interval.h"
 
 #include <cstdio>
 #include <map>
@@ -16,7 +17,7 @@ constexpr size_t window = 15, fewest_frames = 4 * window;
 struct Count {
     size_t trials = 0, covered = 0;
     double half_widths = 0;  ///< relative
-    void add(const MedianInterval& m, double truth) {
+    void add(const Estimate& m, double truth) {
         ++trials, covered += m.low <= truth && truth <= m.high;
         half_widths += (m.high - m.low) / 2 / truth;
     }
@@ -27,7 +28,7 @@ struct Count {
 };
 
 void add_windows(Count& count, const std::vector<double>& values) {
-    const double truth = median_interval(values).median;
+    const double truth = median_interval(values).value;
     for (size_t first = 0; first + window <= values.size(); first += 5)
         count.add(median_interval(std::span(values).subspan(first, window)), truth);
 }

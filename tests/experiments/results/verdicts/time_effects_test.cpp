@@ -1,6 +1,6 @@
 // Ratios of times: paired by frame, with intervals that allow for slow changes of the machine's speed.
 #include "experiments/results/verdicts/effects/time_effects.h"
-#include "metrics/median_interval.h"
+#include "metrics/statistics/median_interval.h"
 
 #include <gtest/gtest.h>
 #include <cmath>
@@ -52,9 +52,9 @@ TEST(TimeEffects, CoverTheRatioWhereDisturbancesLast) {
                 load = 0.6 * load + 0.8 * normal(random);
                 ratios.push_back(1.7 * std::exp(0.1 * load + 0.06 * jitter(random)));
             }
-            const MedianInterval m = median_interval(ratios);
-            EXPECT_LE(m.low, m.median);
-            EXPECT_GE(m.high, m.median);
+            const Estimate m = median_interval(ratios);
+            EXPECT_LE(m.low, m.value);
+            EXPECT_GE(m.high, m.value);
             covered += m.low <= 1.7 && 1.7 <= m.high;
         }
         // A binomial count of 95 % has a deviation of 9.7; independent signs would give 86 and 82 %. The

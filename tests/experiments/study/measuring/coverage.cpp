@@ -232,20 +232,20 @@ private:
         Measured measured;
         const PoseTruth truth = pose_truth(reference, config_, 0, {.has_targets = true});
         for (const auto& [name, images] : techniques_.images) {
-            ReferenceNoiseMeans noise;
+            SumsOfErrors noise;
             std::map<std::string, SeedSplit> splits;
             for (unsigned i = 0; i < std::min<size_t>(count, images.size()); ++i) {
                 const CompositedImages& shown = images[(first + i) % images.size()];
                 for (ResultRow& row :
                      measure_targets(truth, shown, masks_, {.frame = "0", .variant = name, .seed = i})) {
                     row.represents_shot = true;
-                    noise.add("0", row.target, row.metric, row.mask, row.growth);
+                    add_growth(noise, {row.target, row.metric, row.mask, "0"}, row.growth);
                     measured.rows.push_back(std::move(row));
                 }
                 const HostImage image = composited_image(truth, shown);
                 for (const auto& [target, against] : truth.targets) {
                     const HostImage& tested = tested_image(target, shown, image);
-                    noise.add("0", target, against, tested, masks_);
+                    add_swapped_errors(noise, "0", target, against, tested, masks_);
                     splits.try_emplace(target, against).first->second.add(i, tested);
                 }
             }

@@ -1,6 +1,6 @@
 // Verdicts of rays made by hand, and the rows made of them.
 #include "experiments/study/measuring/rays/judged_hits.h"
-#include "metrics/statistics.h"
+#include "metrics/statistics/estimates.h"
 #include "variants/tracers/outcome.h"
 
 #include <gtest/gtest.h>

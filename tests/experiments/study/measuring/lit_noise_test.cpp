@@ -64,13 +64,13 @@ TEST(LitNoise, IsWhatNoisyLightAddsToAnError) {
     int covered[2] = {};
     for (int study = 0; study < studies; ++study) {
         const HostImage a = noisy(light, 0.8f, random), b = noisy(light, 0.8f, random), mean = mean_of(a, b);
-        LitNoises noises;
+        LitNoiseOfErrors noises = unknown_lit_noise;
         PoseTruth pose;
         pose.targets.emplace("specular", reference);
         pose.direct = HostImage(small, 3);
-        noises.add_targets(pose, {.specular = technique(a)}, {.specular = technique(b)}, masks, "0");
+        add_lit_noise_of_targets(noises, pose, {.specular = technique(a)}, {.specular = technique(b)}, masks, "0");
         std::vector<ResultRow> rows = {row("mse"), row("bias"), row("ssim")};
-        noises.set(rows);
+        set_lit_noise(rows, noises);
         ASSERT_TRUE(rows[0].lit_noise && rows[1].lit_noise && !rows[2].lit_noise);
         EXPECT_EQ(*rows[1].lit_noise, 0) << "a bias is linear: noise adds nothing on average";
         const double change = score_of(mean, 0) - truth[0] - *rows[0].lit_noise;
@@ -103,8 +103,7 @@ TEST_F(StudyTest, LitNoiseIsWhatNoisyLightAddsToRealTechniques) {
         double value = 0, lit_noise = 0;
     };
     const auto results = [&](const ReferenceHalves& light) {
-        FrameStore store(*source, shot.config, size_t(1) << 28),
-            lit(*source, shot.config, size_t(1) << 28);
+        FrameStore store(*source, shot.config, size_t(1) << 28), lit(*source, shot.config, size_t(1) << 28);
         ShotTruth truth =
             shot_truth(shot, config, store, source->graph(), [&](unsigned, ReferenceUse) { return reference; });
         PoseTruth pose = *truth.poses.at(0);

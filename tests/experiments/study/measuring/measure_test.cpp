@@ -120,7 +120,7 @@ TEST(Measure, AveragesOverFrames) {
     rows[1].low = 3.0, rows[1].high = 5.0, rows[1].pixels = 20;
     rows[3].value.reset();
     FrameMeans frames;
-    for (const ResultRow& r : rows) frames.add({{r}, {NoiseTerms({4, 4}, 16)}});
+    for (const ResultRow& r : rows) frames.add({{r}, {noisy_map({4, 4}, 16)}});
     const std::vector<ResultRow> means = frames.rows();
     ASSERT_EQ(means.size(), 2u);
     for (const ResultRow& m : means) {
@@ -143,7 +143,7 @@ TEST(Measure, NoiseThatFramesShareAddsUp) {
         FrameRows frames[2];
         for (FrameRows& frame : frames) {
             frame.rows = {frame_row("0", "mse", 1)};
-            frame.noise = {NoiseTerms(extent, 64)};
+            frame.noise = {noisy_map(extent, 64)};
             frame.noise[0].variance.values.assign(64, 0.25);
         }
         for (size_t p = 0; p < 64; ++p) {

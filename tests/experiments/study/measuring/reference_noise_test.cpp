@@ -1,7 +1,7 @@
 // Effects hold the noise of the reference that both of their errors are made with.
+#include "experiments/results/cells/study_rows.h"
 #include "experiments/results/verdicts/effects/effects.h"
 #include "experiments/results/verdicts/interval.h"
-#include "experiments/results/cells/study_rows.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>
@@ -24,7 +24,7 @@ NoiseGrowth growth_of_absolutes(const HostImage& image, const MetricReference& r
     };
     const double moved = extrapolation_step / 2;
     const Plane own = map(0.5), a = map(1), b = map(0), to_a = map(0.5 + moved), to_b = map(0.5 - moved);
-    return noise_growth({own, a, b, to_a, to_b}, full_mask(image.extent));
+    return noise_growth({&own, &a, &b, &to_a, &to_b}, full_mask(image.extent));
 }
 
 /// Two points of `seeds` seeds each against a reference of noisy halves, of 600 pixels, of which one has the deviation
@@ -50,7 +50,7 @@ EffectRow simulated_effect(std::mt19937& random, unsigned seeds, float of_one, b
     std::vector<ResultRow> rows;
     std::vector<ReferenceNoise> noise;
     for (const auto& [point, bias] : {std::pair("base", 0.5f), std::pair("better", 0.4f)}) {
-        ReferenceNoiseMeans means;
+        SumsOfErrors means;
         for (unsigned seed = 0; seed < std::max(seeds, 1u); ++seed) {
             HostImage image(extent, 3);
             // Both err alike in a part, so that most of the reference's noise is common to them.
@@ -68,11 +68,11 @@ EffectRow simulated_effect(std::mt19937& random, unsigned seeds, float of_one, b
                             .mask = masks[0].name,
                             .value = s.value,
                             .floor = s.floor});
-            means.add("0", "specular", reference, image, masks);
+            add_swapped_errors(means, "0", "specular", reference, image, masks);
             if (metric != "mse")  // `smape` as a name alone, for the closed form of absolute differences
-                means.add("0", "specular", metric, masks[0].name, growth_of_absolutes(image, reference));
+                add_growth(means, {"specular", metric, masks[0].name, "0"}, growth_of_absolutes(image, reference));
         }
-        for (ReferenceNoise& n : means.means({.shot = "s", .variant = "v", .point = point})) noise.push_back(n);
+        for (ReferenceNoise& n : means_of(means, {.shot = "s", .variant = "v", .point = point})) noise.push_back(n);
     }
     const std::vector<ComparedPoint> variants = {
         {.variant = "v", .point = "base", .depends_on_seed = seeds > 0, .is_baseline = true},

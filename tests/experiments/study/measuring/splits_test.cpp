@@ -123,9 +123,9 @@ TEST(Splits, HoldWhatNoisyLightMayHaveAdded) {
     pose.targets.emplace("specular", reference);
     pose.direct = none;
     const std::vector<Mask> masks = {full_mask(extent)};
-    LitNoises light;
-    light.add_targets(pose, {.specular = HostImage(extent, 3, 5.0f)}, {.specular = HostImage(extent, 3, 1.0f)}, masks,
-                      "0");
+    LitNoiseOfErrors light = unknown_lit_noise;
+    add_lit_noise_of_targets(light, pose, {.specular = HostImage(extent, 3, 5.0f)},
+                             {.specular = HostImage(extent, 3, 1.0f)}, masks, "0");
     const double of_light = 4.30265 * 12 / std::sqrt(2.0);
     const SplitRow shared{.frame = "0", .target = "specular"};
     const SplitRow clean = split_rows(split, masks, shared).at(0),

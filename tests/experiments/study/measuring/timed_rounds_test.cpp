@@ -1,6 +1,6 @@
 // Which rounds count, which points go on, and that neither spoils an interval.
 #include "experiments/study/measuring/times/timed_rounds.h"
-#include "metrics/median_interval.h"
+#include "metrics/statistics/median_interval.h"
 
 #include <gtest/gtest.h>
 #include <cmath>
@@ -44,8 +44,8 @@ private:
 struct Count {
     double trials = 0, covered = 0, log_errors = 0;
     void add(const std::vector<double>& values, double truth) {
-        const MedianInterval m = median_interval(values);
-        ++trials, covered += m.low <= truth && truth <= m.high, log_errors += std::log(m.median / truth);
+        const Estimate m = median_interval(values);
+        ++trials, covered += m.low <= truth && truth <= m.high, log_errors += std::log(m.value / truth);
     }
 };
 

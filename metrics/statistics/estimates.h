@@ -1,14 +1,16 @@
 #pragma once
-#include "core/host_image.h"
-#include "metrics/plane.h"
-
 #include <optional>
 #include <span>
 #include <vector>
 
-/// A mean with its 95 % confidence interval.
+/// A 95 % confidence interval.
+struct Interval {
+    double low = 0, high = 0;
+};
+
+/// A mean or median with its 95 % confidence interval.
 struct Estimate {
-    double value, low, high;
+    double value = 0, low = 0, high = 0;
 };
 
 /// The mean of independent, nearly normal values by Student's t: mean +- t(0.975, N - 1) s / sqrt(N). Fails for fewer
@@ -67,15 +69,3 @@ RatioEstimate jackknifed_ratio(const Jackknifed& a, const Jackknifed& b, const S
 /// p-values adjusted for their number, in the order given (Holm 1979, "A Simple Sequentially Rejective Multiple Test
 /// Procedure"). `others`: members of their family that stay undecided, whatever these say.
 std::vector<double> holm_adjusted(std::span<const double> p_values, size_t others = 0);
-
-/// Mean and variance of each channel of each pixel over independent seeds, one image at a time (Welford 1962).
-struct SeedMoments {
-    glm::uvec2 extent{0, 0};
-    unsigned count = 0;
-    std::vector<double> mean, squares;  ///< sums of squared distances from the mean, per channel
-    Mask finite;                        ///< pixels that were finite in every image
-
-    /// Fails on an image of another extent than the first one's.
-    void add(const HostImage& rgb);
-    double variance(size_t value) const { return squares[value] / (count - 1); }
-};

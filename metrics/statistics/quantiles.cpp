@@ -1,4 +1,4 @@
-#include "metrics/quantiles.h"
+#include "metrics/statistics/quantiles.h"
 
 #include "core/error.h"
 

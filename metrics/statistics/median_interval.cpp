@@ -1,4 +1,4 @@
-#include "metrics/median_interval.h"
+#include "metrics/statistics/median_interval.h"
 
 #include "core/error.h"
 
@@ -37,10 +37,10 @@ double sign_variance_factor(std::span<const double> values) {
     return std::max(factor, 2.0);
 }
 
-MedianInterval median_interval(std::span<const double> in_order_of_time) {
+Estimate median_interval(std::span<const double> in_order_of_time) {
     const std::vector<double> sorted = in_order_of_size(in_order_of_time);
     const size_t n = sorted.size();
-    MedianInterval m{.median = median_of(sorted)};
+    Estimate m{.value = median_of(sorted)};
     const double half_width = 1.96 * std::sqrt(sign_variance_factor(in_order_of_time) * double(n)) / 2;
     const double rank = std::max(0.0, std::floor(double(n) / 2 - half_width));
     m.low = sorted[size_t(rank)], m.high = sorted[n - 1 - size_t(rank)];

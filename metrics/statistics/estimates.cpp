@@ -1,9 +1,8 @@
-#include "metrics/statistics.h"
+#include "metrics/statistics/estimates.h"
 
 #include "core/error.h"
-#include "metrics/metric.h"
-#include "metrics/quantiles.h"
-#include "metrics/summation.h"
+#include "metrics/statistics/quantiles.h"
+#include "metrics/statistics/summation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -99,21 +98,4 @@ std::vector<double> holm_adjusted(std::span<const double> p_values, size_t other
         adjusted[order[rank]] = std::min(1.0, greatest);
     }
     return adjusted;
-}
-
-void SeedMoments::add(const HostImage& rgb) {
-    if (count == 0) {
-        extent = rgb.extent;
-        mean.assign(rgb.pixel_count() * 3, 0.0);
-        squares = mean;
-        finite = full_mask(extent);
-    }
-    if (rgb.extent != extent || rgb.channels != 3) fail("all seeds need images of one size and three channels");
-    ++count;
-    for (size_t i = 0; i < mean.size(); ++i) {
-        const double before = rgb.values[i] - mean[i];
-        mean[i] += before / count;
-        squares[i] += before * (rgb.values[i] - mean[i]);
-        if (!std::isfinite(rgb.values[i])) finite.inside[i / 3] = 0;
-    }
 }
