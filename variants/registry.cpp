@@ -5,18 +5,9 @@
 #include "core/json.h"
 #include "core/near_miss.h"
 #include "core/path_inside.h"
+#include "variants/declared/declared_entry.h"
 #include "variants/resolves/resolves.h"
 #include "variants/tracers/tracers.h"
-
-// One line for each technique in C++; its entry stands in variants/<name>/<name>.cpp.
-VariantEntry none_entry();
-VariantEntry amd_sssr_entry();
-VariantEntry diligent_ssr_entry();
-VariantEntry frostbite_sssr_entry();
-VariantEntry composed_ssr_entry();
-
-/// Of variants/declared.
-VariantEntry declared_entry(const std::filesystem::path& folder);
 
 namespace {
 
@@ -31,14 +22,10 @@ VariantEntry own_declared_entry(const std::string& name) {
 
 /// In the order of lists and reports.
 std::deque<VariantEntry> entries_with_tuned_presets() {
-    std::deque<VariantEntry> entries = {none_entry(),
-                                        own_declared_entry("mcguire_dda"),
-                                        amd_sssr_entry(),
-                                        diligent_ssr_entry(),
-                                        frostbite_sssr_entry(),
-                                        own_declared_entry("simple_ssr"),
-                                        own_declared_entry("four_mode_ssr"),
-                                        composed_ssr_entry()};
+    std::deque<VariantEntry> entries;
+    for (const char* name : {"none", "mcguire_dda", "amd_sssr", "diligent_ssr", "frostbite_sssr", "simple_ssr",
+                             "four_mode_ssr", "composed_ssr"})
+        entries.push_back(own_declared_entry(name));
     for (VariantEntry& entry : entries) {
         const auto file = std::filesystem::path(SSRLAB_SOURCE_DIR) / "variants" / entry.name / "tuned_presets.json";
         if (std::filesystem::exists(file)) add_tuned_presets(entry, file);

@@ -5,8 +5,7 @@
 #include <filesystem>
 
 /// All techniques, the baseline first, with the presets of their entries and those that `ssrlab tune` found; after them
-/// those of add_technique_folder(). Adding one to ssrlab takes a declaration and a line in registry.cpp, and an entry
-/// in its own folder.
+/// those of add_technique_folder(). Adding one to ssrlab takes its folder and its name in registry.cpp.
 const std::deque<VariantEntry>& variant_table();
 
 /// Adds the technique that `folder`/technique.json declares (variants/declared), under the folder's name; of a folder

@@ -31,24 +31,21 @@ void describe_tracer(const TracerEntry& tracer, const ParameterSet& params) {
     std::cout << tracer.name << ": " << tracer.title << "\n  " << tracer.description << "\n  Source: " << tracer.source
               << '\n';
     if (!tracer.fits_webgl2) std::cout << "  Does not fit WebGL 2\n";
-    std::cout << params.help(part_of(tracer));
+    std::cout << params.help(tracer.part);
 }
 
 /// The tracers that a technique may use, each with its parameters, those of a shared part once.
 void describe_tracers(const ParameterSet& params) {
     std::set<std::string> described;
     for (const TracerEntry& tracer : tracer_table()) {
-        if (!described.insert(part_of(tracer)).second || params.help(part_of(tracer)).empty()) continue;
-        std::cout << "\nParameters of the tracer " << tracer.name << ":\n" << params.help(part_of(tracer));
+        if (!described.insert(tracer.part).second || params.help(tracer.part).empty()) continue;
+        std::cout << "\nParameters of the tracer " << tracer.name << ":\n" << params.help(tracer.part);
     }
 }
 
-/// But for those that the technique decides.
-ParameterSet parameters_of(const ResolveEntry& resolve) {
-    ParameterSet declared, params;
-    resolve.declare(declared);
-    for (const Parameter& p : declared)
-        if (!std::ranges::count(resolve.given, p.name)) params.add(p);
+ParameterSet set_of(const std::vector<Parameter>& parameters) {
+    ParameterSet params;
+    for (const Parameter& parameter : parameters) params.add(parameter);
     return params;
 }
 
@@ -56,7 +53,7 @@ void describe_resolve(const ResolveEntry& resolve) {
     std::cout << resolve.name << ": " << resolve.title << "\n  " << resolve.description
               << "\n  Source: " << resolve.source << '\n';
     if (resolve.needs_density) std::cout << "  Needs the densities of rays, which mirror rays lack\n";
-    std::cout << parameters_of(resolve).help();
+    std::cout << set_of(resolve.passes->parameters).help();
 }
 
 /// Of a technique that has them.
@@ -85,7 +82,8 @@ static void describe_command(const DescribeOptions& asked) {
     if (is_tracer(options.variant)) {
         ParameterSet params;
         for (const TracerEntry& tracer : tracer_table())
-            if (part_of(tracer) == part_of(find_tracer(options.variant))) tracer.create(params);
+            if (tracer.part == find_tracer(options.variant).part)
+                for (const Parameter& parameter : tracer.parameters) params.add(parameter);
         return describe_tracer(find_tracer(options.variant), params);
     }
     if (is_resolve(options.variant)) return describe_resolve(find_resolve(options.variant));

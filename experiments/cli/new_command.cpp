@@ -20,27 +20,10 @@ struct NewOptions {
 
 namespace fs = std::filesystem;
 
-/// Techniques of ssrlab that folders declare: of variants/, and for one in C++ an example.
-std::map<std::string, fs::path> declared_folders() {
-    const fs::path root = SSRLAB_SOURCE_DIR;
-    std::map<std::string, fs::path> folders;
-    for (const VariantEntry& entry : variant_table())
-        for (const std::string above : {"variants/", "experiments/studies/examples/"})
-            if (const fs::path folder = path_inside(root, above + entry.name);
-                fs::exists(path_inside(folder, "technique.json")))
-                folders[entry.name] = folder;
-    return folders;
-}
-
 /// The folder that `from` names: one of ssrlab's, or one of the user's own.
 fs::path folder_of(const std::string& from) {
     if (from.find('/') != std::string::npos) return from;
-    const std::map<std::string, fs::path> folders = declared_folders();
-    if (const auto found = folders.find(from); found != folders.end()) return found->second;
-    const std::string& name = find_variant(from).name;  // or says that there is none of that name
-    std::string list;
-    for (const auto& [known, folder] : folders) list += (list.empty() ? "" : ", ") + known;
-    fail("'", name, "' has no declared form: its C++ decides what a list of passes cannot say; these have one: ", list);
+    return find_variant(from).folder->path;
 }
 
 std::string with_names(std::string text, const std::map<std::string, std::string>& new_names) {

@@ -97,7 +97,7 @@ AmdTraced amd_trace_frame(Device& device, const HostGBuffer& gbuffer, const nloh
     frame.graph.upload(numbers, noise);
     frame.classify();
     frame.sort_rays_by_tile();
-    amd_prepare_arguments(frame.graph, frame.work);
+    amd_prepare_arguments(frame.graph, frame.work, frame.parameters.denoiser);
     amd_intersect(frame.graph, frame.gbuffer, frame.images, numbers, frame.work, frame.histories,
                   frame.parameters.tracing, probe);
     return frame.result(1, 3);

@@ -1,9 +1,8 @@
 #pragma once
 #include "core/gbuffer/gbuffer_transfer.h"
 #include "core/gpu/device.h"
+#include "tests/variants/amd_passes.h"
 #include "tests/variants/golden_gbuffer.h"
-#include "variants/amd_sssr/passes.h"
-#include "variants/amd_sssr/tracing_parameters.h"
 #include "variants/common/depth_pyramid.h"
 
 /// The parameters of all passes, for tests that run them one by one.

@@ -1,7 +1,6 @@
 #include "tests/variants/blue_noise_fixture.h"
+#include "tests/variants/blue_noise_generator.h"
 #include "tests/variants/blue_noise_spectrum.h"
-#include "variants/common/blue_noise_generator.h"
-#include "variants/common/blue_noise_texture.h"
 
 #include <cmath>
 #include <complex>
@@ -20,6 +19,8 @@ glm::uvec2 code_at(const HostImage& table, size_t texel) {
 // The table.
 
 TEST(BlueNoiseTable, IsWhatTheGeneratorMakes) { EXPECT_EQ(make_blue_noise_table().values, blue_noise_table().values); }
+
+TEST(BlueNoiseTexture, IsWhatTheGeneratorMakes) { EXPECT_EQ(make_blue_noise_texture(), blue_noise_texture()); }
 
 TEST(BlueNoiseTable, HoldsEveryCodeEquallyOften) {
     const HostImage table = blue_noise_table();
@@ -289,7 +290,7 @@ TEST_F(BlueNoiseSeeds, AreUniformInEveryTexel) {
 
 TEST(BlueNoiseTexture, IsUniformAndBlueInEachChannel) {
     const int width = blue_noise_texture_width;
-    const std::vector<uint8_t>& texels = blue_noise_texture();
+    const std::vector<uint8_t> texels = blue_noise_texture();
     ASSERT_EQ(texels.size(), size_t(4 * width * width));
     for (int channel = 0; channel < 4; ++channel) {
         std::vector<int> count(256);

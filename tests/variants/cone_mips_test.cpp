@@ -1,7 +1,7 @@
 // Mips of the picture of reflections: how wide each is, which one a cone chooses, and what averages leave of colours.
 #include "tests/variants/synthetic_gbuffer.h"
+#include "tests/variants/technique_passes.h"
 #include "tests/variants/variant_fixture.h"
-#include "variants/resolves/cone_mips/passes.h"
 
 #include <cmath>
 #include <random>
@@ -14,8 +14,7 @@ using Pixels = std::function<glm::vec4(glm::uvec2 pixel)>;  ///< what its rays s
 /// screen, at equal depth, to the farther side of it.
 struct ConeMips : VariantTest {
     ParameterSet params;
-    ConeMipsParameters mips{params};
-    RayDrawParameters draw{params};
+    ParameterView half_resolution{params, "half_resolution"};
 
     glm::uvec2 extent{64, 64};
     float roughness = 0.3f, ray_length = 0;  ///< m, of all pixels
@@ -24,7 +23,10 @@ struct ConeMips : VariantTest {
     float slope = 0;   ///< m that the surface is nearer from pixel to pixel to the right
     HostImage levels;  ///< which each traced pixel chose
 
-    ConeMips() { params.assign({{"half_resolution", false}, {"max_roughness", 1.0}, {"fade_begin", 1.0}}); }
+    ConeMips() {
+        add_resolve(params, "cone_mips");
+        params.assign({{"half_resolution", false}, {"max_roughness", 1.0}, {"fade_begin", 1.0}});
+    }
 
     SyntheticHit surface(const CameraRay& ray) const {
         const glm::vec3 towards = dot(ray.origin, axis) < 0 ? axis : -axis;
@@ -49,13 +51,16 @@ struct ConeMips : VariantTest {
         for (unsigned y = 0; y < extent.y; ++y)
             for (unsigned x = 0; x < extent.x; ++x)
                 for (int i = 0; i < 4; ++i) radiance.pixel(x, y)[i] = seen({x, y})[i];
-        const OwnRays own{graph.image("own_radiance", Format::rgba32f), graph.image("own_length", Format::r32f)};
-        graph.upload(own.radiance, radiance);
-        graph.upload(own.ray_length, HostImage(extent, 1, ray_length));
+        const Image own_radiance = graph.image("own_radiance", Format::rgba32f),
+                    own_length = graph.image("own_length", Format::r32f);
+        graph.upload(own_radiance, radiance);
+        graph.upload(own_length, HostImage(extent, 1, ray_length));
         graph.begin_frame(camera, params, gbuffer.images());
-        const HostImage shown = graph.download(cone_mips(graph, own, draw.half_resolution).radiance);
-        levels = graph.download(
-            graph.image_of("cone_level", Format::r32f, draw.half_resolution ? (extent + 1u) / 2u : extent));
+        const HostImage shown = graph.download(
+            resolve_passes("cone_mips", graph, gbuffer, {{"own_radiance", own_radiance}, {"own_length", own_length}})
+                .radiance);
+        levels =
+            graph.download(graph.image_of("cone_level", Format::r32f, half_resolution ? (extent + 1u) / 2u : extent));
         return shown;
     }
 

@@ -1,7 +1,6 @@
 #pragma once
 #include "core/gpu/passes/pass_graph.h"
-#include "variants/amd_sssr/passes.h"
-#include "variants/amd_sssr/tracing_parameters.h"
+#include "tests/variants/amd_passes.h"
 
 /// What the denoiser gets for one frame.
 struct DenoiserInputs {

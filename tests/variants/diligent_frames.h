@@ -1,6 +1,6 @@
 #pragma once
 #include "tests/variants/diligent_golden.h"
-#include "variants/diligent_ssr/passes.h"
+#include "tests/variants/diligent_passes.h"
 
 /// Frames in a row on one graph, for tests that run passes one by one; images keep what older frames left in them.
 struct DiligentFrames {

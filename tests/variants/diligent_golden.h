@@ -1,8 +1,8 @@
 #pragma once
 #include "core/gbuffer/gbuffer_transfer.h"
 #include "core/gpu/device.h"
+#include "tests/variants/diligent_passes.h"
 #include "tests/variants/golden_gbuffer.h"
-#include "variants/diligent_ssr/passes.h"
 
 // Recorded sets of DiligentFX: single frames ("still" sets), and sequences with the folders f0, f1 ... Their view is
 // left-handed and their motion in units of NDC, y up; both are turned into our conventions.

@@ -2,7 +2,7 @@
 #include "tests/variants/mirror_scenes.h"
 #include "tests/variants/rough_floor.h"
 #include "tests/variants/variant_fixture.h"
-#include "variants/common/variant_entry.h"
+#include "tests/variants/changed.h"
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>

@@ -51,7 +51,7 @@ ResolvedFrame FrostbiteBench::resolve(const std::vector<StoredRay>& rays, const 
 ResolvedFrame FrostbiteBench::resolve(const std::vector<StoredRay>& rays, const Image& color) {
     graph.begin_frame(camera, params, gbuffer.images());
     const TracedRays stored = upload_rays(graph, rays);
-    const FrostbiteResolved resolved = frostbite_resolve(
-        graph, gbuffer, color, split_sum_.on(graph), horizon_.on(graph, ray_parameters), stored, resolve_parameters);
+    const FrostbiteResolved resolved = frostbite_resolve(graph, gbuffer, color, split_sum_.on(graph),
+                                                         horizon_.on(graph, params), stored, resolve_parameters);
     return {graph.download(resolved.radiance), graph.download(resolved.reflection_depth)};
 }

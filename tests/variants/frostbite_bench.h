@@ -1,8 +1,8 @@
 #pragma once
 #include "core/gbuffer/split_sum_image.h"
+#include "tests/variants/frostbite_technique.h"
 #include "tests/variants/synthetic_gbuffer.h"
-#include "variants/frostbite_sssr/horizon_image.h"
-#include "variants/frostbite_sssr/passes.h"
+#include "variants/common/horizon_image.h"
 
 /// A ray as ray.glsl stores it.
 struct StoredRay {
@@ -50,5 +50,5 @@ private:
     FrameView view_;
     SyntheticScene scene_;
     SplitSumImage split_sum_;
-    FrostbiteHorizonImage horizon_;
+    HorizonImage horizon_;
 };

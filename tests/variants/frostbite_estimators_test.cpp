@@ -87,7 +87,7 @@ struct EmitterBench {
 
     /// `factor`: of the lobe's inverse density, for rays that are drawn again.
     std::vector<StoredRay> draw(unsigned lobe, unsigned regenerations, float factor, std::mt19937& random) {
-        std::vector<StoredRay> rays(size_t(extent.x) * extent.y * bench.ray_parameters.max_rays);
+        std::vector<StoredRay> rays(size_t(extent.x) * extent.y * unsigned(bench.ray_parameters.max_rays));
         const glm::mat3 to_view = view_from_local();
         for (StoredRay& ray : rays) {
             const DrawnRay drawn = draw_ray(scene, lobe, bench.ray_parameters.importance_bias, regenerations, random);

@@ -1,6 +1,6 @@
+#include "tests/variants/frostbite_technique.h"
 #include "tests/variants/pixel_march.h"
 #include "tests/variants/variant_fixture.h"
-#include "variants/frostbite_sssr/passes.h"
 
 #include <random>
 

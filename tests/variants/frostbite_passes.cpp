@@ -28,7 +28,7 @@ FrostbiteTraced trace_frostbite(PassGraph& graph, const GBuffer& gbuffer, const 
     const FrostbiteTiles tiles = frostbite_classify(graph, gbuffer, depths, gbuffer.lit, parameters.ray);
     const FrostbiteWork work = frostbite_allocate(graph, gbuffer, tiles, parameters.ray);
     const TracedRays rays =
-        frostbite_trace(graph, depths, work, FrostbiteHorizonImage().on(graph, parameters.ray), parameters.ray);
+        frostbite_trace(graph, depths, work, HorizonImage().on(graph, parameters.params), parameters.ray);
     const std::vector<uint32_t> counters = read<uint32_t>(graph, work.counters);
     return {.ray_count = graph.download(tiles.ray_count),
             .smooth_list = read_list(graph, work.smooth_list, counters[0]),

@@ -1,8 +1,8 @@
 #pragma once
+#include "tests/variants/frostbite_technique.h"
 #include "tests/variants/synthetic_gbuffer.h"
 #include "tests/variants/variant_fixture.h"
-#include "variants/frostbite_sssr/horizon_image.h"
-#include "variants/frostbite_sssr/passes.h"
+#include "variants/common/horizon_image.h"
 
 /// The parameters of all passes, for tests that run them one by one.
 struct FrostbiteParameters {

@@ -67,7 +67,7 @@ struct FrostbiteRandom : VariantTest {
             graph.begin_frame(camera, parameters.params, gbuffer.images());
             const Tracers::Images depths = parameters.ray.tracers.images(graph, gbuffer.depth);
             const FrostbiteWork work = frostbite_allocate(graph, gbuffer, {counts}, parameters.ray);
-            const Image horizon = FrostbiteHorizonImage().on(graph, parameters.ray);
+            const Image horizon = HorizonImage().on(graph, parameters.params);
             const std::vector<std::byte> bytes =
                 graph.download(frostbite_trace(graph, depths, work, horizon, parameters.ray).directions);
             std::vector<glm::vec4> directions(bytes.size() / sizeof(glm::vec4));

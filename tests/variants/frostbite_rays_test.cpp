@@ -58,7 +58,7 @@ struct FrostbiteRaysTest : VariantTest {
             for (unsigned x = 0; x < found.extent.x; ++x) {
                 const glm::uvec2 pixel = traced_pixel({x, y}, turn);
                 const SyntheticHit hit = seen(scene, pixel);
-                const bool starts = hit.specular > 0 && hit.roughness <= parameters.ray.max_roughness;
+                const bool starts = hit.specular > 0 && hit.roughness <= float(parameters.ray.max_roughness);
                 const unsigned rays =
                     starts ? unsigned(*found.ray_count.pixel(pixel.x / frostbite_tile, pixel.y / frostbite_tile)) : 0;
                 for (unsigned k = 0; k < max_rays; ++k) {

@@ -73,7 +73,7 @@ struct FrostbiteResolve : VariantTest {
     /// Rays of all kinds; some pixels have fewer than max_rays.
     std::vector<StoredRay> some_rays(const FrostbiteBench& bench) {
         const glm::uvec2 traced = bench.traced_extent();
-        std::vector<StoredRay> rays(size_t(traced.x) * traced.y * bench.ray_parameters.max_rays);
+        std::vector<StoredRay> rays(size_t(traced.x) * traced.y * unsigned(bench.ray_parameters.max_rays));
         for (StoredRay& ray : rays) {
             if (uniform() < 0.1f) continue;
             const glm::vec3 n = normalize(glm::vec3(uniform() - 0.5f, uniform() - 0.5f, 1)), o(0, 0, 1);

@@ -296,7 +296,7 @@ struct FrostbiteTileEdges : FrostbiteProbes {
         const Tracers::Images depths = parameters.ray.tracers.images(graph, gbuffer.depth);
         const FrostbiteTiles tiles = frostbite_classify(graph, gbuffer, depths, gbuffer.lit, parameters.ray);
         const FrostbiteWork work = frostbite_allocate(graph, gbuffer, tiles, parameters.ray);
-        const Image horizon = FrostbiteHorizonImage().on(graph, parameters.ray);
+        const Image horizon = HorizonImage().on(graph, parameters.params);
         const TracedRays rays = frostbite_trace(graph, depths, work, horizon, parameters.ray);
         ray_count = graph.download(tiles.ray_count);
         return graph.download(

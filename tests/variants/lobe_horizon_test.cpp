@@ -1,6 +1,6 @@
 #include "variants/common/lobe_horizon.h"
 #include "tests/variants/lobe_quadrature.h"
-#include "variants/frostbite_sssr/horizon_image.h"
+#include "variants/common/horizon_image.h"
 #include "variants/frostbite_sssr/lobe_cone.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ TEST(LobeHorizon, HasTheShareOfTheIntegral) {
 TEST(LobeHorizon, IsReadBetweenTheTexelsOfItsTable) {
     for (const unsigned lobe : {lobe_of_normals, lobe_of_visible_normals})
         for (const float bias : {0.0f, 0.7f}) {
-            const HostImage table = frostbite_horizon_table(lobe, bias);
+            const HostImage table = horizon_table(lobe, bias);
             for (unsigned y = 0; y + 1 < table.extent.y; y += 3)
                 for (unsigned x = 0; x + 1 < table.extent.x; ++x) {
                     const double read = 0.25 * (*table.pixel(x, y) + *table.pixel(x + 1, y) + *table.pixel(x, y + 1) +

@@ -26,7 +26,7 @@ struct RatioFilterBench {
     FrameView view;
     SyntheticScene scene;
     FrostbiteParameters technique;  ///< among them those of its rays
-    std::unique_ptr<Resolve> resolve = find_resolve("ratio_filter").create();
+    std::unique_ptr<Resolve> resolve = std::make_unique<Resolve>(find_resolve("ratio_filter"));
 
     RatioFilterBench(Device& device, const CameraPose& camera, const FrameView& frame, const SyntheticScene& shown,
                      const nlohmann::json& of_technique, const nlohmann::json& own)
@@ -44,7 +44,7 @@ struct RatioFilterBench {
         const Image lit = graph.image("shown_by_hits", Format::rgba32f);
         graph.upload(lit, color);
         const ResolvedRays traced{
-            .traced = upload_rays(graph, rays), .color = lit, .below_horizon = {}, .draw = technique.ray};
+            .technique = technique.params, .traced = upload_rays(graph, rays), .color = lit, .probe = {}};
         const Reflections reflections = resolve->run(graph, gbuffer, traced);
         ++view.frame;
         pose_before = pose;

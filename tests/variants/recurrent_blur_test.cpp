@@ -1,9 +1,8 @@
 // The recurrent blur by what its formulas come to: means and variances of noise over frames, the width of its disk, and
 // where history of a mirror is found.
 #include "tests/variants/synthetic_gbuffer.h"
+#include "tests/variants/technique_passes.h"
 #include "tests/variants/variant_fixture.h"
-#include "variants/resolves/recurrent_blur/parameters.h"
-#include "variants/resolves/recurrent_blur/passes.h"
 
 #include <random>
 
@@ -23,11 +22,10 @@ SyntheticScene wall(float distance, float roughness) {
 struct RecurrentBlurTest : VariantTest {
     CameraPose pose{.vertical_fov = 1.0f, .near = 0.1f, .far = 100.0f};
     ParameterSet params;
-    RecurrentBlurParameters blur{params};
-    RayDrawParameters draw{params};
     glm::uvec2 extent{64, 48};
 
     RecurrentBlurTest() {  // what makes it other than an average
+        add_resolve(params, "recurrent_blur");
         params.assign({{"max_roughness", 1},
                        {"scale_free", true},
                        {"flicker_suppression", 0},
@@ -44,10 +42,16 @@ struct RecurrentBlurTest : VariantTest {
             camera_data(pose, frame > 0 ? &pose : nullptr, {.extent = extent, .frame = frame, .seed = seed});
         const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, scene);
         graph.begin_frame(camera, params, gbuffer.images());
-        const OwnRays own{graph.image("own_radiance", Format::rgba32f), graph.image("own_length", Format::r32f)};
-        graph.upload(own.radiance, seen);
-        graph.upload(own.ray_length, HostImage(extent, 1, ray_length));
-        return graph.download(recurrent_blur(graph, gbuffer, own));
+        const Image own_radiance = graph.image("own_radiance", Format::rgba32f),
+                    own_length = graph.image("own_length", Format::r32f);
+        graph.upload(own_radiance, seen);
+        graph.upload(own_length, HostImage(extent, 1, ray_length));
+        return graph.download(blurred(graph, gbuffer, own_radiance, own_length));
+    }
+
+    static Image blurred(PassGraph& graph, const GBuffer& gbuffer, const Image& radiance, const Image& length) {
+        return resolve_passes("recurrent_blur", graph, gbuffer, {{"own_radiance", radiance}, {"own_length", length}})
+            .radiance;
     }
 
     HostImage noise(std::mt19937& random) const {
@@ -146,16 +150,17 @@ TEST_F(RecurrentBlurTest, FindsHistoryWhereTheMirrorShowsIt) {
             const GBuffer gbuffer = upload_gbuffer(graph, now, camera, scene);
             graph.upload(gbuffer.motion, motion_of(now, camera, scene));
             graph.begin_frame(camera, params, gbuffer.images());
-            const OwnRays own{graph.image("own_radiance", Format::rgba32f), graph.image("own_length", Format::r32f)};
+            const Image own_radiance = graph.image("own_radiance", Format::rgba32f),
+                        own_length = graph.image("own_length", Format::r32f);
             expected = stripes(now);
-            graph.upload(own.radiance, expected);
+            graph.upload(own_radiance, expected);
             // Along the pixel's line of sight, which is longer towards the corners.
             HostImage lengths(extent, 1);
             for (unsigned y = 0; y < extent.y; ++y)
                 for (unsigned x = 0; x < extent.x; ++x)
                     *lengths.pixel(x, y) = ray_length / -camera_ray(now, extent, glm::vec2(x, y) + 0.5f).direction.z;
-            graph.upload(own.ray_length, lengths);
-            found = graph.download(recurrent_blur(graph, gbuffer, own));
+            graph.upload(own_length, lengths);
+            found = graph.download(blurred(graph, gbuffer, own_radiance, own_length));
             before = now;
         }
         double squares = 0;

@@ -155,4 +155,29 @@ TEST(Registry, CompilesEveryTechniqueWithEveryTracer) {
     expect_all_techniques(compiled);
 }
 
+/// Of the tracers and resolves that it has, whose own are others.
+TEST(Registry, ATechniqueBeginsWithItsOwnDefaults) {
+    const nlohmann::json composed = make_variant("composed_ssr")->params.values(),
+                         amd = make_variant("amd_sssr")->params.values();
+    EXPECT_EQ(composed.at("lobe"), "visible_normals");
+    EXPECT_EQ(composed.at("dda.thickness"), 0);
+    EXPECT_EQ(amd.at("hierarchy.judgement"), "amd");
+    EXPECT_EQ(amd.at("hierarchy.min_traversal_occupancy"), 4);
+}
+
+/// A NaN or Inf of a G-buffer stays in its pixel with every preset that is recommended.
+TEST(Registry, RecommendedPresetsRepairTheirInputs) {
+    size_t count = 0;
+    for (const VariantEntry& entry : variant_table()) {
+        if (!entry.is_ssrlabs()) continue;  // of another test of this process
+        for (const Preset& preset : entry.presets) {
+            if (!preset.name.starts_with("best") && !preset.name.starts_with("rooms_") && preset.name != "corrected")
+                continue;
+            EXPECT_EQ(preset.parameters.value("repair_inputs", false), true) << entry.name << ":" << preset.name;
+            ++count;
+        }
+    }
+    EXPECT_GE(count, 20u);
+}
+
 }  // namespace

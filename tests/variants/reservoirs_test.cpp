@@ -1,8 +1,8 @@
 // Reservoirs: what one stands for after any number of frames, and what is shown of neighbours' ones.
 #include "tests/variants/synthetic_gbuffer.h"
+#include "tests/variants/technique_passes.h"
 #include "tests/variants/variant_fixture.h"
 #include "variants/common/ggx_lobe.h"
-#include "variants/resolves/reservoirs/passes.h"
 
 #include <cmath>
 #include <optional>
@@ -22,8 +22,6 @@ using Rays = std::function<std::optional<SeenRay>(glm::uvec2 pixel)>;
 /// A wall that faces an orthographic camera, seen at ten pixels per metre.
 struct ReservoirsTest : VariantTest {
     ParameterSet params;
-    ReservoirParameters parameters{params};
-    RayDrawParameters draw{params};
     std::mt19937 random{1};
 
     glm::uvec2 extent{48, 32};
@@ -40,6 +38,7 @@ struct ReservoirsTest : VariantTest {
     unsigned frame = 0;
 
     ReservoirsTest() {
+        add_resolve(params, "reservoirs");
         params.assign({{"half_resolution", false}, {"max_roughness", 1.0}, {"lobe", "visible_normals"}});
     }
 
@@ -64,14 +63,16 @@ struct ReservoirsTest : VariantTest {
                     radiance.pixel(x, y)[3] = ray->known;
                     direction.pixel(x, y)[3] = 1;
                 }
-        const RayImages images{graph->image("ray_radiance", Format::rgba32f),
-                               graph->image("ray_direction", Format::rgba32f)};
-        graph->upload(images.radiance, radiance);
-        graph->upload(images.direction, direction);
+        const Image ray_radiance = graph->image("ray_radiance", Format::rgba32f),
+                    ray_direction = graph->image("ray_direction", Format::rgba32f);
+        graph->upload(ray_radiance, radiance);
+        graph->upload(ray_direction, direction);
         graph->upload(gbuffer.fallback, HostImage(extent, 4, fallback));
         graph->begin_frame(camera, params, gbuffer.images());
         ++frame;
-        return graph->download(reservoirs(*graph, gbuffer, images).radiance);
+        return graph->download(resolve_passes("reservoirs", *graph, gbuffer,
+                                              {{"ray_radiance", ray_radiance}, {"ray_direction", ray_direction}})
+                                   .radiance);
     }
 
     /// A direction of the wall's lobe above its horizon.

@@ -5,7 +5,12 @@
 
 ResolveBench::ResolveBench(Device& device, const std::string& resolve, const CameraPose& pose, glm::uvec2 extent,
                            SyntheticScene scene, const nlohmann::json& own, const nlohmann::json& of_technique)
-    : pose(pose), graph(device, extent), scene_(std::move(scene)), resolve_(find_resolve(resolve).create()) {
+    : pose(pose),
+      graph(device, extent),
+      scene_(std::move(scene)),
+      resolve_(std::make_unique<Resolve>(find_resolve(resolve))) {
+    add_block(technique_, "resolves/rays.json");
+    technique_.assign({{"misses", "weight"}});
     technique_.assign({{"half_resolution", false}, {"max_roughness", 1}});
     technique_.assign(of_technique);
     resolve_->params.assign(own);
@@ -13,7 +18,7 @@ ResolveBench::ResolveBench(Device& device, const std::string& resolve, const Cam
 
 /// As traced_pixel.glsl says of the seed 0.
 std::vector<glm::uvec2> ResolveBench::traced_pixels() const {
-    const unsigned side = draw_.half_resolution ? 2 : 1, turn = frame_ + first_turn(0);
+    const unsigned side = value_of(technique_, "half_resolution") == true ? 2 : 1, turn = frame_ + first_turn(0);
     const glm::uvec2 of_quad = side == 1 ? glm::uvec2(0) : glm::uvec2((turn ^ turn >> 1) & 1, turn & 1);
     std::vector<glm::uvec2> pixels;
     for (unsigned y = 0; y < graph.extent().y; y += side)
@@ -60,13 +65,11 @@ HostImage ResolveBench::next(const RayFrame& frame) {
         frame.change(pixel, rays.back());
     }
     graph.begin_frame(camera, technique_, gbuffer.images());
-    if (misses_.is("probe")) probe = screen_probe(graph, gbuffer);
-    const ResolvedRays resolved{.traced = upload_rays(graph, rays),
+    if (value_of(technique_, "misses") == "probe") probe = screen_probe(graph, gbuffer);
+    const ResolvedRays resolved{.technique = technique_,
+                                .traced = upload_rays(graph, rays),
                                 .color = graph.image("shown_by_hits", Format::rgba32f),
-                                .below_horizon = {},
-                                .draw = draw_,
-                                .probe = probe,
-                                .misses_are_known = !misses_.is("weight")};
+                                .probe = probe};
     graph.upload(resolved.color, color);
     const HostImage radiance = graph.download(resolve_->run(graph, gbuffer, resolved).radiance);
     graph.set_params(technique_);

@@ -1,6 +1,5 @@
 #pragma once
 #include "tests/variants/frostbite_bench.h"
-#include "variants/resolves/resolve.h"
 
 /// What one frame is made of. By default each traced pixel's ray mirrors the view and shows the colour of the pixel
 /// itself.
@@ -38,9 +37,6 @@ private:
 
     SyntheticScene scene_;
     ParameterSet technique_;
-    RayDrawParameters draw_{technique_};
-    Choice misses_{technique_, "misses", "weight", {"weight", "fallback", "probe"}, {"", "as composed_ssr's", "test"}};
-    Switch previous_frame_{technique_, "previous_frame", false, {"", "as composed_ssr's", "test"}};
     std::unique_ptr<Resolve> resolve_;
     CameraPose pose_before_;
     HostImage depth_before_, normal_before_;

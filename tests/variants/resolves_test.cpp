@@ -2,6 +2,7 @@
 // finite, keep constant light constant, and say which stages they have.
 #include "variants/resolves/resolves.h"
 #include "core/error.h"
+#include "tests/variants/technique_passes.h"
 #include "tests/variants/amd_scenes.h"
 #include "tests/variants/mirror_scenes.h"
 #include "tests/variants/rough_floor.h"
@@ -238,12 +239,13 @@ TEST_F(ResolvesTest, SayWhichStagesTheyHave) {
         const auto variant = make_variant("composed_ssr", plain({{"resolve", entry.name}, {"tracer", "dda"}}));
         std::vector<std::string> said = {"composed_ssr/trace"}, run;
         ParameterSet params;
+        add_block(params, "resolves/rays.json");
+        params.assign({{"misses", "weight"}});
         Resolves resolves(params, entry.name);
         for (const std::string& stage : resolves.chosen().stages()) said.push_back(stage);
-        const StageReads reads = resolves.chosen().reads();
-        EXPECT_TRUE(std::ranges::count(said, reads.rays)) << reads.rays;
-        for (const auto* readers : {&reads.motion, &reads.specular})
-            for (const std::string& stage : *readers) EXPECT_TRUE(std::ranges::count(said, stage)) << stage;
+        for (const char* constant : {"scene_is_still", "scene_has_matte", "scene_has_environment"})
+            for (const std::string& stage : resolves.chosen().readers_of(constant))
+                EXPECT_TRUE(std::ranges::count(said, stage)) << stage;
         for (const std::string& stage : render(*variant, glossy_floor, {67, 45}).stages)
             if (stage != "clear") run.push_back(stage);
         EXPECT_EQ(run, said);
@@ -287,25 +289,6 @@ TEST_F(ResolvesTest, RefuseRaysWithoutTheDensitiesThatTheyNeed) {
         }
     }
     EXPECT_GE(refused, 2u);
-}
-
-/// What a technique has of a resolve's parameters is what the resolve reads.
-TEST_F(ResolvesTest, DeclareTheirParameters) {
-    for (const ResolveEntry& entry : resolve_table()) {
-        ParameterSet declared;
-        entry.declare(declared);
-        const std::unique_ptr<Resolve> resolve = entry.create();
-        EXPECT_NO_THROW(resolve->params.assign(declared.values())) << entry.name;
-        RayDrawParameters{declared};
-        size_t own = 0;
-        for (const Parameter& p : resolve->params) own += !std::ranges::count(declared, p.name, &Parameter::name);
-        const bool has_tracing =
-            entry.name == "amd_denoiser" || entry.name == "diligent_filters";  // of their techniques
-        if (!has_tracing) {
-            EXPECT_EQ(own, 0u) << entry.name << " reads parameters that nobody can set";
-        }
-        for (const std::string& name : entry.given) EXPECT_EQ(std::ranges::count(declared, name, &Parameter::name), 1);
-    }
 }
 
 TEST_F(ResolvesTest, HaveNamesOfTheirOwn) {

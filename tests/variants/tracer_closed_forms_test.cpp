@@ -9,10 +9,8 @@ namespace {
 /// Those that know of a scene what the first layer of its G-buffer shows.
 std::vector<std::string> screen_tracers() {
     std::vector<std::string> names;
-    for (const TracerEntry& entry : tracer_table()) {
-        ParameterSet params;
-        if (!entry.create(params)->needs().exact_hits) names.push_back(entry.name);
-    }
+    for (const TracerEntry& entry : tracer_table())
+        if (!entry.exact_hits) names.push_back(entry.name);
     return names;
 }
 

@@ -3,6 +3,8 @@
 #include "core/error.h"
 #include "core/png.h"
 
+#include <cmath>
+
 namespace {
 
 constexpr glm::uvec2 table_extent{128, 128};
@@ -22,17 +24,28 @@ glm::uvec2 shift_per_frame(NoiseShift shift) {
     fail("no shift for NoiseShift ", int(shift));
 }
 
+/// Red and green of a file beside this one, of that extent.
+HostImage two_channels(const std::string& name, glm::uvec2 extent) {
+    const std::string file = SSRLAB_SOURCE_DIR "/variants/common/" + name;
+    const HostImage rgb = read_png_codes(file);
+    if (rgb.extent != extent)
+        fail(file, " is ", rgb.extent.x, "x", rgb.extent.y, ", not ", extent.x, "x", extent.y, " as ssrlab's own");
+    HostImage codes(extent, 2);
+    for (size_t i = 0; i < codes.values.size(); ++i) codes.values[i] = rgb.values[i / 2 * 3 + i % 2];
+    return codes;
+}
+
 }  // namespace
 
-HostImage blue_noise_table() {
-    const char* const file = SSRLAB_SOURCE_DIR "/variants/common/blue_noise_table.png";
-    const HostImage rgb = read_png_codes(file);
-    if (rgb.extent != table_extent)
-        fail(file, " is ", rgb.extent.x, "x", rgb.extent.y, "; the table of blue noise is ", table_extent.x, "x",
-             table_extent.y);
-    HostImage table(table_extent, 2);
-    for (size_t i = 0; i < table.values.size(); ++i) table.values[i] = rgb.values[i / 2 * 3 + i % 2];
-    return table;
+HostImage blue_noise_table() { return two_channels("blue_noise_table.png", table_extent); }
+
+std::vector<uint8_t> blue_noise_texture() {
+    const unsigned width = blue_noise_texture_width;
+    const HostImage halves = two_channels("blue_noise_texture.png", {width, 2 * width});
+    std::vector<uint8_t> texels(size_t(4) * width * width);
+    for (size_t i = 0; i < texels.size(); ++i)
+        texels[i] = uint8_t(std::lround(halves.values[(i % 4 / 2 * width * width + i / 4) * 2 + i % 2] * 255));
+    return texels;
 }
 
 Image BlueNoise::uploaded(PassGraph& graph) {

@@ -1,6 +1,5 @@
 #pragma once
 #include "core/gpu/passes/pass_graph.h"
-#include "core/parameters.h"
 
 #include <memory>
 
@@ -38,25 +37,11 @@ private:
     std::weak_ptr<ImageStorage> uploaded_table_;
 };
 
-/// The switch of techniques whose original moves both numbers by the golden ratio.
-inline Switch independent_noise_shifts_parameter(ParameterSet& params) {
-    return Switch(
-        params, "independent_noise_shifts", false,
-        {"",
-         "shifts the two random numbers by different irrationals every frame, in 32 bits. The original shifts "
-         "both by the golden ratio, so that a pixel's samples stay on one diagonal of the unit square and "
-         "never cover the lobe",
-         "ssrlab; Roberts 2018, 'The Unreasonable Effectiveness of Quasirandom Sequences'"});
-}
-
-/// Whether a technique's random numbers are blue over the image plane. `source`: of the parameter.
-inline Choice noise_parameter(ParameterSet& params, std::string_view source) {
-    return Choice(params, "noise", "blue", {"blue", "white"},
-                  {"",
-                   "how the random numbers of neighbours and frames belong together. blue: those of neighbours differ "
-                   "much, and a pixel's own move evenly; white: all are independent",
-                   source});
-}
-
 /// The committed table: 128x128 pairs of codes v in 0..255, as v / 255 in two channels. See blue_noise_table.md.
 HostImage blue_noise_table();
+
+constexpr unsigned blue_noise_texture_width = 64;
+
+/// The committed texture: 64x64 texels of four bytes, row by row, blue noise in each channel alone. See
+/// blue_noise_table.md.
+std::vector<uint8_t> blue_noise_texture();

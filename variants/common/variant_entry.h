@@ -38,9 +38,3 @@ struct VariantEntry {
     /// Whether it is one of variants/, not of somebody's own folder.
     bool is_ssrlabs() const { return !folder || folder->is_ssrlabs; }
 };
-
-/// Parameter values with others changed or added: for presets that begin with another.
-inline nlohmann::json changed(nlohmann::json parameters, const nlohmann::json& more) {
-    parameters.update(more);
-    return parameters;
-}

@@ -4,11 +4,12 @@
 #include "core/files.h"
 #include "core/near_miss.h"
 #include "core/path_inside.h"
-#include "variants/declared/check_frames.h"
-#include "variants/declared/names.h"
-#include "variants/declared/read_parameters.h"
-#include "variants/declared/read_passes.h"
-#include "variants/declared/technique_files.h"
+#include "variants/common/names.h"
+#include "variants/common/parameter_block.h"
+#include "variants/passes/check_frames.h"
+#include "variants/passes/read_passes.h"
+#include "variants/passes/technique_files.h"
+#include "variants/resolves/resolves.h"
 
 #include <algorithm>
 #include <cctype>
@@ -17,11 +18,97 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// `presets`: what points may start from.
+/// "linear_trace" of the slot "linear_tracer".
+std::string function_of(const std::string& slot) {
+    return slot.ends_with("tracer") ? slot.substr(0, slot.size() - 1) : slot + "_trace";
+}
+
+void read_tracers(JsonObject object, Technique& technique) {
+    know_keys(object, {"slots", "source", "defaults"});
+    for (JsonObject& of_slot : object.objects("slots")) {
+        know_keys(of_slot, {"name", "function", "default", "meaning"});
+        TracerSlot slot{.name = variable_name(of_slot, "name"), .function = "", .initial = "", .doc = ""};
+        slot.function = variable_name(of_slot, "function", function_of(slot.name));
+        of_slot.any("default");
+        slot.initial = of_slot.choice("default", names_of(tracer_table(), &TracerEntry::name), "");
+        slot.doc = of_slot.text("meaning", "the march that finds what a ray meets");
+        of_slot.finish();
+        technique.slots.push_back(slot);
+    }
+    if (technique.slots.empty()) fail(object.at("slots"), ": 'slots' must name at least one tracer's place");
+    technique.tracers_source = object.text("source", "");
+    if (object.has("defaults")) technique.tracer_defaults = object.any("defaults");
+    object.finish();
+    ParameterSet params;
+    try {
+        Tracers(params, technique.slots, technique.tracers_source, technique.tracer_defaults);
+    } catch (const Error& error) {
+        fail(object.at("defaults"), ": ", error.what());
+    }
+}
+
+void read_resolve(JsonObject object, Technique& technique) {
+    know_keys(object, {"default", "defaults"});
+    const std::vector<std::string> names = names_of(resolve_table(), &ResolveEntry::name);
+    object.any("default");
+    DeclaredResolve resolve{.initial = object.choice("default", names, ""), .place = object.where()};
+    if (object.has("defaults")) resolve.defaults = object.any("defaults");
+    object.finish();
+    technique.resolve = std::move(resolve);
+    try {
+        make_declared(std::make_shared<Technique>(technique));
+    } catch (const Error& error) {
+        fail(object.at("defaults"), ": ", error.what());
+    }
+}
+
+/// Fails if two of the parameters that shaders see have one name.
+void refuse_repetition(const std::vector<DeclaredParameter>& declared, const Technique& technique) {
+    const std::unique_ptr<Variant> variant = make_declared(std::make_shared<Technique>(technique));
+    for (size_t i = 0; i < declared.size(); ++i) {
+        const auto& [parameter, place] = declared[i];
+        const std::string& name = parameter.name;
+        if (name == "resolve" && !technique.resolve)
+            fail(place,
+                 ": the parameter 'resolve' chooses one of ssrlab's resolves, which a technique with "
+                 "\"resolve\": {...} has; call yours otherwise");
+        if (std::ranges::count(variant->params, parameter.glsl_name(), &Parameter::glsl_name) == 1) continue;
+        const auto first = std::ranges::find(technique.parameters, name, &Parameter::name);
+        if (first - technique.parameters.begin() < long(i))
+            fail(place, ": the parameter '", name, "' is declared twice");
+        if (std::ranges::count(technique.parameters, name, &Parameter::name) == 1)
+            fail(place, ": the parameter '", name,
+                 "' is one that every such technique, its tracers or its resolve have already; call yours otherwise");
+    }
+}
+
+/// `parameters`, `tracers` and `resolve` of a technique.json.
+void read_parameters(JsonObject& root, ParameterReader& reader, Technique& technique) {
+    const std::vector<DeclaredParameter> declared = reader.read(root);
+    for (const DeclaredParameter& one : declared) technique.parameters.push_back(one.parameter);
+    if (root.has("tracers")) read_tracers(root.object("tracers"), technique);
+    if (root.has("resolve")) read_resolve(root.object("resolve"), technique);
+    refuse_repetition(declared, technique);
+}
+
+/// `presets`: what points may start from. One may begin with another that stands before it.
 std::vector<Preset> read_presets(JsonObject& root, const std::shared_ptr<const Technique>& technique) {
     std::vector<Preset> presets;
     for (JsonObject& object : root.objects("presets")) {
-        Preset preset{object.text("name"), object.text("description"), object.any("parameters")};
+        know_keys(object, {"name", "description", "begins_with", "parameters"});
+        Preset preset{object.text("name"), object.text("description"), nlohmann::json::object()};
+        if (object.has("begins_with")) {
+            const std::string first = object.text("begins_with");
+            const auto found = std::ranges::find(presets, first, &Preset::name);
+            if (found == presets.end())
+                fail(object.at("begins_with"), ": there is no preset '", shortened(first), "' before this one",
+                     suggestion(first, names_of(presets, &Preset::name)));
+            preset.parameters = found->parameters;
+        }
+        if (!object.any("parameters").is_object())
+            fail(object.at("parameters"), ": 'parameters' must be an object of values, not ",
+                 shown(object.any("parameters")));
+        preset.parameters.update(object.any("parameters"));
         if (std::ranges::find(presets, preset.name, &Preset::name) != presets.end())
             fail(object.at("name"), ": there are two presets '", shortened(preset.name), "'");
         try {
@@ -36,11 +123,13 @@ std::vector<Preset> read_presets(JsonObject& root, const std::shared_ptr<const T
 }
 
 /// Of what can change a pixel.
-std::string hash_of(nlohmann::json document, const TechniqueFolder& folder) {
+std::string hash_of(nlohmann::json document, const TechniqueFolder& folder,
+                    const std::vector<std::string>& parameter_blocks) {
     for (const char* text : {"title", "source", "description", "presets"}) document.erase(text);
     ContentHash hash;
     hash.add(document.dump());
     for (const auto& [name, text] : folder.files) hash.add(name), hash.add(text);
+    for (const std::string& block : parameter_blocks) hash.add(read_text(path_inside(SSRLAB_SOURCE_DIR, block)));
     return hash.hex();
 }
 
@@ -61,7 +150,7 @@ std::string declared_name(const fs::path& folder) {
     return name;
 }
 
-VariantEntry declared_entry(const fs::path& named) {
+DeclaredEntry read_technique(const fs::path& named) {
     std::error_code error;
     const fs::path folder = whole_path(named);
     const fs::path file = path_inside(named.lexically_normal(), "technique.json");
@@ -72,18 +161,23 @@ VariantEntry declared_entry(const fs::path& named) {
     const nlohmann::json as_written = document.value;
     write_out_short_forms(document.value);
     JsonObject root(document, file.string());
-    know_keys(root, {"title", "source", "description", "parameters", "tracers", "resolve", "images", "buffers",
-                     "passes", "result", "random", "reflects", "limits", "presets"});
+    know_keys(root,
+              {"title", "source", "description", "parameters", "tracers", "pyramids", "resolve", "conditions", "images",
+               "buffers", "passes", "result", "random", "not_repeatable", "reflects", "limits", "presets"});
 
     auto technique = std::make_shared<Technique>();
     technique->name = declared_name(folder);
+    if (const auto passes = document.value.find("passes"); passes != document.value.end() && passes->is_array())
+        technique->reads_inputs =
+            !std::ranges::all_of(*passes, [](const auto& pass) { return pass.contains("clear"); });
     VariantEntry entry{.name = technique->name,
                        .title = root.text("title"),
                        .source = root.text("source", ""),
                        .description = root.text("description", ""),
                        .presets = {},
                        .create = {}};
-    read_parameters(root, *technique);
+    ParameterReader reader(folder);
+    read_parameters(root, reader, *technique);
     const std::unique_ptr<Variant> plain = make_declared(std::make_shared<Technique>(*technique));
     read_passes(root, KnownValues(plain->params), *technique);
     TechniqueFolder read{.path = folder, .files = {}, .sources = {}, .content_hash = {}};
@@ -93,9 +187,12 @@ VariantEntry declared_entry(const fs::path& named) {
     entry.presets = read_presets(root, technique);
     root.finish();
 
-    read.content_hash = hash_of(as_written, read);
+    for (const std::string& block : reader.of_folder) read.files[block] = read_text(path_inside(folder, block));
+    read.content_hash = hash_of(as_written, read, reader.of_ssrlab);
     read.files["technique.json"] = read_text(file);
     entry.create = [technique] { return make_declared(technique); };
     entry.folder = std::make_shared<TechniqueFolder>(std::move(read));
-    return entry;
+    return {std::move(entry), technique};
 }
+
+VariantEntry declared_entry(const fs::path& folder) { return read_technique(folder).entry; }

@@ -1,232 +1,246 @@
+#include "variants/declared/declared_entry.h"
+
 #include "core/error.h"
-#include "core/gbuffer/environment_images.h"
-#include "variants/declared/provided_images.h"
-#include "variants/declared/technique.h"
-#include "variants/resolves/ray_inputs.h"
+#include "variants/common/lit_history.h"
+#include "variants/common/parameter_block.h"
+#include "variants/common/repaired_inputs.h"
+#include "variants/passes/pass_list.h"
+#include "variants/resolves/resolves.h"
 
 #include <algorithm>
 
 namespace {
 
-/// What one frame runs.
-struct Frame {
-    PassGraph& graph;
-    const GBuffer& gbuffer;
-    KnownValues known;
-    std::map<std::string, Image> images;
-    std::map<std::string, Buffer> buffers;
-    std::optional<Tracers::Images> pyramids;  ///< of its tracers, made where the first pass traces
-    std::optional<ResolvedRays> rays;         ///< where it has a resolve
-};
-
 /// The technique that a technique.json declares.
-class DeclaredTechnique final : public TracingVariant {
+class DeclaredTechnique final : public Variant {
 public:
     explicit DeclaredTechnique(std::shared_ptr<const Technique> technique)
-        : technique_(std::move(technique)),
-          inputs_(technique_->resolve ? std::make_unique<RayInputs>(params) : nullptr),
-          tracers_(own_parameters()),
-          resolves_(technique_->resolve ? std::make_unique<Resolves>(params, technique_->resolve->initial) : nullptr) {
-        if (technique_->resolve) params.change_defaults(technique_->resolve->defaults);
+        : technique_(std::move(technique)), tracers_(own_parameters()) {
+        if (!technique_->resolve) return;
+        resolves_ = std::make_unique<Resolves>(params, technique_->resolve->initial);
+        params.change_defaults(technique_->resolve->defaults);
     }
 
-    bool depends_on_seed() const override {
-        const KnownValues known(params);
-        return technique_->draws_random_numbers.holds(known) || tracers_.needs(slots_in_use(known)).random ||
-               (inputs_ && inputs_->depends_on_seed(*resolves_));
-    }
-    std::string not_repeatable() const override {
-        return inputs_ ? inputs_->not_repeatable(tracers_, *resolves_) : tracers_.not_repeatable();
-    }
+    Reflections render(PassGraph& graph, const GBuffer& gbuffer) override;
+    std::vector<LeftOut> leave_out(const SceneFacts& facts) override;
+
+    bool depends_on_seed() const override;
+    std::string not_repeatable() const override;
+    ShaderIncludes shader_includes() const override;
+    bool uses_scene_data() const override { return tracers_.needs().exact_hits; }
     bool needs_depth_layers() const override;
 
 private:
-    Reflections render_passes(PassGraph& graph, const GBuffer& gbuffer) override;
-    Needless find_needless(const SceneFacts& facts) override;
-    const Tracers& chosen_tracers() const override { return tracers_; }
-
     Tracers own_parameters() {
+        if (technique_->reads_inputs) add_block(params, "common/repair_inputs.json");
+        if (technique_->resolve) add_block(params, "resolves/rays.json");
         for (const Parameter& parameter : technique_->parameters) params.add(parameter);
         return {params, technique_->slots, technique_->tracers_source, technique_->tracer_defaults};
     }
-    std::vector<const DeclaredPass*> passes_in_use(const KnownValues& known) const;
-    std::vector<std::string> slots_in_use(const KnownValues& known) const;
-
-    void make_images(Frame& frame) const;
-    void make_rays(Frame& frame);
-    Image image_of(Frame& frame, const DeclaredUse& use);
-    void run(Frame& frame, const DeclaredPass& declared);
-    void run_with_tracers(Frame& frame, const DeclaredPass& declared, const PassGraph::Pass& pass);
-    unsigned rays_of(const DeclaredPass& pass) const;
+    KnownValues known() const { return technique_->known_values(params, facts_); }
+    KnownValues of_any_shot() const { return technique_->known_values(params); }
+    std::vector<std::string> slots_in_use(const KnownValues& known) const {
+        return slots_of(technique_->passes_in_use(known));
+    }
+    bool repairs_inputs() const { return technique_->reads_inputs && value_of(params, "repair_inputs") == true; }
+    bool has_no_rays(const KnownValues& known) const;
+    Reflections run_passes(PassGraph& graph, const GBuffer& gbuffer);
+    Reflections run_with_resolve(PassGraph& graph, const GBuffer& gbuffer, const PassList::Around& around);
+    /// All stages that begin with its rays, in their order.
+    std::vector<std::string> stages() const;
+    void add_left_out(std::vector<LeftOut>& left_out, const SceneFacts& facts);
+    std::vector<std::string> readers_of(const std::string& scene_constant) const;
 
     std::shared_ptr<const Technique> technique_;
-    std::unique_ptr<RayInputs> inputs_;  ///< none without a resolve
     Tracers tracers_;
-    std::unique_ptr<Resolves> resolves_;
+    std::unique_ptr<Resolves> resolves_;  ///< none without a resolve
     ProvidedImages provided_;
     std::optional<SceneFacts> facts_;  ///< once they are known
+    Constants constants_;              ///< of leave_out()
 };
 
-std::vector<const DeclaredPass*> DeclaredTechnique::passes_in_use(const KnownValues& known) const {
-    std::vector<const DeclaredPass*> passes;
-    for (const DeclaredPass& pass : technique_->passes)
-        if (pass.when.holds(known)) passes.push_back(&pass);
-    return passes;
+bool DeclaredTechnique::depends_on_seed() const {
+    const KnownValues known = of_any_shot();
+    if (technique_->draws_random_numbers.holds(known)) return true;
+    if (!resolves_) {
+        const RoughnessLimit* limit = first_that_holds(technique_->reflects, known);
+        const bool has_no_surface = limit && limit->is_excluded && limit->excludes_all_from(0, known);
+        return !has_no_surface && tracers_.needs(slots_in_use(known)).random;
+    }
+    // With half_resolution pixels take turns, in an order of the seed's.
+    return tracers_.needs(slots_in_use(known)).random || known.by_name().at("draw_directions") == true ||
+           known.by_name().at("half_resolution") == true || resolves_->chosen().draws_random_numbers();
 }
 
-std::vector<std::string> DeclaredTechnique::slots_in_use(const KnownValues& known) const {
-    std::vector<std::string> slots;
-    for (const DeclaredPass* pass : passes_in_use(known))
-        for (const std::string& slot : pass->tracers)
-            if (!std::ranges::count(slots, slot)) slots.push_back(slot);
-    return slots;
+std::string DeclaredTechnique::not_repeatable() const {
+    const std::string of_rays = tracers_.not_repeatable(),
+                      of_rest = resolves_ ? resolves_->chosen().not_repeatable()
+                                          : because(technique_->not_repeatable, of_any_shot());
+    return of_rays + (of_rays.empty() || of_rest.empty() ? "" : "; ") + of_rest;
+}
+
+ShaderIncludes DeclaredTechnique::shader_includes() const {
+    ShaderIncludes includes = tracers_.includes();
+    const KnownValues known = of_any_shot();
+    for (const DeclaredPass& pass : technique_->passes)
+        for (const DeclaredInclude* include : in_use(pass.includes, &DeclaredInclude::name, known))
+            includes[include->name] = "#include \"" + include->file + "\"\n";
+    return includes;
 }
 
 bool DeclaredTechnique::needs_depth_layers() const {
-    const KnownValues known(params);
+    const KnownValues known = of_any_shot();
     if (tracers_.needs(slots_in_use(known)).depth_layers) return true;
-    for (const DeclaredPass* pass : passes_in_use(known))
+    for (const DeclaredPass* pass : technique_->passes_in_use(known))
         for (const DeclaredUse* read : in_use(pass->reads, &DeclaredUse::as, known))
             if (ProvidedImages::is_depth_layer(read->image)) return true;
     return false;
 }
 
-Reflections DeclaredTechnique::render_passes(PassGraph& graph, const GBuffer& gbuffer) {
-    Frame frame{.graph = graph,
-                .gbuffer = gbuffer,
-                .known = facts_ ? KnownValues(params, *facts_) : KnownValues(params),
-                .images = {},
-                .buffers = {},
-                .pyramids = {},
-                .rays = {}};
+Reflections DeclaredTechnique::render(PassGraph& graph, const GBuffer& gbuffer) {
+    graph.set_constants(constants_);
+    const RepairedInputs inputs(graph, gbuffer, repairs_inputs() && (!facts_ || facts_->has_faulty_inputs));
+    if (facts_ && has_no_rays(known())) {
+        const Image nothing = graph.image("reflections", Format::rgba16f);
+        graph.clear(nothing, {});
+        return {nothing, nothing, 3};
+    }
+    return run_passes(graph, inputs.gbuffer());
+}
+
+Reflections DeclaredTechnique::run_passes(PassGraph& graph, const GBuffer& gbuffer) {
     provided_.begin_frame();
-    make_images(frame);
-    if (inputs_) make_rays(frame);
-    for (const DeclaredPass* pass : passes_in_use(frame.known)) run(frame, *pass);
-    if (inputs_) return inputs_->show(graph, gbuffer, *frame.rays, *resolves_);
-    for (const DeclaredResult& result : technique_->results)
-        if (result.when.holds(frame.known))
-            return {frame.images.at(result.radiance), frame.images.at(result.confidence), result.channel};
-    fail("technique '", technique_->name, "' has no result with these values of its parameters");
+    const PassList::Around around{graph, gbuffer, provided_, &tracers_, ray_probe};
+    if (resolves_) return run_with_resolve(graph, gbuffer, around);
+    PassList passes(*technique_, params, known(), around);
+    passes.run_all();
+    return passes.result();
 }
 
-void DeclaredTechnique::make_images(Frame& frame) const {
-    for (const DeclaredImage* image : in_use(technique_->images, &DeclaredImage::name, frame.known)) {
-        const glm::uvec2 extent = image->extent(frame.graph.extent());
-        if (image->has_history) {
-            const PassGraph::History history = frame.graph.history(image->name, image->format, extent);
-            frame.images[image->name] = history.current, frame.images[history.previous.name] = history.previous;
-        } else {
-            frame.images[image->name] = frame.graph.image_of(image->name, image->format, extent, image->mips);
+Reflections DeclaredTechnique::run_with_resolve(PassGraph& graph, const GBuffer& gbuffer,
+                                                const PassList::Around& around) {
+    const KnownValues known = this->known();
+    const nlohmann::json& values = known.by_name();
+    const ScreenShare traced{.divisor = values.at("half_resolution") == true ? 2u : 1u, .rounds_up = true};
+    const glm::uvec2 extent = traced.of(graph.extent());
+    const size_t bytes = size_t(extent.x) * extent.y * values.at("max_rays").get<size_t>() * 16;
+    ResolvedRays rays{
+        .technique = params,
+        .traced = {.directions = graph.buffer("directions", bytes), .hits = graph.buffer("hits", bytes)},
+        .color = provided_.image(graph, gbuffer, values.at("previous_frame") == true ? "lit_before" : "lit", params),
+        .probe = {}};
+    if (values.at("misses") == "probe") rays.probe = screen_probe(graph, gbuffer);
+    PassList(*technique_, params, known, around, {},
+             {{"directions", rays.traced.directions}, {"hits", rays.traced.hits}})
+        .run_all();
+    return resolves_->run(graph, gbuffer, rays);
+}
+
+bool DeclaredTechnique::has_no_rays(const KnownValues& known) const {
+    if (!facts_->has_reflective) return true;
+    if (resolves_) {
+        const bool answers_rough = known.by_name().at("misses") == "probe" && resolves_->entry().answers_rough_surfaces;
+        return facts_->min_roughness > known.by_name().at("max_roughness").get<float>() && !answers_rough;
+    }
+    const RoughnessLimit* limit = first_that_holds(technique_->reflects, known);
+    return limit && limit->excludes_all_from(facts_->min_roughness, known);
+}
+
+std::vector<std::string> DeclaredTechnique::stages() const {
+    std::vector<std::string> stages;
+    const auto add = [&](const std::string& stage) {
+        if (!stage.empty() && !std::ranges::count(stages, stage)) stages.push_back(stage);
+    };
+    const KnownValues any_shot = of_any_shot();
+    const TracerNeeds needs = tracers_.needs(slots_in_use(any_shot));
+    if (resolves_ && any_shot.by_name().at("previous_frame") == true) add(ProvidedImages::stage_of("lit_before"));
+    for (const DeclaredPass* pass : technique_->passes_in_use(any_shot)) {
+        for (const DeclaredUse* read : in_use(pass->reads, &DeclaredUse::as, any_shot)) {
+            const auto images = in_use(technique_->images, &DeclaredImage::name, any_shot);
+            const auto own = std::ranges::find(images, read->image, &DeclaredImage::name);
+            add(ProvidedImages::stage_of(own == images.end() ? read->image : (*own)->same_as));
         }
-    }
-    const size_t pixels = size_t(frame.graph.extent().x) * frame.graph.extent().y;
-    for (const DeclaredBuffer* buffer : in_use(technique_->buffers, &DeclaredBuffer::name, frame.known))
-        frame.buffers[buffer->name] =
-            frame.graph.buffer(buffer->name, buffer->bytes + pixels * buffer->bytes_per_pixel);
-}
-
-void DeclaredTechnique::make_rays(Frame& frame) {
-    const ResolvedRays& rays = frame.rays.emplace(inputs_->make(frame.graph, frame.gbuffer));
-    frame.buffers[ray_buffers[0]] = rays.traced.directions;
-    frame.buffers[ray_buffers[1]] = rays.traced.hits;
-    frame.images[below_horizon_image] = rays.below_horizon;
-}
-
-Image DeclaredTechnique::image_of(Frame& frame, const DeclaredUse& use) {
-    const auto own = frame.images.find(use.image);
-    const Image image =
-        own != frame.images.end() ? own->second : provided_.image(frame.graph, frame.gbuffer, use.image);
-    return (use.mip ? image.mip(*use.mip) : image).as(use.as);
-}
-
-void DeclaredTechnique::run(Frame& frame, const DeclaredPass& declared) {
-    if (!declared.cleared.empty()) {
-        const PushValue& value = declared.set.at("value");
-        if (const auto buffer = frame.buffers.find(declared.cleared); buffer != frame.buffers.end())
-            return frame.graph.clear(buffer->second, std::holds_alternative<int>(value) ? std::get<int>(value) : 0);
-        const auto* color = std::get_if<glm::vec4>(&value);
-        return frame.graph.clear(frame.images.at(declared.cleared), color ? *color : glm::vec4(0));
-    }
-    std::vector<std::pair<Image, Sampling>> reads;  // made before the pass, for some are passes themselves
-    for (const DeclaredUse* read : in_use(declared.reads, &DeclaredUse::as, frame.known))
-        reads.emplace_back(
-            image_of(frame, *read),
-            Sampling{.is_linear = read->is_linear.holds(frame.known), .wrap_u = read->wrap_u, .wrap_v = read->wrap_v});
-    PassGraph::Pass pass =
-        declared.is_compute ? frame.graph.compute(declared.shader) : frame.graph.fragment(declared.shader);
-    pass.label(declared.stage);
-    for (const auto& [image, sampling] : reads) pass.read(image, sampling);
-    for (const DeclaredUse* write : in_use(declared.writes, &DeclaredUse::as, frame.known))
-        pass.write(image_of(frame, *write));
-    if (const auto& test = declared.depth; test && test->when.holds(frame.known))
-        pass.depth({.compare = test->compare, .is_written = test->is_written, .image = frame.images.at(test->image)});
-    if (const auto& test = declared.stencil; test && test->when.holds(frame.known))
-        pass.stencil({.mode = test->mode, .value = test->value, .image = frame.images.at(test->image)});
-    for (const std::string& buffer : declared.buffers) pass.use(frame.buffers.at(buffer));
-    for (const auto& [name, value] : declared.set)
-        std::visit([&](const auto& number) { pass.set(name, number); }, value);
-    if (declared.has_environment) bind_environment(pass, frame.gbuffer);
-    run_with_tracers(frame, declared, pass);
-}
-
-void DeclaredTechnique::run_with_tracers(Frame& frame, const DeclaredPass& declared, const PassGraph::Pass& pass) {
-    const auto run = [&](PassGraph::Pass& once) {
-        const bool has_extent = declared.is_compute && (!declared.over.empty() || declared.writes.empty());
-        if (!has_extent) return once.run();
-        if (inputs_ && declared.over == traced_pixels) return once.run(inputs_->traced_extent(frame.graph.extent()));
-        once.run(declared.over.empty() ? frame.graph.extent() : frame.images.at(declared.over).extent);
-    };
-    if (declared.tracers.empty()) {
-        PassGraph::Pass once = pass;
-        return run(once);
-    }
-    if (!frame.pyramids)
-        frame.pyramids = tracers_.images(frame.graph, frame.gbuffer.depth, {}, slots_in_use(frame.known));
-    tracers_.run(frame.graph, pass, declared.tracers, *frame.pyramids, ray_probe, rays_of(declared), run);
-}
-
-unsigned DeclaredTechnique::rays_of(const DeclaredPass& pass) const {
-    if (pass.rays_parameter.empty()) return pass.rays;
-    return std::ranges::find(params, pass.rays_parameter, &Parameter::name)->value.get<unsigned>();
-}
-
-TracingVariant::Needless DeclaredTechnique::find_needless(const SceneFacts& facts) {
-    facts_ = facts;
-    const KnownValues unknown_shot(params), known(params, facts);
-    Needless needless;
-    if (technique_->reflects) {
-        const auto& [parameter, is_excluded] = *technique_->reflects;
-        const float limit = known.by_name().at(parameter).get<float>();
-        needless.such_a_surface = (is_excluded ? "smoother than " : "as smooth as ") + parameter;
-        needless.rays =
-            !facts.has_reflective || (is_excluded ? facts.min_roughness >= limit : facts.min_roughness > limit);
-    }
-    const auto add_stage = [&](const std::string& stage) {
-        if (!stage.empty() && !std::ranges::count(needless.stages, stage)) needless.stages.push_back(stage);
-    };
-    const TracerNeeds needs = tracers_.needs(slots_in_use(unknown_shot));
-    for (const DeclaredPass* pass : passes_in_use(unknown_shot)) {
-        for (const DeclaredUse* read : in_use(pass->reads, &DeclaredUse::as, unknown_shot))
-            add_stage(ProvidedImages::stage_of(read->image));
         if (!pass->tracers.empty() && (needs.nearest_mips > 0 || needs.farthest_mips > 0))
-            add_stage("common/depth_pyramid");
-        add_stage(pass->stage);
-        if (!pass->when.holds(known)) {
-            needless.parts.push_back({pass->stage, pass->when.failing_member(known),
-                                      "the technique's declaration runs it for other shots only", "", false});
-            continue;
-        }
-        const auto looks_at = [&](const char* constant) {
-            const auto found = pass->scene_constants.find(constant);
-            return found != pass->scene_constants.end() && found->second.holds(known);
-        };
-        if (looks_at("scene_has_matte")) needless.specular_readers.push_back(pass->stage);
-        if (looks_at("scene_is_still")) needless.motion_readers.push_back(pass->stage);
-        if (looks_at("scene_has_environment")) needless.environment_readers.push_back(pass->stage);
+            add(pyramid_maker(*technique_, any_shot).stage);
+        if (pass->cleared.empty()) add(pass->stage);
     }
-    if (inputs_) inputs_->add_needless(needless, facts, *resolves_);
-    return needless;
+    if (!resolves_) return stages;
+    if (any_shot.by_name().at("misses") == "probe")
+        for (const std::string& stage : screen_probe_stages()) add(stage);
+    for (const std::string& stage : resolves_->chosen().stages()) add(stage);
+    return stages;
+}
+
+std::vector<std::string> DeclaredTechnique::readers_of(const std::string& scene_constant) const {
+    std::vector<std::string> readers;
+    const auto add = [&](const std::string& stage) {
+        if (!stage.empty() && !std::ranges::count(readers, stage)) readers.push_back(stage);
+    };
+    const KnownValues known = this->known();
+    for (const std::string& stage : technique_->readers_of(scene_constant, known)) add(stage);
+    if (!resolves_) return readers;
+    const Resolve& resolve = resolves_->chosen();
+    for (const std::string& stage : resolve.readers_of(scene_constant)) add(stage);
+    const nlohmann::json& values = known.by_name();
+    if (scene_constant == "scene_is_still" && values.at("previous_frame") == true) add(resolve.stage_of_rays());
+    if (scene_constant == "scene_has_environment") {
+        if (values.at("misses") != "weight") add(resolve.stage_of_rays());
+        if (values.at("misses") == "probe") add(screen_probe_stages().front());
+    }
+    return readers;
+}
+
+std::vector<LeftOut> DeclaredTechnique::leave_out(const SceneFacts& facts) {
+    facts_ = facts;
+    constants_ = {};
+    std::vector<LeftOut> left_out;
+    const KnownValues known = this->known();
+    if (has_no_rays(known)) {
+        const RoughnessLimit* limit = first_that_holds(technique_->reflects, known);
+        const std::string fact =
+            !facts.has_reflective
+                ? "nothing reflective"
+                : "no reflective surface " + (resolves_ ? "as smooth as max_roughness" : limit->surfaces_within());
+        for (const std::string& stage : stages()) left_out.push_back({stage, fact, "no pixel would start a ray"});
+    } else {
+        add_left_out(left_out, facts);
+    }
+    if (repairs_inputs() && !facts.has_faulty_inputs)
+        left_out.push_back({RepairedInputs::stage, "no faulty inputs", "every pixel would keep its bits"});
+    return left_out;
+}
+
+/// Where some pixel starts a ray.
+void DeclaredTechnique::add_left_out(std::vector<LeftOut>& left_out, const SceneFacts& facts) {
+    const KnownValues known = this->known();
+    for (const DeclaredPass* pass : technique_->passes_in_use(of_any_shot())) {
+        if (!pass->when.holds(known))
+            left_out.push_back({pass->stage, pass->when.failing_member(known),
+                                "the technique's declaration runs it for other shots only", "", false});
+        for (const DeclaredLeftOut& one : pass->left_out) {
+            if (!one.when.holds(known)) continue;
+            const auto is_same = [&](const LeftOut& known) { return known.what == pass->stage && one.part.empty(); };
+            if (std::ranges::any_of(left_out, is_same)) continue;  // of another pass of the stage
+            const bool is_stage = one.part.empty() || one.part.find('/') != std::string::npos;
+            left_out.push_back({one.part.empty() ? pass->stage : one.part, one.fact, one.why,
+                                is_stage ? "" : pass->stage, one.keeps_bits});
+            for (const auto& [name, value] : one.constants) constants_[name] = value;
+        }
+    }
+    const auto add = [&](const char* constant, const LeftOut& without) {
+        for (const std::string& stage : readers_of(constant)) {
+            left_out.push_back(without);
+            left_out.back().stage = stage;
+        }
+    };
+    if (facts.is_still()) add("scene_is_still", {"motion vectors", "nothing moves", "all are 0"});
+    if (!facts.has_environment)
+        add("scene_has_environment", {"environment", "black environment", "rays that meet nothing see black"});
+    if (!facts.has_matte)
+        add("scene_has_matte", {"specular factors", "no matte surface", "every surface has a specular term"});
+    constants_["scene_has_matte"] = facts.has_matte;
+    constants_["scene_is_still"] = facts.is_still();
+    constants_["scene_has_environment"] = facts.has_environment;
 }
 
 }  // namespace

@@ -1,90 +1,83 @@
 #pragma once
 #include "variants/common/screen_probe/screen_probe.h"
-#include "variants/resolves/ray_draw.h"
-#include "variants/resolves/traced_rays.h"
-#include "variants/variant.h"
+#include "variants/passes/pass_list.h"
 
-#include <functional>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
+/// What rays found, by index of the ray: (y * width + x) * max_rays + k for ray k of a traced pixel (ray.glsl). In 32
+/// bits: densities overflow halves below a roughness of 0.033.
+struct TracedRays {
+    Buffer directions;  ///< vec4: xyz view space, unit, w 1 / density of the direction (sr); w = 0: no ray
+    Buffer hits;        ///< uvec4: x pixel (x | y << 16) or a marker of ray.glsl; y, z bits of: length (m), confidence
+};
 
 /// What a technique's draw and march hand to a resolve. Shaders that read rays (seen.glsl, ray.glsl) run with the
-/// technique's parameters, of which there are those of ray_draw.h, `draw_directions`, `misses` (weight, fallback,
-/// probe) and `previous_frame`.
+/// technique's parameters, of which there are those of rays.json.
 struct ResolvedRays {
+    const ParameterSet& technique;
     TracedRays traced;
-    Image color;          ///< the lit image that hits show: of this frame, or with `previous_frame` of the last one
-    Image below_horizon;  ///< of FrostbiteHorizonImage: share of draws that go below the horizon
-    const RayDrawParameters& draw;
+    Image color;  ///< the lit image that hits show: of this frame, or with `previous_frame` of the last one
     std::optional<ScreenProbe> probe;  ///< where `misses` is probe
-    bool misses_are_known = false;     ///< to see the environment, or what the probe guesses
-    bool previous_frame = false;
 };
 
-/// What each pixel's own rays see, weighed by the lobe of visible normals over the density with which they were drawn.
-struct OwnRays {
-    Image radiance;    ///< `own_radiance`, rgba32f: rgb mean of what they see, a share of it that is known
-    Image ray_length;  ///< `own_length`, r32f: mean length of those that hit (m); 0: none
-};
-OwnRays average_own_rays(PassGraph& graph, const GBuffer& gbuffer, const ResolvedRays& rays);
-
-/// One ray of each pixel, another one every frame; black where there is none.
-struct RayImages {
-    Image radiance;   ///< `ray_radiance`, rgba32f: rgb what it sees times the share of it that is known, a that share
-    Image direction;  ///< `ray_direction`, rgba32f: xyz direction times length (m, world space; of a miss the far
-                      ///< plane's distance), w density with which it came about, as if none of the lobe were cut
-                      ///< off (sr^-1)
-};
-RayImages ray_images(PassGraph& graph, const GBuffer& gbuffer, const ResolvedRays& rays);
-
-/// What each ray sees, for resolves whose pixels share rays: the buffer `seen_rays` of seen_rays.glsl.
-Buffer see_rays(PassGraph& graph, const GBuffer& gbuffer, const ResolvedRays& rays);
-
-/// The images of common/screen_probe/lookup.glsl; others, which nothing reads, where there is no probe.
-PassGraph::Pass& bind_probe(PassGraph::Pass& pass, const ResolvedRays& rays);
-
-/// Which stages of a resolve read what a scene may not need.
-struct StageReads {
-    std::string rays;                   ///< what rays see, and so the environment and the motion of hits, if at all
-    std::vector<std::string> motion;    ///< motion of the pixel's own surface
-    std::vector<std::string> specular;  ///< of a pixel no more than whether it has a specular term
-};
-
-/// One way to make a picture of rays: its passes, and what outlives a frame. In `params` are all parameters that its
-/// shaders name; those that the technique decides are taken from it before each frame.
-class Resolve {
-public:
-    virtual ~Resolve() = default;
-
-    /// Adds this frame's passes. Those that read rays come first, with the technique's parameters; use_own_params()
-    /// starts the others.
-    virtual Reflections run(PassGraph& graph, const GBuffer& gbuffer, const ResolvedRays& rays) = 0;
-    /// Of its passes, in their order.
-    virtual std::vector<std::string> stages() const = 0;
-    virtual bool draws_random_numbers() const { return false; }
-    virtual std::string not_repeatable() const { return {}; }  ///< as of Variant::not_repeatable()
-    virtual StageReads reads() const = 0;
-    /// Shows something on surfaces rougher than max_roughness, too.
-    virtual bool answers_rough_surfaces() const { return false; }
-
-    ParameterSet params;
-
-protected:
-    /// From now on the graph's passes have `params`, in which `given` are set: values that the technique decides.
-    void use_own_params(PassGraph& graph, const nlohmann::json& given);
-};
-
-/// A resolve's page of the catalogue.
+/// A resolve as the file resolve.json of a folder of variants/resolves declares it: its page of the catalogue, its
+/// parameters and its passes. What these find besides their own images and those of ProvidedImages:
+///     hit_color               the lit image that hits show
+///     own_radiance            rgba32f: rgb mean of what a pixel's own rays see, weighed by the lobe of visible normals
+///                             over the density with which they were drawn; a share of it that is known
+///     own_length              r32f: mean length of those that hit (m); 0: none
+///     ray_radiance            rgba32f, of one ray of each pixel, another one every frame; black where there is none:
+///                             rgb what it sees times the share of it that is known, a that share
+///     ray_direction           rgba32f: xyz direction times length (m, world space; of a miss the far plane's
+///                             distance), w density with which it came about, as if none of the lobe were cut off
+///                             (sr^-1)
+///     screen_probe            where `misses` is probe, the images of common/screen_probe/lookup.glsl; else others,
+///     screen_probe_nearness   which nothing reads
+/// and the buffers `directions` and `hits` (TracedRays) and `seen_rays`: what each ray sees, of seen_rays.glsl.
 struct ResolveEntry {
     std::string name, title, source, description;
-    std::string folder;         ///< with its sources: "variants/resolves/mean/"
-    bool needs_density = true;  ///< weighs neighbours' rays by densities, which mirror rays lack
-    bool takes_probe = true;    ///< sees misses as seen.glsl does, which knows the probe
-    /// Declares the parameters that a technique has of it, in which their names begin with the resolve's:
-    /// `blur.blur_width`.
-    std::function<void(ParameterSet&)> declare = [](ParameterSet&) {};
-    std::vector<std::string> given = {};  ///< of those the ones that the technique decides
-    std::function<std::unique_ptr<Resolve>()> create;
+    bool needs_density = true;                ///< weighs neighbours' rays by densities, which mirror rays lack
+    bool takes_probe = true;                  ///< sees misses as seen.glsl does, which knows the probe
+    bool answers_rough_surfaces = false;      ///< shows something on surfaces rougher than max_roughness, too
+    std::shared_ptr<const Technique> passes;  ///< with the parameters that users see, without the resolve's name
+    std::vector<Parameter> given;             ///< those that its shaders name, too, and that the technique decides: ...
+    bool is_given_as_technique = false;       ///< ... by its own values of their names ...
+    nlohmann::json given_values = nlohmann::json::object();  ///< ... and by values, or names of given_facts()
+    std::vector<std::string> sources;                        ///< shaders, by their paths from the root
+    std::string content_hash;                                ///< of what declares it
+};
+
+/// Reads variants/resolves/<name>/resolve.json. Fails with Error, which names the place, on what is wrong in it.
+ResolveEntry read_resolve(const std::string& name);
+
+/// What resolves may be given of a technique's rays, by name: `rays.max_roughness` and all other parameters of
+/// rays.json, but for `rays.misses`, which is fallback where misses see anything; `rays.has_probe`; and
+/// `rays.excluded_alpha`, the least squared roughness above that of the roughest surface that is traced.
+nlohmann::json given_facts(const ParameterSet& technique);
+
+/// The passes of one resolve, and what outlives a frame. In `params` are all parameters that its shaders name.
+class Resolve {
+public:
+    explicit Resolve(const ResolveEntry& entry);
+
+    /// Takes what the technique decides; before all that follows.
+    void decide(const ParameterSet& technique);
+    /// Adds this frame's passes. Those that read rays come first, with the technique's parameters; from then on the
+    /// graph's are `params`.
+    Reflections run(PassGraph& graph, const GBuffer& gbuffer, const ResolvedRays& rays);
+    /// Of its passes, in their order.
+    std::vector<std::string> stages() const;
+    bool draws_random_numbers() const;
+    std::string not_repeatable() const;  ///< as of Variant::not_repeatable()
+    /// Stages whose shaders look at a constant of a scene (core/gpu/pipelines/shader.h).
+    std::vector<std::string> readers_of(const std::string& scene_constant) const;
+    /// The one that reads what rays see, before the resolve's own; "" where its own passes do.
+    std::string stage_of_rays() const;
+
+    const ResolveEntry& entry;
+    ParameterSet params;
+
+private:
+    KnownValues known() const { return entry.passes->known_values(params); }
+    bool has_read(const std::string& image_or_buffer) const;
+
+    ProvidedImages provided_;
 };

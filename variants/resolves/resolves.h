@@ -22,12 +22,11 @@ public:
     /// The chosen one, with the values of its parameters.
     Resolve& chosen();
 
-    /// Adds its passes; the graph then has the technique's parameters again. Fails with Error where `has_density` is
-    /// false and it needs one.
-    Reflections run(PassGraph& graph, const GBuffer& gbuffer, const ResolvedRays& rays, bool has_density);
+    /// Adds its passes; the graph then has the technique's parameters again. Fails with Error where rays have no
+    /// density and it needs one, and where it does not know the probe.
+    Reflections run(PassGraph& graph, const GBuffer& gbuffer, const ResolvedRays& rays);
 
 private:
     ParameterSet& params_;
     std::unique_ptr<Resolve> chosen_;
-    std::string chosen_name_;
 };

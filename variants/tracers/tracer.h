@@ -1,9 +1,5 @@
 #pragma once
-#include "core/parameters.h"
-
-#include <functional>
-#include <memory>
-#include <string>
+#include "variants/common/condition.h"
 
 /// What a tracer's shader reads besides the images of a G-buffer.
 struct TracerNeeds {
@@ -14,29 +10,32 @@ struct TracerNeeds {
     bool exact_hits = false;     ///< RayProbe::exact_hits of core/ray_probe.h
 };
 
-/// The parameters of one way to trace rays, declared in the technique that may use it, with names that begin with the
-/// tracer's: `dda.thickness`, in GLSL dda_thickness. What it does stands in its shader.
-class Tracer {
-public:
-    explicit Tracer(ParameterSet& params) : params(params) {}
-    virtual ~Tracer() = default;
-    virtual TracerNeeds needs() const { return {}; }
-
-    /// Why its ends depend on the order in which threads ran, where a technique's rays share subgroups in that order;
-    /// as of Variant::not_repeatable().
-    virtual std::string not_repeatable() const { return {}; }
-
-protected:
-    ParameterSet& params;
+/// Why results depend on the order in which threads ran, as of Variant::not_repeatable(), where `when` holds.
+struct NotRepeatable {
+    Condition when;
+    std::string because;
 };
 
-/// A tracer's page of the catalogue. `variants/tracers/<folder>/*.glsl` defines `TraceEnd <name>_trace(TraceRay)` of
-/// trace.glsl.
+/// `not_repeatable` of a file.
+std::vector<NotRepeatable> read_reasons(JsonObject& owner, const KnownValues& known);
+/// Of the first reason that holds; "" without one.
+std::string because(const std::vector<NotRepeatable>& reasons, const KnownValues& known);
+
+/// A way to trace rays, as a file of variants/tracers/<folder>/ declares it: its page of the catalogue, its parameters
+/// and its needs. What it does stands in its shader, which defines `TraceEnd <name>_trace(TraceRay)` of trace.glsl.
 struct TracerEntry {
     std::string name, title, source, description;
-    std::string shader;       ///< "tracers/dda/dda.glsl"
-    std::string part = {};    ///< what its parameters' names begin with; "": its own name
-    bool fits_webgl2 = true;  ///< what it reads and its shader lie within Limits::webgl2
-    /// Declares the parameters.
-    std::function<std::unique_ptr<Tracer>(ParameterSet&)> create;
+    std::string shader;                       ///< "tracers/dda/dda.glsl"
+    std::string part;                         ///< what its parameters' names begin with, before the dot
+    bool fits_webgl2 = true;                  ///< what it reads and its shader lie within Limits::webgl2
+    std::vector<Parameter> parameters;        ///< under their whole names: `dda.thickness`, in GLSL dda_thickness
+    std::string nearest_mips, farthest_mips;  ///< parameters with the levels of both pyramids; "": it reads none
+    Condition depth_layers = Condition::never(), random = Condition::never();
+    bool exact_hits = false;
+    std::vector<NotRepeatable> not_repeatable;
+    std::string content_hash;  ///< of what declares it
 };
+
+/// The tracer that variants/tracers/<file> declares; its name is the file's. Fails with Error, which names the place,
+/// on what is wrong in it.
+TracerEntry read_tracer(const std::string& file);

@@ -3,49 +3,33 @@
 #include "core/error.h"
 #include "core/near_miss.h"
 #include "variants/common/depth_pyramid.h"
+#include "variants/common/names.h"
+#include "variants/common/parameter_block.h"
 #include "variants/tracers/outcome.h"
 
 #include <algorithm>
 #include <cstring>
 
-TracerEntry dda_tracer();
-TracerEntry hierarchy_tracer();
-TracerEntry frostbite_hierarchical_tracer();
-TracerEntry frostbite_linear_tracer();
-TracerEntry hzb_tracer();
-TracerEntry fixed_stride_tracer();
-TracerEntry cells_tracer();
-TracerEntry view_space_tracer();
-TracerEntry secant_tracer();
-TracerEntry godot_tracer();
-TracerEntry exact_layer_tracer();
-TracerEntry exact_scene_tracer();
+const nlohmann::json& value_of(const ParameterSet& params, const std::string& name) {
+    return std::ranges::find(params, name, &Parameter::name)->value;
+}
 
 std::span<const TracerEntry> tracer_table() {
-    static const std::vector<TracerEntry> table = {
-        dda_tracer(),
-        hierarchy_tracer(),
-        frostbite_hierarchical_tracer(),
-        frostbite_linear_tracer(),
-        hzb_tracer(),
-        fixed_stride_tracer(),
-        cells_tracer(),
-        view_space_tracer(),
-        secant_tracer(),
-        godot_tracer(),
-        exact_layer_tracer(),
-        exact_scene_tracer(),
-    };
+    static const std::vector<TracerEntry> table = [] {
+        std::vector<TracerEntry> read;
+        for (const char* file : {"dda/dda.json", "hierarchy/hierarchy.json", "frostbite/frostbite_hierarchical.json",
+                                 "frostbite/frostbite_linear.json", "hzb/hzb.json", "fixed_stride/fixed_stride.json",
+                                 "cells/cells.json", "view_space/view_space.json", "secant/secant.json",
+                                 "godot/godot.json", "exact_layer/exact_layer.json", "exact_scene/exact_scene.json"})
+            read.push_back(read_tracer(file));
+        return read;
+    }();
     return table;
 }
 
 namespace {
 
-std::vector<std::string> tracer_names() {
-    std::vector<std::string> names;
-    for (const TracerEntry& entry : tracer_table()) names.push_back(entry.name);
-    return names;
-}
+std::vector<std::string> tracer_names() { return names_of(tracer_table(), &TracerEntry::name); }
 
 /// What an include does besides tracing.
 enum class Including { trace, record, rays_only };
@@ -90,26 +74,6 @@ std::string glsl_of(const TracerSlot& slot, const TracerEntry& tracer, const Sha
            ";\n    record(ray, end);\n    return end;\n}\n";
 }
 
-TracerNeeds both(const TracerNeeds& a, const TracerNeeds& b) {
-    return {.nearest_mips = std::max(a.nearest_mips, b.nearest_mips),
-            .farthest_mips = std::max(a.farthest_mips, b.farthest_mips),
-            .depth_layers = a.depth_layers || b.depth_layers,
-            .random = a.random || b.random,
-            .exact_hits = a.exact_hits || b.exact_hits};
-}
-
-/// Fails if a parameter has the name of a technique's, so that it would be taken for one of that.
-std::unique_ptr<Tracer> created(const TracerEntry& entry, ParameterSet& params) {
-    const std::string part = part_of(entry);
-    const auto before = std::distance(params.begin(), params.end());
-    std::unique_ptr<Tracer> tracer = entry.create(params);
-    for (auto p = params.begin() + before; p != params.end(); ++p)
-        if (p->part() != part)
-            fail("the tracer ", entry.name, " declares a parameter '", p->name, "', whose name must begin with '", part,
-                 ".'");
-    return tracer;
-}
-
 std::vector<RayRecord> download_records(PassGraph& graph, const Buffer& buffer) {
     const std::vector<std::byte> bytes = graph.download(buffer);
     std::vector<RayRecord> rays(bytes.size() / sizeof(RayRecord));
@@ -125,14 +89,12 @@ const TracerEntry& find_tracer(const std::string& name) {
     fail("unknown tracer '", name, "'", suggestion(name, tracer_names()));
 }
 
-std::string part_of(const TracerEntry& tracer) { return tracer.part.empty() ? tracer.name : tracer.part; }
-
 bool is_of_chosen_tracer(const ParameterSet& params, const std::string& name) {
     if (name == "exact_share") return params.values().at("exact_rays") != "none";
     const std::string part = std::ranges::find(params, name, &Parameter::name)->part();
-    if (!std::ranges::count(tracer_table(), part, part_of)) return true;
+    if (!std::ranges::count(tracer_table(), part, &TracerEntry::part)) return true;
     return std::ranges::any_of(params, [&](const Parameter& slot) {
-        return slot.choices == tracer_names() && part_of(find_tracer(slot.value.get<std::string>())) == part;
+        return slot.choices == tracer_names() && find_tracer(slot.value.get<std::string>()).part == part;
     });
 }
 
@@ -142,60 +104,64 @@ Tracers::Tracers(ParameterSet& params, std::vector<TracerSlot> slots, const std:
     if (slots_.empty()) return;
     for (const TracerSlot& slot : slots_)
         Choice(params, slot.name, slot.initial, tracer_names(), {"", slot.doc, source});
-    for (const TracerEntry& entry : tracer_table()) tracers_.push_back(created(entry, params));
-    asked_rays_ = std::make_unique<AskedRaysParameters>(params);
+    for (const TracerEntry& entry : tracer_table())
+        for (const Parameter& parameter : entry.parameters) params.add(parameter);
+    add_block(params, "tracers/asked_rays.json");
     params.change_defaults(defaults);
 }
 
 const TracerEntry& Tracers::chosen(const std::string& slot) const {
-    const auto parameter = std::ranges::find(params_, slot, &Parameter::name);
-    return find_tracer(parameter->value.get<std::string>());
+    return find_tracer(value_of(params_, slot).get<std::string>());
 }
 
+bool Tracers::asks_for_some() const { return !slots_.empty() && value_of(params_, "exact_rays") != "none"; }
+
 TracerNeeds Tracers::needs(const std::string& slot) const {
-    TracerNeeds needs = tracer_of(slot).needs();
-    needs.exact_hits = needs.exact_hits || asked_rays_->are_any();
-    needs.random = needs.random || asked_rays_->are_any();  // among equal rays, too
-    return needs;
+    const TracerEntry& tracer = chosen(slot);
+    const KnownValues known(params_);
+    const auto mips = [&](const std::string& name) {
+        return name.empty() ? 0u : known.by_name()[name].get<unsigned>();
+    };
+    return {.nearest_mips = mips(tracer.nearest_mips),
+            .farthest_mips = mips(tracer.farthest_mips),
+            .depth_layers = tracer.depth_layers.holds(known),
+            .random = tracer.random.holds(known) || asks_for_some(),  // among equal rays, too
+            .exact_hits = tracer.exact_hits || asks_for_some()};
 }
 
 bool Tracers::asks_for_some(const std::vector<std::string>& slots) const {
-    if (!asked_rays_ || !asked_rays_->are_any()) return false;
+    if (!asks_for_some()) return false;
     for (const std::string& slot : slots) {
-        if (tracer_of(slot).needs().exact_hits)
+        if (chosen(slot).exact_hits)
             fail("exact_rays lets the scene answer some rays, ", slot, " = ", chosen(slot).name,
                  " all of them: one of both is enough");
         // Rays that are answered leave the march, whose others would then be given up sooner.
-        if (const std::string why = tracer_of(slot).not_repeatable(); !why.empty())
+        if (const std::string why = not_repeatable(slot); !why.empty())
             fail("exact_rays needs a march whose rays do not depend on each other; ", why);
     }
     return true;
 }
 
-const Tracer& Tracers::tracer_of(const std::string& slot) const {
-    return *tracers_[size_t(&chosen(slot) - tracer_table().data())];
+std::string Tracers::not_repeatable(const std::string& slot) const {
+    return because(chosen(slot).not_repeatable, KnownValues(params_));
 }
 
-TracerNeeds Tracers::needs() const {
-    TracerNeeds all;
-    for (const TracerSlot& slot : slots_) all = both(all, needs(slot.name));
-    return all;
-}
-
-bool Tracers::needs_pyramid() const {
-    const TracerNeeds all = needs();
-    return all.nearest_mips > 0 || all.farthest_mips > 0;
-}
+TracerNeeds Tracers::needs() const { return needs(names_of(slots_, &TracerSlot::name)); }
 
 std::string Tracers::not_repeatable() const {
     for (const TracerSlot& slot : slots_)
-        if (std::string why = tracer_of(slot.name).not_repeatable(); !why.empty()) return why;
+        if (std::string why = not_repeatable(slot.name); !why.empty()) return why;
     return {};
 }
 
 TracerNeeds Tracers::needs(const std::vector<std::string>& slots) const {
     TracerNeeds all;
-    for (const std::string& slot : slots) all = both(all, needs(slot));
+    for (const std::string& slot : slots) {
+        const TracerNeeds one = needs(slot);
+        all.nearest_mips = std::max(all.nearest_mips, one.nearest_mips);
+        all.farthest_mips = std::max(all.farthest_mips, one.farthest_mips);
+        all.depth_layers |= one.depth_layers, all.random |= one.random, all.exact_hits |= one.exact_hits;
+    }
     return all;
 }
 
@@ -257,7 +223,8 @@ void Tracers::run(PassGraph& graph, const PassGraph::Pass& pass, const std::vect
         const std::vector<ExactHit> none(rays, ExactHit{.outcome = outcome_unanswered});
         graph.upload(answers, std::as_bytes(std::span(none)));
         run_as(Including::record);
-        const std::vector<ExactHit> found = probe->answers(recorded(), asked_rays_->value());
+        const std::vector<ExactHit> found = probe->answers(
+            recorded(), {value_of(params_, "exact_rays"), value_of(params_, "exact_share").get<float>()});
         graph.upload(answers, std::as_bytes(std::span(found)));
     } else if (needed.exact_hits) {
         run_as(Including::rays_only);
@@ -272,9 +239,7 @@ void Tracers::run(PassGraph& graph, const PassGraph::Pass& pass, const std::vect
 }
 
 ShaderIncludes Tracers::includes() const {
-    std::vector<std::string> names;
-    for (const TracerSlot& slot : slots_) names.push_back(slot.name);
-    const ShaderTracing all{.needs = needs(), .has_asked = asks_for_some(names)};
+    const ShaderTracing all{.needs = needs(), .has_asked = asks_for_some(names_of(slots_, &TracerSlot::name))};
     ShaderIncludes includes;
     for (const TracerSlot& slot : slots_) includes[slot.name] = glsl_of(slot, chosen(slot.name), all, Including::trace);
     return includes;

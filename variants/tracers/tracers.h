@@ -3,9 +3,9 @@
 #include "core/gpu/passes/pass_graph.h"
 #include "core/gpu/pipelines/shader.h"
 #include "core/ray_probe.h"
-#include "variants/tracers/asked_rays.h"
 #include "variants/tracers/tracer.h"
 
+#include <functional>
 #include <span>
 
 /// All tracers, by name.
@@ -14,8 +14,8 @@ std::span<const TracerEntry> tracer_table();
 /// Fails with a near miss if there is none of that name.
 const TracerEntry& find_tracer(const std::string& name);
 
-/// What the names of a tracer's parameters begin with, before the dot.
-std::string part_of(const TracerEntry& tracer);
+/// Of the parameter of that name, which there is.
+const nlohmann::json& value_of(const ParameterSet& params, const std::string& name);
 
 /// Whether a technique whose parameters have these values has chosen the tracer whose parameter `name` is; true of
 /// parameters that are no tracer's.
@@ -45,7 +45,6 @@ public:
     TracerNeeds needs(const std::string& slot) const;
     TracerNeeds needs() const;  ///< of all slots
     TracerNeeds needs(const std::vector<std::string>& slots) const;
-    bool needs_pyramid() const;
     std::string not_repeatable() const;  ///< of the first that says so
 
     /// What slots need, made for this frame.
@@ -68,13 +67,14 @@ public:
     ShaderIncludes includes() const;
 
 private:
-    const Tracer& tracer_of(const std::string& slot) const;
+    std::string not_repeatable(const std::string& slot) const;
 
-    /// Whether the scene answers some of these slots' rays. Fails where one of their tracers does not allow it.
+    /// Whether the scene answers some rays in place of their march, as by ray tracing hardware: the parameter
+    /// exact_rays. RayProbe::answers of core/ray_probe.h chooses them and knows the answers.
+    bool asks_for_some() const;
+    /// The same of these slots' rays. Fails where one of their tracers does not allow it.
     bool asks_for_some(const std::vector<std::string>& slots) const;
 
     ParameterSet& params_;
     std::vector<TracerSlot> slots_;
-    std::vector<std::unique_ptr<Tracer>> tracers_;  // as tracer_table()
-    std::unique_ptr<AskedRaysParameters> asked_rays_;
 };

@@ -2,15 +2,15 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "experiments/results/cells/source_code.h"
 #include "experiments/study/config/points/conditions.h"
 #include "experiments/study/config/points/external_images.h"
 #include "experiments/study/config/points/variant_of.h"
 #include "experiments/study/config/shots/scene_warnings.h"
 #include "experiments/study/config/shots/shot.h"
+#include "experiments/study/manifest_entries.h"
 #include "experiments/study/measuring/frames/capture.h"
 #include "experiments/study/measuring/shot_truth.h"
-#include "experiments/study/manifest_entries.h"
-#include "experiments/results/cells/source_code.h"
 #include "variants/registry.h"
 #include "variants/resolves/resolves.h"
 #include "variants/tracers/tracers.h"
@@ -36,22 +36,19 @@ PointIdentity identity_of(const VariantConfig& config) {
     const std::unique_ptr<Variant> variant = variant_of(config);
     const nlohmann::json values = variant->params.values();
     const auto& folder = find_variant(config.variant).folder;
-    PointIdentity identity{.parameters = values.dump(), .sources = {}};
-    if (folder) {
-        identity.parameters += folder->content_hash;
-        identity.sources = folder->sources;
-        identity.sources.push_back("variants/declared/");
-    } else {
-        identity.sources.push_back("variants/" + config.variant + "/");
-    }
+    PointIdentity identity{.parameters = values.dump() + folder->content_hash, .sources = folder->sources};
+    identity.sources.push_back("variants/declared/");
     if (variant->uses_scene_data()) identity.sources.push_back("variants/tracers/exact_scene/");
     for (const auto& [name, value] : values.items())
         for (const TracerEntry& tracer : tracer_table())
-            if (value == tracer.name)
+            if (value == tracer.name) {
                 identity.sources.push_back("variants/" + tracer.shader.substr(0, tracer.shader.rfind('/') + 1));
+                identity.parameters += tracer.content_hash;
+            }
     if (values.contains("resolve")) {
-        identity.sources.push_back(find_resolve(values.at("resolve")).folder);
-        identity.sources.push_back("variants/resolves/ray_inputs/");
+        const ResolveEntry& resolve = find_resolve(values.at("resolve"));
+        identity.sources.insert(identity.sources.end(), resolve.sources.begin(), resolve.sources.end());
+        identity.parameters += resolve.content_hash;
     }
     return identity;
 }

@@ -87,7 +87,8 @@ TEST_F(DeclaredRefusals, Parameters) {
     expect_part(error_of({{"range", {0}}}), "'range' must be [least, most], not [0]");
     expect_part(error_of({{"range", nullptr}}), "lacks the key 'range'");
     expect_part(error_of({{"type", "uint"}, {"default", 1}, {"range", {-1, 2}}}), "-1 is no uint");
-    expect_part(error_of({{"type", "uint"}, {"default", 1}, {"range", {0, 1e10}}}), "is too large for a uint of 32 bits");
+    expect_part(error_of({{"type", "uint"}, {"default", 1}, {"range", {0, 1e10}}}),
+                "is too large for a uint of 32 bits");
     expect_part(error_of({{"type", "choice"}, {"range", nullptr}, {"default", "b"}, {"choices", {"a"}}}),
                 "'x' = \"b\" is outside of its range: a");
     expect_part(error_of({{"type", "choice"}, {"range", nullptr}, {"default", "a"}, {"choices", {"a", "a"}}}), "twice");
@@ -142,7 +143,8 @@ TEST_F(DeclaredRefusals, Resolves) {
     expect_part(error_of({{"pass", {{"buffers", {"directions"}}}}}), "resolve: no pass has 'hits' among its 'buffers'");
     expect_part(error_of({{"pass", {{"when", {{"mode", "a"}}}}}}), "'buffers', for rays that the resolve reads, where");
     expect_part(error_of({{"buffers", {{{"name", "hits"}, {"bytes", 4}}}}}), "has a buffer 'hits' already");
-    expect_part(error_of({{"images", {{{"name", "below_horizon"}, {"format", "r8"}}}}}), "has 'below_horizon' already");
+    expect_part(error_of({{"images", {{{"name", "below_horizon"}, {"format", "r8"}}}}}),
+                "image 'below_horizon' already");
     const auto parameters_and = [](const char* name) {
         Json parameters = sound["parameters"];
         parameters.push_back(sound["parameters"][1]);

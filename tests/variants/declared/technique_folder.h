@@ -23,11 +23,3 @@ struct TemporaryTechnique {
 
     fs::path parent, folder;
 };
-
-/// One of experiments/studies/examples under another name: that of ssrlab's own technique is taken.
-inline std::string add_example(const std::string& technique) {
-    const TemporaryTechnique copy("declared_" + technique);
-    const fs::path example = fs::path(SSRLAB_SOURCE_DIR) / "experiments/studies/examples" / technique;
-    fs::copy(example, copy.folder, fs::copy_options::recursive);
-    return copy.add().name;
-}

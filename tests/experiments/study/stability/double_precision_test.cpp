@@ -70,6 +70,6 @@ TEST(DoublePrecision, EveryShaderCompiles) {
         compile_all(entry.name, variant->params, variant->shader_includes());
     }
     compile_all("resolves", make_variant("composed_ssr")->params, {});  // what reads rays
-    for (const ResolveEntry& entry : resolve_table()) compile_all("resolves/" + entry.name, entry.create()->params, {});
+    for (const ResolveEntry& entry : resolve_table()) compile_all("resolves/" + entry.name, Resolve(entry).params, {});
     EXPECT_GT(count, 50u);
 }

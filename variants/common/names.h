@@ -1,0 +1,21 @@
+#pragma once
+#include "core/json.h"
+
+#include <initializer_list>
+
+/// Of all elements, for lists of what there is.
+template <class Range, class Member>
+std::vector<std::string> names_of(const Range& all, Member name) {
+    std::vector<std::string> names;
+    for (const auto& one : all) names.push_back(one.*name);
+    return names;
+}
+
+/// Makes the keys of an object known before it is read, so that a message about a missing one does not take the others
+/// for misspelt.
+void know_keys(JsonObject& object, std::initializer_list<const char*> keys);
+
+/// A member that shaders have as a name: letters, digits and '_', no digit first, nothing that GLSL keeps for itself.
+/// Fails with Error otherwise.
+std::string variable_name(JsonObject& object, const std::string& key);
+std::string variable_name(JsonObject& object, const std::string& key, const std::string& fallback);

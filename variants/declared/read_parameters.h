@@ -1,5 +1,0 @@
-#pragma once
-#include "variants/declared/technique.h"
-
-/// `parameters` and `tracers` of a technique.json.
-void read_parameters(JsonObject& root, Technique& technique);

@@ -1,0 +1,122 @@
+#include "variants/passes/technique_files.h"
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/gpu/pipelines/shader_files.h"
+#include "core/near_miss.h"
+#include "core/path_inside.h"
+#include "variants/passes/pass_list.h"
+
+#include <algorithm>
+#include <set>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_shader_source(const fs::path& file) {
+    static const std::set<std::string> endings = {".comp", ".frag", ".glsl", ".h"};
+    return endings.contains(file.extension().string());
+}
+
+/// The path from ssrlab's root of one of its own shaders; "" if there is none of that name.
+std::string own_source(const std::string& name) {
+    if (name.empty() || fs::path(name).is_absolute() || std::ranges::count(fs::path(name), fs::path("..")) > 0)
+        return {};
+    for (const fs::path& root : shader_roots()) {
+        const fs::path file = path_inside(root, name);
+        const std::string inside = file.lexically_relative(SSRLAB_SOURCE_DIR).string();
+        if ((inside.starts_with("variants/") || inside.starts_with("core/")) && is_shader_source(file) &&
+            fs::is_regular_file(file))
+            return inside;
+    }
+    return {};
+}
+
+/// Names of shaders below a folder.
+void add_names(const fs::path& folder, std::vector<std::string>& names) {
+    std::error_code error;
+    for (const auto& entry : fs::recursive_directory_iterator(folder, error))
+        if (is_shader_source(entry.path())) names.push_back(entry.path().lexically_relative(folder).string());
+}
+
+/// Follows the includes of one pass.
+class Reader {
+public:
+    Reader(const Technique& technique, const DeclaredPass& pass, TechniqueFolder& read)
+        : technique_(technique), pass_(pass), read_(read) {}
+
+    /// Whether the shader is one of the folder.
+    bool read_shader(const std::string& name) { return visit(name, true, pass_.place + ": 'shader' = '" + name + "'"); }
+    bool read_include(const std::string& name) { return visit(name, true, pass_.place + ": 'file' = '" + name + "'"); }
+
+private:
+    /// `may_be_of_folder`: false for what ssrlab's own shaders include. `where`: who names it.
+    bool visit(const std::string& name, bool may_be_of_folder, const std::string& where) {
+        const bool is_of_folder = may_be_of_folder && is_in_folder(name, where);
+        const std::string source = is_of_folder ? "" : own_source(name);
+        if (!is_of_folder && source.empty()) fail_missing(name, where);
+        const std::string shown_name = is_of_folder ? technique_.name + "/" + name : source;
+        if (std::ranges::count(open_, shown_name) > 0) fail(where, ": ", shown_name, " includes itself");
+        if (!visited_.insert(shown_name).second) return is_of_folder;
+        const fs::path file = is_of_folder ? path_inside(read_.path, name) : path_inside(SSRLAB_SOURCE_DIR, source);
+        const std::string text = read_text(file);
+        if (is_of_folder)
+            read_.files[name] = text;
+        else
+            read_.sources.push_back(source);
+        open_.push_back(shown_name);
+        for (const auto& [included, line] : includes_of(text))
+            if (!std::ranges::count(pass_.tracers, included) &&
+                !std::ranges::count(pass_.includes, included, &DeclaredInclude::name))
+                visit(included, is_of_folder,
+                      shown_name + ":" + std::to_string(line) + ": #include \"" + shortened(included) + "\"");
+        open_.pop_back();
+        return is_of_folder;
+    }
+
+    bool is_in_folder(const std::string& name, const std::string& where) const {
+        std::error_code error;
+        return fs::is_regular_file(path_inside(read_.path, name, where), error);
+    }
+
+    [[noreturn]] void fail_missing(const std::string& name, const std::string& where) const {
+        for (const TracerSlot& slot : technique_.slots)
+            if (slot.name == name)
+                fail(where, ": the pass does not name the tracer; write \"tracers\": \"", name, "\"");
+        std::vector<std::string> names;
+        add_names(read_.path, names);
+        for (const char* folder : {"variants", "core/shaders"}) add_names(fs::path(SSRLAB_SOURCE_DIR) / folder, names);
+        const std::string near = nearest_name(name, names);
+        fail(where, ": there is no such shader in ", read_.path.string(),
+             ", and none of ssrlab under variants/ or core/", near.empty() ? "" : "; did you mean '" + near + "'?");
+    }
+
+    const Technique& technique_;
+    const DeclaredPass& pass_;
+    TechniqueFolder& read_;
+    std::vector<std::string> open_;  ///< files, each included by the one before
+    std::set<std::string> visited_;
+};
+
+}  // namespace
+
+void read_shaders(Technique& technique, TechniqueFolder& read) {
+    for (DeclaredPass& pass : technique.passes) {
+        if (pass.forms.empty()) continue;
+        Reader reader(technique, pass, read);
+        for (DeclaredInclude& include : pass.includes)
+            if (reader.read_include(include.file)) include.file = technique.name + "/" + include.file;
+        for (DeclaredForm& form : pass.forms)
+            if (reader.read_shader(form.shader)) form.shader = technique.name + "/" + form.shader;
+        const std::string& shader = pass.forms.back().shader;
+        const std::string stem = shader.substr(0, shader.rfind('.'));
+        pass.stage = pass.stage.empty() ? stem : stem.substr(0, stem.rfind('/') + 1) + pass.stage;
+    }
+    for (const DeclaredPyramid& pyramid : technique.pyramids)
+        for (const std::string& shader :
+             std::ranges::find(pyramid_makers(), pyramid.maker, &NamedPyramidMaker::name)->shaders)
+            Reader(technique, DeclaredPass(), read).read_shader(shader);
+    std::ranges::sort(read.sources);
+    read.sources.erase(std::ranges::unique(read.sources).begin(), read.sources.end());
+}
