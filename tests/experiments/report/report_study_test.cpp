@@ -91,6 +91,12 @@ TEST_F(StudyReport, ShowsReadersWithoutScriptsPresetsAlone) {
     const std::string page = read_text(folder / "report.html");
     const std::string part = page.substr(page.find("<noscript>"), page.find("</noscript>") - page.find("<noscript>"));
     EXPECT_NE(part.find("<td>fixed"), std::string::npos);
+    for (const std::string key : {"\"in_these_scenes\":\"", "\"in_scenes_like_these\":\""}) {
+        const size_t at = page.find(key);
+        ASSERT_NE(at, std::string::npos) << key;
+        const std::string begins = page.substr(at + key.size(), 20);
+        EXPECT_NE(part.find("<p>" + begins), std::string::npos) << "both statements: " << begins;
+    }
     EXPECT_EQ(part.find("float_histories=true"), std::string::npos);
     size_t rows = 0;
     for (size_t at = 0; (at = part.find("<tr><td>", at)) != std::string::npos; ++at) ++rows;
