@@ -18,8 +18,8 @@ void write_atomically(const std::filesystem::path& file,
 
 /// Atomic text file. Fails with MachineError where the disk is full or the folder cannot be written.
 void write_text(const std::filesystem::path& file, std::string_view text);
-/// All bytes of a regular file as they are. Fails with Error if it is none, cannot be read, or is larger than what may be
-/// read (reading_limits.h).
+/// All bytes of a regular file as they are. Fails with Error if it is none, cannot be read, or is larger than what may
+/// be read (reading_limits.h).
 std::string read_text(const std::filesystem::path& file);
 
 /// The content hash of everything added, as 32 hexadecimal digits (XXH3, 128 bits).

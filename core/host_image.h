@@ -17,7 +17,9 @@ struct HostImage {
     float* pixel(unsigned x, unsigned y) { return &values[(size_t(y) * extent.x + x) * channels]; }
     const float* pixel(unsigned x, unsigned y) const { return &values[(size_t(y) * extent.x + x) * channels]; }
 
-    glm::vec3 rgb(size_t index) const { return {values[index * channels], values[index * channels + 1], values[index * channels + 2]}; }
+    glm::vec3 rgb(size_t index) const {
+        return {values[index * channels], values[index * channels + 1], values[index * channels + 2]};
+    }
     void set_rgb(size_t index, glm::vec3 c) {
         for (int i = 0; i < 3; ++i) values[index * channels + i] = c[i];
     }

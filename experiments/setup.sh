@@ -19,7 +19,7 @@ build_packages=(
 )
 # What only the tests need: the validation layer, a browser for the report, Snakemake for studies in parallel, pandas for the example that
 # reads results, Node.js for the adapters of engines, and readers of Markdown and LaTeX (40 MB to fetch), which say what names in tables do there.
-test_packages=(vulkan-validationlayers chromium chromium-driver nodejs python3-selenium snakemake python3-pandas python3-jsonschema
+test_packages=(vulkan-validationlayers clang-format chromium chromium-driver nodejs python3-selenium snakemake python3-pandas python3-jsonschema
                python3-markdown-it texlive-latex-base)
 # What only tests/exporters.sh needs: Blender; RenderDoc, its Python module, and the header of its in-application API.
 exporter_packages=(blender librenderdoc librenderdoc-dev python3-renderdoc)

@@ -30,7 +30,7 @@ CameraPose pose_camera(const SceneCamera& camera, const ScenePose& scene_pose, f
 struct FrameView {
     glm::uvec2 extent{0, 0};
     DepthDirection depth_direction = DepthDirection::standard;
-    unsigned frame = 0, seed = 0;  ///< `frame`: which pose of camera and scene
+    unsigned frame = 0, seed = 0;                   ///< `frame`: which pose of camera and scene
     glm::vec2 jitter{0.0f}, previous_jitter{0.0f};  ///< pixels, y down: samples lie at pixel centre + jitter
 
     /// For frames rendered in a row whose poses do not count up by one: held, warmed up, or jumping.

@@ -15,8 +15,8 @@
 
 enum class TextureWrap { repeat, mirrored_repeat, clamp_to_edge };
 
-/// RGBA texels, row by row, as bytes; see Texture::channel_bytes. Those of one image are held once, however many textures
-/// show it.
+/// RGBA texels, row by row, as bytes; see Texture::channel_bytes. Those of one image are held once, however many
+/// textures show it.
 using Texels = std::shared_ptr<const std::vector<uint8_t>>;
 
 inline Texels make_texels(std::vector<uint8_t> rgba) {
@@ -27,9 +27,9 @@ inline Texels make_texels(std::vector<uint8_t> rgba) {
 struct Texture {
     std::string name;
     glm::uvec2 extent{0, 0};
-    Texels rgba;           ///< never null in a Scene
+    Texels rgba;                 ///< never null in a Scene
     unsigned channel_bytes = 1;  ///< of a texel's channel: 1, or 2 of 16-bit images, in the machine's byte order
-    bool is_srgb = false;  ///< RGB are sRGB codes, decoded before filtering; alpha is linear
+    bool is_srgb = false;        ///< RGB are sRGB codes, decoded before filtering; alpha is linear
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
     bool is_nearest = false;
 };
@@ -57,11 +57,11 @@ struct Material {
     TextureSlot occlusion_texture;  ///< listed only: both renderers solve for occlusion or leave it out
     glm::vec3 emission{0.0f};       ///< radiance (W sr^-1 m^-2): emissiveFactor times KHR_materials_emissive_strength
     TextureSlot emission_texture;
-    float specular = 1.0f;  ///< KHR_materials_specular's specularFactor: scales the dielectric Fresnel term
-    TextureSlot specular_texture;        ///< A: multiplies `specular`
-    glm::vec3 specular_color{1.0f};      ///< specularColorFactor: scales `dielectric_f0`, at most to 1
+    float specular = 1.0f;           ///< KHR_materials_specular's specularFactor: scales the dielectric Fresnel term
+    TextureSlot specular_texture;    ///< A: multiplies `specular`
+    glm::vec3 specular_color{1.0f};  ///< specularColorFactor: scales `dielectric_f0`, at most to 1
     TextureSlot specular_color_texture;  ///< RGB: multiplies `specular_color`
-    float dielectric_f0 = 0.04f;         ///< reflectance at normal incidence, of the index of refraction (KHR_materials_ior)
+    float dielectric_f0 = 0.04f;  ///< reflectance at normal incidence, of the index of refraction (KHR_materials_ior)
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;     ///< a hit counts where alpha >= cutoff (AlphaMode::mask)
     bool is_double_sided = false;  ///< else the back emits nothing, and Scene::draws_backs says whether it is seen
@@ -214,11 +214,11 @@ struct Scene {
     Environment environment;
     std::vector<SceneCamera> cameras;
     unsigned frame_count = 1;
-    float frame_rate = 30.0f;           ///< frames per second of animation time
+    float frame_rate = 30.0f;  ///< frames per second of animation time
     std::vector<SceneWarning> warnings;
-    bool draws_backs = true;  ///< single-sided surfaces are seen from behind, too, against glTF 2.0, section 3.9.5
-    std::string content_hash;           ///< of every file and override that the rendered light depends on
-    MemoryShare memory = {};            ///< that of textures, meshes and the environment
+    bool draws_backs = true;   ///< single-sided surfaces are seen from behind, too, against glTF 2.0, section 3.9.5
+    std::string content_hash;  ///< of every file and override that the rendered light depends on
+    MemoryShare memory = {};   ///< that of textures, meshes and the environment
 
     const SceneCamera& camera(const std::string& name) const;  ///< "": the first; Error with a near miss if unknown
     size_t triangle_count() const;                             ///< over all instances

@@ -4,10 +4,10 @@
 #include "core/files.h"
 #include "core/json.h"
 #include "core/scene/load_scene.h"
+#include "experiments/results/cells/image_path.h"
+#include "experiments/results/verdicts/summary.h"
 #include "experiments/study/config/points/external_images.h"
 #include "experiments/study/config/shots/capture_folder.h"
-#include "experiments/results/verdicts/summary.h"
-#include "experiments/results/cells/image_path.h"
 
 #include <re2/re2.h>
 #include <algorithm>

@@ -1,10 +1,10 @@
 #include "experiments/report/diff_page.h"
 
 #include "core/files.h"
-#include "experiments/results/tables/targets.h"
 #include "experiments/report/report.h"
 #include "experiments/report/report_data.h"
 #include "experiments/report/report_images.h"
+#include "experiments/results/tables/targets.h"
 
 #include <algorithm>
 #include <array>

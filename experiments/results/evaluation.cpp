@@ -3,13 +3,13 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/path_inside.h"
+#include "experiments/results/tables/columns.h"
+#include "experiments/results/tables/manifest.h"
+#include "experiments/results/tradeoff/pairs.h"
 #include "experiments/results/verdicts/effects/over_scenes.h"
 #include "experiments/results/verdicts/effects/time_effects.h"
 #include "experiments/results/verdicts/standings.h"
 #include "experiments/results/verdicts/study_points.h"
-#include "experiments/results/tradeoff/pairs.h"
-#include "experiments/results/tables/manifest.h"
-#include "experiments/results/tables/columns.h"
 
 #include <algorithm>
 

@@ -1,11 +1,11 @@
 #include "experiments/results/results_schema.h"
 
 #include "core/files.h"
+#include "experiments/results/cells/estimate_table.h"
 #include "experiments/results/verdicts/effects/effects.h"
 #include "experiments/results/verdicts/effects/over_scenes.h"
 #include "experiments/results/verdicts/effects/time_effects.h"
 #include "experiments/results/verdicts/summary.h"
-#include "experiments/results/cells/estimate_table.h"
 
 #include <map>
 

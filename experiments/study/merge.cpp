@@ -1,10 +1,10 @@
 #include "core/error.h"
 #include "core/files.h"
+#include "experiments/results/cells/image_path.h"
+#include "experiments/study/folder_owner.h"
 #include "experiments/study/measuring/times/timing.h"
 #include "experiments/study/run.h"
 #include "experiments/study/study_results.h"
-#include "experiments/study/folder_owner.h"
-#include "experiments/results/cells/image_path.h"
 
 #include <algorithm>
 #include <map>

@@ -1,8 +1,8 @@
 #include "experiments/study/parameters_table.h"
 
 #include "core/files.h"
-#include "experiments/results/tables/csv.h"
 #include "experiments/results/results_schema.h"
+#include "experiments/results/tables/csv.h"
 #include "experiments/study/config/points/variant_of.h"
 
 #include <map>

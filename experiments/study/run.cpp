@@ -5,14 +5,14 @@
 #include "core/files.h"
 #include "core/json.h"
 #include "core/scene/load_scene.h"
+#include "experiments/results/cells/finished_run.h"
+#include "experiments/results/cells/host_info.h"
+#include "experiments/study/folder_owner.h"
+#include "experiments/study/manifest_entries.h"
 #include "experiments/study/measuring/costs/gpu_estimates.h"
 #include "experiments/study/plan/ranking_warnings.h"
 #include "experiments/study/shots/shot_cells.h"
 #include "experiments/study/study_results.h"
-#include "experiments/results/cells/finished_run.h"
-#include "experiments/study/folder_owner.h"
-#include "experiments/results/cells/host_info.h"
-#include "experiments/study/manifest_entries.h"
 
 #include <unistd.h>
 #include <algorithm>

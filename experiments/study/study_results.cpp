@@ -1,15 +1,15 @@
 #include "experiments/study/study_results.h"
 
 #include "core/files.h"
-#include "experiments/study/parameters_table.h"
-#include "experiments/results/evaluation.h"
-#include "experiments/study/measuring/times/timing.h"
 #include "experiments/results/cells/host_info.h"
-#include "experiments/study/config/comparisons.h"
-#include "experiments/study/manifest_entries.h"
 #include "experiments/results/cells/provenance.h"
 #include "experiments/results/cells/stale_files.h"
 #include "experiments/results/cells/study_rows.h"
+#include "experiments/results/evaluation.h"
+#include "experiments/study/config/comparisons.h"
+#include "experiments/study/manifest_entries.h"
+#include "experiments/study/measuring/times/timing.h"
+#include "experiments/study/parameters_table.h"
 #include "experiments/study/technique_copies.h"
 
 #include <sys/resource.h>
@@ -88,7 +88,8 @@ StudyAnswers write_results(StudySession& study, bool is_complete, const nlohmann
         write_tables(study.settings.out, rows);
         write_parameters(study.settings.out, study.config.variants);
         write_technique_copies(study.settings.out, study.config.variants);
-        write_evaluation(study.settings.out, rows, manifest, compared_points(study.config.variants), study.config.primary);
+        write_evaluation(study.settings.out, rows, manifest, compared_points(study.config.variants),
+                         study.config.primary);
     }
     StudyAnswers answers;
     if (study.settings.write_report) {

@@ -16,7 +16,7 @@ struct ShadedPoint {
     glm::vec3 base_color;
     float metalness = 0, roughness = 0, specular = 0;
     glm::vec3 dielectric_f0{usual_dielectric_f0};  ///< see specular_f0()
-    glm::vec3 emitted;  ///< radiance towards the viewer (W sr^-1 m^-2)
+    glm::vec3 emitted;                             ///< radiance towards the viewer (W sr^-1 m^-2)
     bool is_unlit = false;
 };
 

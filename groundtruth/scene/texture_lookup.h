@@ -10,8 +10,8 @@
 glm::vec4 sample_texture(const Texture& texture, glm::vec2 uv);
 
 /// The textures that shading reads, copied for paths, which come from anywhere to any texel: in tiles of 4x4 texels, a
-/// cache line each (two of 16 bits), of which a bilinear lookup touches 1.6 in the mean, and 2.1 lines of rows; and in huge pages where
-/// the system gives them, for a row of 1024 texels is a page of 4 KiB.
+/// cache line each (two of 16 bits), of which a bilinear lookup touches 1.6 in the mean, and 2.1 lines of rows; and in
+/// huge pages where the system gives them, for a row of 1024 texels is a page of 4 KiB.
 class TiledTextures {
 public:
     /// Of the textures of `scene` those of base colours, metalness and roughness, normals and emission; texels that

@@ -86,8 +86,9 @@ TEST(ImageFormat, BecomesWhatCanBeCompared) {
     EXPECT_EQ(why("II*\0\x08\0\0\0"s, ImageUse::comparison),
               "is a TIFF; convert it: oiiotool a.img -o a.exr (if it holds display codes: -o a.png)");
     EXPECT_EQ(why("BM\x36\0\0\0"s, ImageUse::comparison), "is a BMP; convert it: oiiotool a.img -o a.png");
-    EXPECT_EQ(why("\xFF\xD8\xFF\xE0"s, ImageUse::comparison, "a.jpg"),
-              "is a JPEG, whose losses would count as errors; if they are to count, convert it: oiiotool a.jpg -o a.png");
+    EXPECT_EQ(
+        why("\xFF\xD8\xFF\xE0"s, ImageUse::comparison, "a.jpg"),
+        "is a JPEG, whose losses would count as errors; if they are to count, convert it: oiiotool a.jpg -o a.png");
     EXPECT_NE(why("RIFF\x24\0\0\0WEBPVP8 "s, ImageUse::comparison).find("is a WebP, whose losses"), std::string::npos);
     for (const std::string& read : {"\x89PNG\r\n\x1A\n"s, "\x76\x2F\x31\x01"s, "#?RADIANCE\n"s})
         EXPECT_EQ(why(read, ImageUse::comparison), "");

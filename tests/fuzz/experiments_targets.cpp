@@ -1,12 +1,12 @@
 // The readers of studies, techniques' folders, tables of cases, and results.
 #include "core/files.h"
 #include "core/json.h"
-#include "experiments/study/config/config.h"
-#include "experiments/results/verdicts/study_tables.h"
 #include "experiments/bridges/inspect/page.h"
 #include "experiments/results/cells/cell.h"
-#include "experiments/study/stability/stability_case.h"
 #include "experiments/results/tables/columns.h"
+#include "experiments/results/verdicts/study_tables.h"
+#include "experiments/study/config/config.h"
+#include "experiments/study/stability/stability_case.h"
 #include "tests/fuzz/targets.h"
 #include "variants/declared/declared_entry.h"
 

@@ -8,8 +8,8 @@
 #include <limits>
 #include <random>
 
-/// Of 8 and of 16 bits: sizes that fill their tiles and that do not, all ways to wrap and to filter, texels that two textures show, and
-/// coordinates far outside.
+/// Of 8 and of 16 bits: sizes that fill their tiles and that do not, all ways to wrap and to filter, texels that two
+/// textures show, and coordinates far outside.
 TEST(TiledTextures, HoldTheTexelsOfTheScene) {
     std::mt19937 random(1);
     Scene scene;
@@ -20,7 +20,8 @@ TEST(TiledTextures, HoldTheTexelsOfTheScene) {
         return make_texels(std::move(rgba));
     };
     scene.textures.push_back({.extent = {2, 2}, .rgba = texels_of({2, 2})});
-    for (const glm::uvec3 kind : {glm::uvec3(1, 1, 1), {3, 5, 1}, {3, 5, 2}, {4, 4, 1}, {17, 6, 2}, {17, 6, 1}, {64, 256, 1}}) {
+    for (const glm::uvec3 kind :
+         {glm::uvec3(1, 1, 1), {3, 5, 1}, {3, 5, 2}, {4, 4, 1}, {17, 6, 2}, {17, 6, 1}, {64, 256, 1}}) {
         const glm::uvec2 extent(kind);
         const Texels texels = texels_of(extent, kind.z);
         for (const TextureWrap u : wraps)

@@ -50,9 +50,15 @@ std::map<std::string, Recorded> recorded_on_codes() {
 }
 
 /// Recorded in the full vectors, and no metrics here.
-const std::set<std::string> not_measured = {"rmse", "relmse_lum_eps1e-2", "smape_eps1e-2", "mape_eps1e-2",
-                                            "ssim_skimage_luma709", "relmse_eps1e-3_sqref",
-                                            "relmse_pbrt_sq(ref+0.01)", "ssim_skimage_samplecov", "ms_ssim"};
+const std::set<std::string> not_measured = {"rmse",
+                                            "relmse_lum_eps1e-2",
+                                            "smape_eps1e-2",
+                                            "mape_eps1e-2",
+                                            "ssim_skimage_luma709",
+                                            "relmse_eps1e-3_sqref",
+                                            "relmse_pbrt_sq(ref+0.01)",
+                                            "ssim_skimage_samplecov",
+                                            "ms_ssim"};
 
 double number(const nlohmann::json& value) {
     return value.is_string() && value == "inf" ? INFINITY : value.get<double>();

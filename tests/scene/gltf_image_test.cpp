@@ -137,11 +137,17 @@ TEST_F(Images, ThatCannotBeDecodedAreNamed) {
         writer.json["images"] = {{{"uri", name}}};
         return error_message([&] { load(); });
     };
-    EXPECT_NE(message("a.png", "version https://git-lfs.github.com/spec/v1\n").find("image 0 ('a.png') cannot be decoded: it is a pointer of Git LFS"), std::string::npos);
-    EXPECT_NE(message("b.png", "\xABKTX 20\xBB\r\n\x1A\n").find("it is a KTX 2 texture; convert it: ktx extract --transcode rgba8 b.png b.png"), std::string::npos);
+    EXPECT_NE(message("a.png", "version https://git-lfs.github.com/spec/v1\n")
+                  .find("image 0 ('a.png') cannot be decoded: it is a pointer of Git LFS"),
+              std::string::npos);
+    EXPECT_NE(message("b.png", "\xABKTX 20\xBB\r\n\x1A\n")
+                  .find("it is a KTX 2 texture; convert it: ktx extract --transcode rgba8 b.png b.png"),
+              std::string::npos);
     std::string damaged = png;
     damaged[damaged.find("IDAT") + 9] ^= 1;
-    EXPECT_NE(message("c.png", damaged).find("image 0 ('c.png') cannot be decoded: as a PNG it is broken: IDAT: CRC error"), std::string::npos);
+    EXPECT_NE(
+        message("c.png", damaged).find("image 0 ('c.png') cannot be decoded: as a PNG it is broken: IDAT: CRC error"),
+        std::string::npos);
 }
 
 TEST_F(Images, WithHarmlessFaultsAreWarnedAbout) {

@@ -1,8 +1,8 @@
 // The four-mode pass: its printed numbers, its fades, its mixture of draws, its blend over time.
+#include "tests/variants/changed.h"
 #include "tests/variants/mirror_scenes.h"
 #include "tests/variants/rough_floor.h"
 #include "tests/variants/variant_fixture.h"
-#include "tests/variants/changed.h"
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>

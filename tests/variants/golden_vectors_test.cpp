@@ -22,14 +22,21 @@ const std::string still_set = "S[12]_640x384/", frame = "S[12]_(denoise|seq)_[^/
 
 TEST(GoldenVectors, OfMostKindsAreInEveryFolder) {
     const std::vector<std::string> forms = {
-        "amd/" + still_set + "classify(_spq[12])?.exr", "amd/" + still_set + "hit_p[14].exr",
-        "amd/" + still_set + "hiz_mip[1-6].exr", "amd/" + still_set + "tiles.exr",
+        "amd/" + still_set + "classify(_spq[12])?.exr",
+        "amd/" + still_set + "hit_p[14].exr",
+        "amd/" + still_set + "hiz_mip[1-6].exr",
+        "amd/" + still_set + "tiles.exr",
         "amd/" + frame + "(average|gbuffer|intersect|prefilter|reproject|resolve|tiles).exr",
-        "diligent/" + still_set + "color_p1.exr", "diligent/" + still_set + "hit_p[123].exr",
-        "diligent/" + still_set + "hiz_mip[1-6].exr", "diligent/" + still_set + "mask_rthr0.(2|65).exr",
-        "diligent/" + still_set + "spatial_p1_(head|seed).exr", "diligent/" + still_set + "spatial_p1_rthr0.2_(head|seed).exr",
-        "diligent/" + still_set + "spatial_p3_head.exr", "diligent/" + frame + "aux.exr",
-        "diligent/" + frame + "spatial_(head|seed).exr", "diligent/" + frame + "temporal_(head|seed)_(0.9|1).exr",
+        "diligent/" + still_set + "color_p1.exr",
+        "diligent/" + still_set + "hit_p[123].exr",
+        "diligent/" + still_set + "hiz_mip[1-6].exr",
+        "diligent/" + still_set + "mask_rthr0.(2|65).exr",
+        "diligent/" + still_set + "spatial_p1_(head|seed).exr",
+        "diligent/" + still_set + "spatial_p1_rthr0.2_(head|seed).exr",
+        "diligent/" + still_set + "spatial_p3_head.exr",
+        "diligent/" + frame + "aux.exr",
+        "diligent/" + frame + "spatial_(head|seed).exr",
+        "diligent/" + frame + "temporal_(head|seed)_(0.9|1).exr",
         "diligent/" + frame + "bilateral_(head|seed)_(0.9|1).exr"};
     for (const auto& [form, count] : counts(forms)) EXPECT_GE(count, 2u) << form << " in " << golden_folder();
 }

@@ -1,7 +1,7 @@
 // The resolve ratio_accumulation, with rays that the tests make up, against closed forms.
+#include "tests/variants/changed.h"
 #include "tests/variants/probe_lookup.h"
 #include "tests/variants/ratio_accumulation_fixture.h"
-#include "tests/variants/changed.h"
 
 #include <glm/gtc/constants.hpp>
 #include <limits>

@@ -2,10 +2,10 @@
 // finite, keep constant light constant, and say which stages they have.
 #include "variants/resolves/resolves.h"
 #include "core/error.h"
-#include "tests/variants/technique_passes.h"
 #include "tests/variants/amd_scenes.h"
 #include "tests/variants/mirror_scenes.h"
 #include "tests/variants/rough_floor.h"
+#include "tests/variants/technique_passes.h"
 #include "tests/variants/variant_fixture.h"
 
 #include <optional>

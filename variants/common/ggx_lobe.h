@@ -23,10 +23,10 @@ SHARED vec3 sample_truncated_normal(float alpha, float bias, vec2 u) {
 /// Where the normal +z, which mirrors o, lies on the unit disk of sample_truncated_visible_normal(). v: o stretched.
 SHARED vec2 mirror_on_disk(vec3 v) { return vec2(-v.x, -v.y) / (1.0f + v.z); }
 
-/// A visible normal (unit). A point of the unit disk is a point of the spherical cap of Dupuy and Benyoub 2023, "Sampling
-/// Visible GGX Normals with Spherical Caps", by the map that keeps areas. Drawing the disk together by sqrt(1 - bias)
-/// towards +z's place on it leaves a disk of 1 - bias of its area, which holds +z for every bias and view; about the
-/// centre of the disk, oblique views would lose their peak. u in [0, 1)^2.
+/// A visible normal (unit). A point of the unit disk is a point of the spherical cap of Dupuy and Benyoub 2023,
+/// "Sampling Visible GGX Normals with Spherical Caps", by the map that keeps areas. Drawing the disk together by sqrt(1
+/// - bias) towards +z's place on it leaves a disk of 1 - bias of its area, which holds +z for every bias and view;
+/// about the centre of the disk, oblique views would lose their peak. u in [0, 1)^2.
 SHARED vec3 sample_truncated_visible_normal(vec3 o, float alpha, float bias, vec2 u) {
     vec3 v = normalize(vec3(alpha * o.x, alpha * o.y, o.z));
     vec2 p = mix(mirror_on_disk(v), sqrt(u.x) * unit_circle(u.y), sqrt(1.0f - bias));

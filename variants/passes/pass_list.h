@@ -1,7 +1,7 @@
 #pragma once
-#include "variants/variant.h"
 #include "variants/passes/provided_images.h"
 #include "variants/passes/technique.h"
+#include "variants/variant.h"
 
 #include <span>
 

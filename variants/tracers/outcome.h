@@ -14,5 +14,5 @@ const uint outcome_from_behind = 6u;    ///< it met the side of a surface that t
 const uint outcome_own_surface = 7u;    ///< it met what it started from
 const uint outcome_hidden = 8u;         ///< it met something that the screen does not show: only exact_scene knows
 const uint outcome_count = 9u;
-const uint outcome_unanswered = 9u;     ///< the march decides: only of ExactHit, with exact_rays
+const uint outcome_unanswered = 9u;  ///< the march decides: only of ExactHit, with exact_rays
 #endif

@@ -2,9 +2,9 @@
 #include "core/parameters.h"
 #include "core/scene/camera.h"
 #include "core/scene/scene.h"
-#include "experiments/study/config/shots/scene_warnings.h"
 #include "experiments/bridges/inspect/channel_range.h"
 #include "experiments/bridges/inspect/describe.h"
+#include "experiments/study/config/shots/scene_warnings.h"
 
 #include <cmath>
 #include <map>

@@ -3,8 +3,8 @@
 #include "core/files.h"
 #include "core/json.h"
 #include "core/path_inside.h"
-#include "experiments/results/cells/host_info.h"
 #include "experiments/live/watch/watched_files.h"
+#include "experiments/results/cells/host_info.h"
 
 namespace fs = std::filesystem;
 

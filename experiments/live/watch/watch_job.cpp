@@ -2,8 +2,8 @@
 
 #include "core/elapsed.h"
 #include "core/files.h"
-#include "experiments/results/cells/host_info.h"
 #include "experiments/live/watch/watch_study.h"
+#include "experiments/results/cells/host_info.h"
 
 #include <limits>
 

@@ -1,6 +1,6 @@
 #pragma once
-#include "experiments/results/verdicts/effects/over_scenes.h"
 #include "experiments/live/watch/watch_settings.h"
+#include "experiments/results/verdicts/effects/over_scenes.h"
 
 /// A technique as a study that is written for a watch has it.
 struct WatchedPoint {

@@ -1,9 +1,9 @@
 #include "experiments/results/tradeoff/draws.h"
 
 #include "experiments/results/tradeoff/numpy_random.h"
+#include "metrics/statistics/estimates.h"
 #include "metrics/statistics/median_interval.h"
 #include "metrics/statistics/quantiles.h"
-#include "metrics/statistics/estimates.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
+#include "experiments/results/tables/counts_spread.h"
 #include "experiments/results/verdicts/effects/over_scenes.h"
 #include "experiments/results/verdicts/study_tables.h"
-#include "experiments/results/tables/counts_spread.h"
 
 #include <map>
 #include <set>

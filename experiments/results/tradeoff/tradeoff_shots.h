@@ -1,7 +1,7 @@
 #pragma once
-#include "experiments/results/verdicts/effects/over_scenes.h"
 #include "experiments/results/tradeoff/chosen_points.h"
 #include "experiments/results/tradeoff/tradeoff.h"
+#include "experiments/results/verdicts/effects/over_scenes.h"
 
 // The shots of a study as tradeoff.cpp and chosen_points.cpp share them.
 

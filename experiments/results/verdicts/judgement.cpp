@@ -1,9 +1,9 @@
 #include "experiments/results/verdicts/judgement.h"
 
 #include "core/error.h"
-#include "experiments/results/verdicts/power.h"
 #include "experiments/results/cells/cell.h"
 #include "experiments/results/cells/reference_noise.h"
+#include "experiments/results/verdicts/power.h"
 
 #include <cmath>
 #include <map>

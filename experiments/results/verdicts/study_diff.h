@@ -1,6 +1,6 @@
 #pragma once
-#include "experiments/results/verdicts/study_tables.h"
 #include "experiments/results/tables/columns.h"
+#include "experiments/results/verdicts/study_tables.h"
 
 #include <array>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
-#include "experiments/results/verdicts/effects/effects.h"
 #include "experiments/results/cells/cell.h"
+#include "experiments/results/verdicts/effects/effects.h"
 
 #include <filesystem>
 #include <map>

@@ -1,8 +1,8 @@
 #pragma once
 #include "core/gpu/device.h"
+#include "experiments/results/cells/host_info.h"
 #include "experiments/study/config/config.h"
 #include "experiments/study/measuring/costs/compiled_shaders.h"
-#include "experiments/results/cells/host_info.h"
 
 #include <functional>
 #include <string>
@@ -29,8 +29,8 @@ struct PlannedCell {
 struct PlannedShot {
     ShotConfig config;
     std::string name;
-    nlohmann::json entry;            ///< of the manifest, as far as it is known before anything is rendered
-    std::vector<PlannedCell> cells;  ///< the references first, the times last
+    nlohmann::json entry;                     ///< of the manifest, as far as it is known before anything is rendered
+    std::vector<PlannedCell> cells;           ///< the references first, the times last
     std::vector<std::string> scene_warnings;  ///< with its name, but those of shots before
 };
 

@@ -1,8 +1,8 @@
 #pragma once
 #include "core/gbuffer/gbuffer_file.h"
 #include "core/json.h"
-#include "experiments/study/config/config.h"
 #include "experiments/results/stability/stability_rows.h"
+#include "experiments/study/config/config.h"
 
 /// What a case draws: a shot, changed. The keys of cases.json by the same names; README.md explains them.
 struct CaseScene {

@@ -1,7 +1,7 @@
 // Judging a renderer's frames: that what errs as before passes, what errs more fails, and nothing passes that could not
 // be compared. How often it is wrong is measured by judge_study.
-#include "experiments/report/report.h"
 #include "experiments/bridges/judge.h"
+#include "experiments/report/report.h"
 
 #include "core/error.h"
 #include "tests/experiments/study/external_fixture.h"

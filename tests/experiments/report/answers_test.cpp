@@ -1,9 +1,9 @@
 // What a study says of a shot at first sight, of made-up tables.
 #include "experiments/results/answers/answers.h"
 
+#include "experiments/results/answers/scenes_answer.h"
 #include "experiments/results/verdicts/interval.h"
 #include "experiments/results/verdicts/standings.h"
-#include "experiments/results/answers/scenes_answer.h"
 
 #include <gtest/gtest.h>
 

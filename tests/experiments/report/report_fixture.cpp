@@ -5,7 +5,6 @@
 #include "experiments/results/cells/study_rows.h"
 #include "experiments/results/evaluation.h"
 #include "experiments/results/tables/manifest.h"
-#include "experiments/results/cells/study_rows.h"
 
 #include <cmath>
 #include <random>

@@ -5,11 +5,10 @@
 #include "core/files.h"
 #include "experiments/results/cells/study_rows.h"
 #include "experiments/results/evaluation.h"
+#include "experiments/results/tables/manifest.h"
 #include "experiments/results/verdicts/effects/effects.h"
 #include "experiments/results/verdicts/effects/time_effects.h"
 #include "experiments/results/verdicts/interval.h"
-#include "experiments/results/tables/manifest.h"
-#include "experiments/results/cells/study_rows.h"
 
 #include <random>
 #include <vector>

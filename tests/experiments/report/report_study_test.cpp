@@ -1,7 +1,7 @@
 #include "core/files.h"
 #include "core/json.h"
-#include "experiments/report/report_data.h"
 #include "experiments/report/report.h"
+#include "experiments/report/report_data.h"
 #include "experiments/results/result_tables.h"
 #include "tests/experiments/report/report_study_fixture.h"
 

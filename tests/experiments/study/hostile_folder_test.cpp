@@ -2,9 +2,9 @@
 #include "core/error.h"
 #include "core/json.h"
 #include "experiments/report/report.h"
-#include "experiments/study/measuring/times/timing.h"
 #include "experiments/results/cells/cell_store.h"
 #include "experiments/results/cells/image_path.h"
+#include "experiments/study/measuring/times/timing.h"
 #include "tests/error_message.h"
 #include "tests/experiments/study/study_fixture.h"
 

@@ -96,8 +96,8 @@ TEST_F(StudyTest, AnswersAFewRaysByTheScene) {
     std::map<std::string, std::vector<double>> errors;
     for (const ResultRow& row : read_rows<ResultRow>(run(read_config(folder / "study.json"), "a") / "results.csv"))
         errors[row.point].push_back(*row.value);
-    const std::vector<double> &march = errors.at("default"), &random = errors.at("exact_rays=random"),
-                              &oracle = errors.at("exact_rays=oracle");
+    const std::vector<double>&march = errors.at("default"), &random = errors.at("exact_rays=random"),
+          &oracle = errors.at("exact_rays=oracle");
     EXPECT_EQ(march.size(), 1u) << "no random number is drawn";
     ASSERT_EQ(random.size(), 2u);
     EXPECT_NE(random[0], random[1]);

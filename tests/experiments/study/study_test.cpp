@@ -4,8 +4,8 @@
 #include "core/gpu/device.h"
 #include "core/json.h"
 #include "experiments/report/report.h"
-#include "experiments/study/plan/study_plan.h"
 #include "experiments/results/cells/cell_store.h"
+#include "experiments/study/plan/study_plan.h"
 #include "groundtruth/reference/reference_file.h"
 #include "tests/experiments/study/study_fixture.h"
 
@@ -137,8 +137,12 @@ TEST_F(StudyTest, PartsMakeTheWhole) {
                           .cells = cells});
     };
     const auto merge = [&](const std::vector<fs::path>& parts, const std::string& out) {
-        return merge_study(
-            study, {.out = folder / out, .device = "", .search_path = {fs::path(SSRLAB_SOURCE_DIR) / "scenes"}, .write_report = write_page}, parts);
+        return merge_study(study,
+                           {.out = folder / out,
+                            .device = "",
+                            .search_path = {fs::path(SSRLAB_SOURCE_DIR) / "scenes"},
+                            .write_report = write_page},
+                           parts);
     };
     run_part("a", {"references"});
     run_part("b", {"renders", "shot=fence.*"});
@@ -188,9 +192,12 @@ TEST_F(StudyTest, PartsOfADeviceThatIsNotHereAreMerged) {
     fs::copy(folder / "here", folder / "there", fs::copy_options::recursive);
     make_on_another_device(study, folder / "there", "Graphics 9000");
     const auto merge = [&](const std::vector<fs::path>& parts, const std::string& device, const std::string& out) {
-        return merge_study(
-            study, {.out = folder / out, .device = device, .search_path = {fs::path(SSRLAB_SOURCE_DIR) / "scenes"}, .write_report = write_page},
-            parts);
+        return merge_study(study,
+                           {.out = folder / out,
+                            .device = device,
+                            .search_path = {fs::path(SSRLAB_SOURCE_DIR) / "scenes"},
+                            .write_report = write_page},
+                           parts);
     };
     const auto device_of = [&](const std::string& out) {
         return read_json(folder / out / "manifest.json")["provenance"][0]["device"]["name"].get<std::string>();
@@ -227,10 +234,13 @@ TEST_F(StudyTest, WhatWasMeasuredAgainstAnotherTruthIsNotUsed) {
     fs::remove(of_references);
     EXPECT_NE(read_text(run(study, "a") / "results.csv"), before) << "all cells of the shot are done again";
     EXPECT_EQ(read_json(folder / "a/manifest.json")["run"]["cells_made"], 3);
-    EXPECT_THROW(
-        merge_study(study, {.out = folder / "c", .device = "", .search_path = {fs::path(SSRLAB_SOURCE_DIR) / "scenes"}, .write_report = write_page},
-                    {folder / "a", folder / "b"}),
-        Error);
+    EXPECT_THROW(merge_study(study,
+                             {.out = folder / "c",
+                              .device = "",
+                              .search_path = {fs::path(SSRLAB_SOURCE_DIR) / "scenes"},
+                              .write_report = write_page},
+                             {folder / "a", folder / "b"}),
+                 Error);
 }
 
 TEST_F(StudyTest, WhatIsFinishedIsNotReadAgain) {

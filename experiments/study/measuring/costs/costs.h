@@ -1,7 +1,7 @@
 #pragma once
+#include "experiments/results/cells/cell.h"
 #include "experiments/study/config/config.h"
 #include "experiments/study/config/shots/shot.h"
-#include "experiments/results/cells/cell.h"
 #include "experiments/study/measuring/frames/frame_source.h"
 
 #include <functional>

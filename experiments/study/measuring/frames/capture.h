@@ -57,8 +57,8 @@ struct CaptureContents {
 /// before that are not those of the frame before it.
 CaptureContents inspect_capture(const Shot& shot, Capture& capture);
 
-/// The reference of a frame: the last run of # in what the config says stands for its number, with leading zeros. A file
-/// whose name has these signs serves all frames: who has folders like "take#2" means no number.
+/// The reference of a frame: the last run of # in what the config says stands for its number, with leading zeros. A
+/// file whose name has these signs serves all frames: who has folders like "take#2" means no number.
 std::filesystem::path capture_reference_file(const ShotConfig& config, unsigned frame);
 
 /// Fails if the reference has another size than the frame, was evidently made from another camera (its first hits must

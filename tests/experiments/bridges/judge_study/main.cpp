@@ -4,9 +4,9 @@
 //
 //     judge_study [RUNS [WIDTH HEIGHT]]      # a row of Markdown for each scene and technique
 #include "core/error.h"
-#include "experiments/results/verdicts/judgement.h"
 #include "experiments/results/cells/cell_store.h"
 #include "experiments/results/cells/study_rows.h"
+#include "experiments/results/verdicts/judgement.h"
 #include "tests/experiments/study/external_fixture.h"
 
 #include <unistd.h>

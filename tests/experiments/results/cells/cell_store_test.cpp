@@ -2,8 +2,8 @@
 #include "experiments/results/cells/cell_store.h"
 #include "core/files.h"
 #include "core/json.h"
-#include "experiments/results/cells/provenance.h"
 #include "experiments/results/cells/image_path.h"
+#include "experiments/results/cells/provenance.h"
 #include "experiments/results/cells/stale_files.h"
 
 #include <gtest/gtest.h>

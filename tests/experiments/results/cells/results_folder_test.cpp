@@ -5,8 +5,8 @@
 #include "experiments/report/report.h"
 #include "experiments/results/cells/cell_store.h"
 #include "experiments/results/cells/file_name.h"
-#include "experiments/study/folder_owner.h"
 #include "experiments/results/cells/image_path.h"
+#include "experiments/study/folder_owner.h"
 #include "tests/experiments/study/study_fixture.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // What seeds give: bias and variance, and the effects of points against a baseline.
 #include "experiments/results/verdicts/effects/effects.h"
+#include "experiments/results/cells/study_rows.h"
 #include "experiments/results/verdicts/interval.h"
 #include "experiments/study/measuring/splits.h"
-#include "experiments/results/cells/study_rows.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>

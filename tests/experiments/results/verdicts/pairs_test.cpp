@@ -1,9 +1,9 @@
 // Two points beside each other: by closed forms, and how often equal ones are said to differ, on heavy tails.
 #include "experiments/results/tradeoff/pairs.h"
 
+#include "experiments/results/tradeoff/other_costs.h"
 #include "experiments/results/verdicts/interval.h"
 #include "experiments/results/verdicts/standings.h"
-#include "experiments/results/tradeoff/other_costs.h"
 
 #include <gtest/gtest.h>
 #include <cmath>

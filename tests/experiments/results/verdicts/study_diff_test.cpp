@@ -4,10 +4,10 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "experiments/cli/diff_command.h"
-#include "experiments/results/evaluation.h"
-#include "experiments/results/verdicts/study_points.h"
-#include "experiments/results/tables/manifest.h"
 #include "experiments/results/cells/study_rows.h"
+#include "experiments/results/evaluation.h"
+#include "experiments/results/tables/manifest.h"
+#include "experiments/results/verdicts/study_points.h"
 
 #include <gtest/gtest.h>
 #include <cmath>

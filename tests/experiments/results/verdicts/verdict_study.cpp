@@ -2,11 +2,11 @@
 // everything that decides. Prints the table of metrics/README.md, "False alarms".
 //
 // usage: verdict_study [STUDIES]    of each kind; 1000 take 2 minutes on a core
+#include "experiments/results/tradeoff/pairs.h"
 #include "experiments/results/verdicts/effects/over_scenes.h"
 #include "experiments/results/verdicts/judgement.h"
 #include "experiments/results/verdicts/standings.h"
 #include "experiments/results/verdicts/study_diff.h"
-#include "experiments/results/tradeoff/pairs.h"
 
 #include <algorithm>
 #include <cmath>

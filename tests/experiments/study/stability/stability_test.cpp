@@ -1,10 +1,10 @@
 #include "experiments/study/stability/stability.h"
 #include "core/files.h"
 #include "core/scene/load_scene.h"
+#include "experiments/results/stability/stability_tables.h"
 #include "experiments/study/config/points/all_points.h"
 #include "experiments/study/stability/case_run.h"
 #include "experiments/study/stability/changed_shot.h"
-#include "experiments/results/stability/stability_tables.h"
 #include "tests/error_message.h"
 #include "tests/variants/variant_fixture.h"
 
