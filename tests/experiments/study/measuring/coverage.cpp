@@ -249,7 +249,7 @@ private:
                     splits.try_emplace(target, against).first->second.add(i, tested);
                 }
             }
-            for (ReferenceNoise& n : noise.means({.variant = name})) measured.noise.push_back(std::move(n));
+            for (ReferenceNoise& n : means_of(noise, {.variant = name})) measured.noise.push_back(std::move(n));
             for (const auto& [target, split] : splits)
                 for (SplitRow& row :
                      split_rows(split, masks_, {.variant = name, .target = target, .mask = {}}, images.size() > 1))
