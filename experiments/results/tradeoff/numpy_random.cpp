@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cmath>
+#include <numbers>
 
 namespace {
 
@@ -39,9 +40,11 @@ struct Ziggurat {
     std::array<double, 256> width, height;
 
     Ziggurat() {
-        constexpr double area = 0.00492867323399, bits = 4503599627370496.0;
+        constexpr double bits = 4503599627370496.0;
         const auto curve = [](double x) { return std::exp(-0.5 * x * x); };
         double x = tail;
+        const double beyond = std::sqrt(std::numbers::pi / 2) * std::erfc(tail / std::numbers::sqrt2);
+        const double area = tail * curve(tail) + beyond;
         const double lowest = area / curve(x);
         inside[0] = uint64_t(x / lowest * bits), inside[1] = 0;
         width[0] = lowest / bits, width[255] = x / bits;
