@@ -5,6 +5,7 @@
 #include "core/gbuffer/rasterizer.h"
 #include "core/gpu/device.h"
 #include "core/scene/load_scene.h"
+#include "experiments/gpu_costs/pass_cost.h"
 #include "experiments/study/measuring/rays/answered_rays.h"
 #include "experiments/study/measuring/rays/exact_rays.h"
 #include "experiments/study/measuring/rays/judged_hits.h"

@@ -1,3 +1,4 @@
+#include "experiments/gpu_costs/waves/pass_tracer.h"
 #include "experiments/study/measuring/costs/gpu_estimates.h"
 #include "core/error.h"
 #include "core/gpu/device.h"
@@ -50,7 +51,8 @@ struct GpuEstimates : testing::Test {
         open(point);
         const Renderer renderer(device(), shot.config.extent, point);
         renderer.graph->use_gpu_forms(true);
-        if (is_traced) renderer.graph->trace([](const PassTrace&) {});
+        PassTracer tracer([](const PassTrace&) {});
+        if (is_traced) renderer.graph->watch(&tracer);
         std::vector<float> values;
         for (const FrameStep& step : shot.steps) {
             const FrameStore::Frame frame = store->frame(step, lit(step));
