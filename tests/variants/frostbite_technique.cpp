@@ -1,5 +1,7 @@
 #include "tests/variants/frostbite_technique.h"
 
+#include "variants/registry.h"
+
 namespace {
 
 const Technique& frostbite() { return declared_technique("frostbite_sssr"); }
@@ -7,7 +9,8 @@ const Technique& frostbite() { return declared_technique("frostbite_sssr"); }
 }  // namespace
 
 Image frostbite_color_pyramid(PassGraph& graph, const Image& color) {
-    TechniquePasses passes(frostbite(), graph, {}, graph.params(), {{"hit_color", color}});
+    const auto whole = make_variant("frostbite_sssr");  // whose defaults say which images there are
+    TechniquePasses passes(frostbite(), graph, {}, whole->params, {{"hit_color", color}});
     passes.run("color_pyramid");
     return passes.image("color_pyramid");
 }
