@@ -3,6 +3,7 @@
 AccumulationBench::AccumulationBench(Device& device, glm::uvec2 extent, const nlohmann::json& overrides)
     : graph(device, extent) {
     parameters.params.assign(overrides);
+    parameters.params.assign({{"mask", "depth"}});  // as upload_mask() makes it
 }
 
 Image AccumulationBench::upload(const std::string& name, Format format, const HostImage& pixels) {

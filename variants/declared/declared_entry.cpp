@@ -24,7 +24,7 @@ std::string function_of(const std::string& slot) {
 }
 
 void read_tracers(JsonObject object, Technique& technique) {
-    know_keys(object, {"slots", "source", "defaults"});
+    know_keys(object, {"slots", "after", "source", "defaults"});
     for (JsonObject& of_slot : object.objects("slots")) {
         know_keys(of_slot, {"name", "function", "default", "meaning"});
         TracerSlot slot{.name = variable_name(of_slot, "name"), .function = "", .initial = "", .doc = ""};
@@ -36,6 +36,12 @@ void read_tracers(JsonObject object, Technique& technique) {
         technique.slots.push_back(slot);
     }
     if (technique.slots.empty()) fail(object.at("slots"), ": 'slots' must name at least one tracer's place");
+    if (object.has("after")) {
+        const std::string name =
+            object.choice("after", names_of(technique.parameters, &Parameter::name), technique.parameters.back().name);
+        const auto found = std::ranges::find(technique.parameters, name, &Parameter::name);
+        technique.parameters_before_tracers = size_t(found - technique.parameters.begin()) + 1;
+    }
     technique.tracers_source = object.text("source", "");
     if (object.has("defaults")) technique.tracer_defaults = object.any("defaults");
     object.finish();
@@ -86,6 +92,7 @@ void refuse_repetition(const std::vector<DeclaredParameter>& declared, const Tec
 void read_parameters(JsonObject& root, ParameterReader& reader, Technique& technique) {
     const std::vector<DeclaredParameter> declared = reader.read(root);
     for (const DeclaredParameter& one : declared) technique.parameters.push_back(one.parameter);
+    technique.parameters_before_tracers = declared.size();
     if (root.has("tracers")) read_tracers(root.object("tracers"), technique);
     if (root.has("resolve")) read_resolve(root.object("resolve"), technique);
     refuse_repetition(declared, technique);

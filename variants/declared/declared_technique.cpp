@@ -34,8 +34,12 @@ private:
     Tracers own_parameters() {
         if (technique_->reads_inputs) add_block(params, "common/repair_inputs.json");
         if (technique_->resolve) add_block(params, "resolves/rays.json");
-        for (const Parameter& parameter : technique_->parameters) params.add(parameter);
-        return {params, technique_->slots, technique_->tracers_source, technique_->tracer_defaults};
+        const std::vector<Parameter>& own = technique_->parameters;
+        const auto rest = own.begin() + ptrdiff_t(technique_->parameters_before_tracers);
+        std::for_each(own.begin(), rest, [&](const Parameter& parameter) { params.add(parameter); });
+        Tracers tracers(params, technique_->slots, technique_->tracers_source, technique_->tracer_defaults);
+        std::for_each(rest, own.end(), [&](const Parameter& parameter) { params.add(parameter); });
+        return tracers;
     }
     KnownValues known() const { return technique_->known_values(params, facts_); }
     KnownValues of_any_shot() const { return technique_->known_values(params); }

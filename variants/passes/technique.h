@@ -201,6 +201,7 @@ struct Technique {
     bool reads_inputs = true;  ///< has shaders, and so the parameter `repair_inputs`
     std::vector<Parameter> parameters;
     std::vector<TracerSlot> slots;
+    size_t parameters_before_tracers = 0;  ///< of `parameters`, those of the tracers stand behind so many
     std::string tracers_source;
     nlohmann::json tracer_defaults = nlohmann::json::object();
     std::vector<DeclaredPyramid> pyramids;
