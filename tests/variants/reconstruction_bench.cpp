@@ -5,6 +5,7 @@
 ReconstructionBench::ReconstructionBench(Device& device, glm::uvec2 extent, const nlohmann::json& overrides)
     : graph(device, extent) {
     parameters.params.assign(overrides);
+    parameters.params.assign({{"mask", "depth"}});  // as run() makes it
 }
 
 Reconstruction ReconstructionBench::run(const ReconstructionInputs& inputs, const DiligentFilterParameters* targets) {
