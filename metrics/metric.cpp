@@ -34,7 +34,7 @@ std::vector<Plane> hdr_flip_layers(const ImagePair& pair) {
 
 std::vector<Metric> make_table() {
     std::vector<Metric> table = pixel_metrics();
-    const size_t first_of_most_one = table.size();  // a similarity, or an error in what an eye can tell apart
+    const size_t first_of_most_one = table.size();  // a similarity, or an error that an eye can see
     for (Metric& metric : ssim_metrics()) table.push_back(std::move(metric));
     table.push_back({"flip", "flip_ldr", "1", Better::lower, Domain::display,
                      "mean LDR-FLIP of the codes (Andersson et al. 2020)", flip_layers, pooled_mean});

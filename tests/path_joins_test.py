@@ -20,7 +20,7 @@ SCENE = "scenes have a rule of their own: file_below() (core/reading_limits.h)"
 ALLOWED = {
     ("core/path_inside.cpp", "path /= part"): "the one way",
     ("variants/registry.cpp", "base / text"): REQUEST,
-    ("variants/declared/technique_files.cpp", "fs::path(SSRLAB_SOURCE_DIR) / folder"): PROGRAM,
+    ("variants/passes/technique_files.cpp", "fs::path(SSRLAB_SOURCE_DIR) / folder"): PROGRAM,
     ("core/reading_limits.cpp", "folder / name"): SCENE,
     ("core/scene/gltf/gltf_uri.cpp", "folder / name"): SCENE,
     ("core/scene/load_scene.cpp", "folder / name"): SCENE,

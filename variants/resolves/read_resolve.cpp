@@ -1,6 +1,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/near_miss.h"
+#include "core/path_inside.h"
 #include "variants/common/names.h"
 #include "variants/common/parameter_block.h"
 #include "variants/passes/check_frames.h"
@@ -99,7 +100,7 @@ ResolveEntry read_resolve(const std::string& name) {
 
     ContentHash hash;
     hash.add(document.value.dump());
-    for (const std::string& block : reader.of_ssrlab) hash.add(read_text(root_folder / block));
+    for (const std::string& block : reader.of_ssrlab) hash.add(read_text(path_inside(root_folder, block)));
     entry.content_hash = hash.hex();
     entry.sources = read.sources;
     entry.passes = technique;

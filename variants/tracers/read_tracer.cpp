@@ -1,5 +1,6 @@
 #include "core/error.h"
 #include "core/files.h"
+#include "core/path_inside.h"
 #include "variants/common/names.h"
 #include "variants/common/parameter_block.h"
 #include "variants/tracers/tracer.h"
@@ -66,7 +67,7 @@ TracerEntry read_tracer(const std::string& file) {
     root.finish();
     ContentHash hash;
     hash.add(document.value.dump());
-    for (const std::string& block : reader.of_ssrlab) hash.add(read_text(fs::path(SSRLAB_SOURCE_DIR) / block));
+    for (const std::string& block : reader.of_ssrlab) hash.add(read_text(path_inside(SSRLAB_SOURCE_DIR, block)));
     tracer.content_hash = hash.hex();
     return tracer;
 }

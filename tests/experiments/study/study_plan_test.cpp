@@ -83,7 +83,7 @@ TEST_F(StudyPlanTest, AnEditRedoesTheCellsThatItMayChange) {
     EXPECT_EQ(changed("experiments/study/measuring/times/timing.cpp"), Cells({"times"}));
     EXPECT_EQ(changed("experiments/study/measuring/rays/judged_hits.cpp"), renders);
     for (const char* file :
-         {"core/gpu/frame.cpp", "core/shaders/gbuffer/background.frag", "core/scene/gltf/gltf_mesh.cpp",
+         {"core/gpu/passes/frame.cpp", "core/shaders/gbuffer/background.frag", "core/scene/gltf/gltf_mesh.cpp",
           "core/gpu/pipelines/shader.cpp", "groundtruth/paths/path_tracer.cpp", "metrics/flip.cpp",
           "experiments/study/measuring/shot_truth.cpp", "experiments/results/tables/targets.cpp"})
         EXPECT_EQ(changed(file), all) << file;
