@@ -5,6 +5,7 @@
 #include "core/files.h"
 #include "core/json.h"
 #include "core/scene/load_scene.h"
+#include "experiments/results/answers/answers.h"
 #include "experiments/results/cells/finished_run.h"
 #include "experiments/results/cells/host_info.h"
 #include "experiments/study/folder_owner.h"

@@ -1,11 +1,12 @@
 #pragma once
-#include "experiments/results/answers/answers.h"
 #include "experiments/study/config/config.h"
 
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
+
+struct StudyAnswers;  // answers.h, which cells must not depend on
 
 struct RunSettings {
     std::filesystem::path out;                       ///< results folder; a study that was stopped continues in it

@@ -1,6 +1,7 @@
 #include "experiments/study/study_results.h"
 
 #include "core/files.h"
+#include "experiments/results/answers/answers.h"
 #include "experiments/results/cells/host_info.h"
 #include "experiments/results/cells/provenance.h"
 #include "experiments/results/cells/stale_files.h"

@@ -100,8 +100,7 @@ TEST_F(DeclaredStudy, AnEditRedoesItsCellsAndNoOthers) {
     all.insert({"none default", "composed_ssr default", "references"});
     EXPECT_EQ(with_edit_of("variants/declared/declared_technique.cpp"), all) << "it reads every technique";
     EXPECT_EQ(with_edit_of("variants/mcguire_dda/trace.comp"), of_this_march);
-    EXPECT_EQ(with_edit_of("variants/resolves/ray_inputs/ray_inputs.cpp"),
-              std::set<std::string>{"composed_ssr default"});
+    EXPECT_EQ(with_edit_of("variants/resolves/ray_images.comp"), std::set<std::string>{"composed_ssr default"});
     EXPECT_EQ(with_edit_of("variants/amd_sssr/intersect.comp"), std::set<std::string>());
 }
 
