@@ -5,9 +5,11 @@
 #include "core/json.h"
 #include "core/near_miss.h"
 #include "core/path_inside.h"
-#include "variants/declared/declared_entry.h"
 #include "variants/resolves/resolves.h"
 #include "variants/tracers/tracers.h"
+
+/// Of variants/declared, which the cells of points name among their sources: those of references do not depend on it.
+VariantEntry declared_entry(const std::filesystem::path& folder);
 
 namespace {
 

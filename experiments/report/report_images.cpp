@@ -5,7 +5,7 @@
 #include "core/files.h"
 #include "core/json.h"
 #include "core/path_inside.h"
-#include "experiments/results/results_schema.h"
+#include "experiments/results/tables/verdict_map.h"
 
 #include <half.h>
 #include <zlib.h>

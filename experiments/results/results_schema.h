@@ -3,9 +3,6 @@
 #include <string>
 #include <vector>
 
-/// In images of the kind `hits`, light is a colour's code (0 to 1) to this power.
-inline constexpr float verdict_map_gamma = 2.2f;
-
 /// The columns of parameters.csv before those of the parameters.
 inline constexpr const char* names_of_points[] = {"variant", "point", "label", "group", "preset"};
 

@@ -1,8 +1,8 @@
 #pragma once
 #include "core/gbuffer/composite.h"
 #include "core/gbuffer/gbuffer.h"
+#include "core/gbuffer/reflections.h"
 #include "experiments/study/measuring/measure.h"
-#include "variants/variant.h"
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
