@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/gpu/device_impl.h"
+#include "core/list_text.h"
 #include "core/near_miss.h"
 
 #include <algorithm>
@@ -251,12 +252,9 @@ Device::Device(const std::string& choice, bool validate) : impl_(translated([] {
         const std::vector<std::string> missing =
             missing_features(has.get<vk::PhysicalDeviceFeatures2>().features,
                              has.get<vk::PhysicalDeviceVulkan13Features>(), d.gpu.enumerateDeviceExtensionProperties());
-        if (!missing.empty()) {
-            std::string list;
-            for (const std::string& feature : missing) list += (list.empty() ? "" : "; ") + feature;
-            fail_machine("the Vulkan device '", d.info.name, "' lacks ", list,
+        if (!missing.empty())
+            fail_machine("the Vulkan device '", d.info.name, "' lacks ", joined(missing, "; "),
                          ". Choose another with --device (`ssrlab list devices` names them), or a newer driver");
-        }
 
         const float priority = 1;
         const vk::DeviceQueueCreateInfo queue{

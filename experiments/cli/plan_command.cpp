@@ -1,6 +1,7 @@
 // ssrlab plan: the cells of a study, which of them are done, and the estimated cost of the others.
 #include "core/error.h"
 #include "core/files.h"
+#include "core/list_text.h"
 #include "core/reading_limits.h"
 #include "core/scene/load_scene.h"
 #include "core/shown_text.h"

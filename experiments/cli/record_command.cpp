@@ -1,6 +1,7 @@
 // ssrlab record: a technique as one page that does its passes again in a browser.
 #include "core/cache_folder.h"
 #include "core/gpu/device.h"
+#include "core/list_text.h"
 #include "core/scene/load_scene.h"
 #include "core/shown_text.h"
 #include "experiments/cli/commands.h"
@@ -22,11 +23,7 @@ struct RecordOptions {
     std::filesystem::path out;
 };
 
-std::string listed(const std::vector<std::string>& names) {
-    std::string text;
-    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-    return text.empty() ? "none" : text;
-}
+std::string names_or_none(const std::vector<std::string>& names) { return names.empty() ? "none" : joined(names); }
 
 }  // namespace
 
@@ -57,7 +54,7 @@ static void record_command(const RecordOptions& options, const CommonOptions& co
     std::printf("%s of %u passes, %.2f MB; relmse of the last frame %.4g\n",
                 counted(page.errors.size(), "frame").c_str(), page.passes, double(page.bytes) * 1e-6,
                 page.errors.back());
-    std::printf("sliders: %s\n", listed(page.sliders).c_str());
+    std::printf("sliders: %s\n", names_or_none(page.sliders).c_str());
 }
 
 void add_record(Commands& line) {

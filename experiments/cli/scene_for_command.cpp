@@ -1,6 +1,7 @@
 // ssrlab scene-for: a scene's views as another program needs them.
 #include "core/cache_folder.h"
 #include "core/error.h"
+#include "core/list_text.h"
 #include "core/near_miss.h"
 #include "core/scene/load_scene.h"
 #include "core/shown_text.h"
@@ -32,9 +33,7 @@ const SceneEngine& engine_named(const std::string& name) {
     if (found != engines.end()) return *found;
     std::vector<std::string> names;
     for (const SceneEngine& engine : engines) names.push_back(engine.name);
-    std::string list;
-    for (const std::string& known : names) list += (list.empty() ? "" : ", ") + known;
-    fail("scene-for: unknown engine '", shortened(name), "'", suggestion(name, names), "; known are: ", list,
+    fail("scene-for: unknown engine '", shortened(name), "'", suggestion(name, names), "; known are: ", joined(names),
          "; 'any' writes all formats");
 }
 

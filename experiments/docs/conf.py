@@ -18,7 +18,7 @@ PAGES = {
         "scenes/README": "Scenes",
         "metrics/README": "Metrics",
         "groundtruth/README": "Ground truth",
-        "experiments/tradeoff/README": "Error against run time",
+        "experiments/results/tradeoff/README": "Error against run time",
         "experiments/study/stability/README": "Stability and precision",
     },
     "Techniques": {

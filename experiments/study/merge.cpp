@@ -1,5 +1,6 @@
 #include "core/error.h"
 #include "core/files.h"
+#include "core/list_text.h"
 #include "experiments/results/answers/answers.h"
 #include "experiments/results/cells/image_path.h"
 #include "experiments/study/folder_owner.h"

@@ -40,10 +40,6 @@ std::string format_duration(double seconds) {
     return text;
 }
 
-std::string counted(size_t count, const std::string& what) {
-    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
-
 Progress::Progress(double total_work)
     : total_(std::max(total_work, 1e-9)),
       is_terminal_(isatty(STDERR_FILENO)),

@@ -47,6 +47,3 @@ private:
 
 /// "1 h 02 min", "3 min 20 s", "12 s".
 std::string format_duration(double seconds);
-
-/// "1 shot", "2 shots".
-std::string counted(size_t count, const std::string& what);

@@ -1,8 +1,8 @@
 #include "experiments/bridges/inspect/page.h"
 
+#include "core/list_text.h"
 #include "core/number_text.h"
 #include "core/shown_text.h"
-#include "experiments/study/progress.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -21,14 +21,6 @@ std::string name_of(const AnswerPoint& p) {
     return p.point == "default" || p.point.empty() ? p.variant : p.variant + " " + p.point;
 }
 
-std::string listed(const std::vector<std::string>& names, size_t most) {
-    std::string text;
-    for (size_t i = 0; i < std::min(names.size(), most); ++i)
-        text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
-    if (names.size() > most) text += " and " + std::to_string(names.size() - most) + " more";
-    return text;
-}
-
 std::string listed(const std::vector<AnswerPoint>& points, size_t most) {
     std::vector<std::string> names;
     for (const AnswerPoint& p : points) names.push_back(name_of(p));

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/list_text.h"
 #include "experiments/results/answers/answers.h"
 
 #include <optional>
@@ -14,8 +15,7 @@ std::string shown_ratio(double ratio, int least_digits = 2);
 std::string interval_text(const std::optional<double>& low, const std::optional<double>& high);
 
 std::string name_of(const AnswerPoint& point);
-/// "A, B and C"; beyond `most` "A, B and 7 more".
-std::string listed(const std::vector<std::string>& names, size_t most);
+/// As of names (list_text.h).
 std::string listed(const std::vector<AnswerPoint>& points, size_t most);
 
 /// A quotient with its 95 % interval.

@@ -1,5 +1,6 @@
 #include "experiments/results/answers/scenes_answer.h"
 
+#include "core/list_text.h"
 #include "core/number_text.h"
 #include "experiments/results/answers/answer_text.h"
 #include "experiments/results/answers/cause_and_cure.h"
@@ -71,9 +72,7 @@ std::string chances_text(std::vector<const OverScenesRow*> rows, std::optional<d
     for (const OverScenesRow* r : rows)
         if (r->*chance && (parts.empty() || (parts.size() < most_named && *(r->*chance) >= worth_naming)))
             parts.push_back(names.at({r->variant, r->point}) + " " + probability(*(r->*chance)));
-    std::string text;
-    for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
-    return text;
+    return joined(parts);
 }
 
 }  // namespace

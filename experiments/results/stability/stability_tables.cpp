@@ -1,6 +1,7 @@
 #include "experiments/results/stability/stability_tables.h"
 
 #include "core/error.h"
+#include "core/list_text.h"
 #include "core/number_text.h"
 #include "core/path_inside.h"
 #include "core/shown_text.h"
@@ -17,16 +18,6 @@ using nlohmann::json;
 template <class T>
 void add_once(std::vector<T>& list, const T& value) {
     if (!std::ranges::count(list, value)) list.push_back(value);
-}
-
-std::string joined(const std::vector<std::string>& list, const char* between = ", ") {
-    std::string text;
-    for (const std::string& part : list) text += (text.empty() ? "" : between) + part;
-    return text;
-}
-
-std::string counted(size_t count, const std::string& what) {
-    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
 /// What readers of text get to know of a failure: the operations of its place, or the fixes, and whether there are more

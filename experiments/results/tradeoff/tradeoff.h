@@ -5,7 +5,7 @@
 
 inline constexpr const char* unit_of_times = "ms";
 
-/// What `ssrlab tradeoff` is asked (experiments/tradeoff/README.md).
+/// What `ssrlab tradeoff` is asked (experiments/results/tradeoff/README.md).
 struct TradeoffQuestion {
     PrimaryComparisons error;
     std::string cost;      ///< see cost_kind(); "": the median total of a technique's own stages, ms

@@ -1,6 +1,6 @@
 #include "experiments/study/plan/ranking_warnings.h"
 
-#include "experiments/results/answers/answer_text.h"
+#include "core/list_text.h"
 #include "experiments/results/verdicts/effects/over_scenes.h"
 #include "metrics/metric.h"
 #include "metrics/noise.h"

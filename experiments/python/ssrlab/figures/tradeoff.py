@@ -1,4 +1,4 @@
-"""What `ssrlab tradeoff` wrote of these results, as far as it is of the same errors (experiments/tradeoff/README.md)."""
+"""What `ssrlab tradeoff` wrote of these results, as far as it is of the same errors (experiments/results/tradeoff/README.md)."""
 
 import math
 

@@ -258,7 +258,7 @@ class Folder(unittest.TestCase):
             self.assertIn(said, found)
 
     def test_the_readme_has_every_column(self):
-        with open(ROOT / "experiments/tradeoff/README.md", encoding="utf-8") as stream:
+        with open(ROOT / "experiments/results/tradeoff/README.md", encoding="utf-8") as stream:
             sections = re.split(r"^`(\w+\.csv)`", stream.read(), flags=re.M)
         explained = {name: set(re.findall(r"`(\w+)`", text)) for name, text in zip(sections[1::2], sections[2::2])}
         for name in ("error_at_cost.csv", "cost_to_error.csv", "fits.csv", "limits.csv", "front.csv", "pairs.csv", "across.csv", "stages.csv"):

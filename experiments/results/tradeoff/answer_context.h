@@ -1,0 +1,56 @@
+#pragma once
+#include "experiments/results/tradeoff/between_points.h"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+// What the parts of answers.md share: names and numbers as its sentences have them.
+
+using Names = std::vector<std::string>;
+
+/// Three significant digits; "": none.
+std::string shown_number(const std::optional<double>& value);
+/// "1.2 [1.1, 1.3]"; without an interval the number alone.
+std::string measured(const std::optional<double>& value, const std::optional<double>& low,
+                     const std::optional<double>& high);
+
+/// Each once, in order.
+Names distinct(auto&& items, auto&& name_of) {
+    Names names;
+    for (const auto& item : items)
+        if (const std::string name = std::invoke(name_of, item); std::ranges::count(names, name) == 0)
+            names.push_back(name);
+    return names;
+}
+
+inline constexpr size_t most_listed = 4;  ///< names in a sentence
+
+/// What was asked and what was found. All must outlive it.
+struct AnswerContext {
+    AnswerContext(const StudyTables& tables, const PrimaryComparisons& error, const Tradeoff& found,
+                  const BetweenPoints& between, const std::vector<double>& costs, const std::vector<double>& factors);
+
+    const nlohmann::json& manifest;
+    const PrimaryComparisons& error;
+    const Tradeoff& found;
+    const BetweenPoints& between;
+    const std::vector<double>&costs, &factors;
+    std::map<PointName, std::string> labels;
+    std::string unit;              ///< of costs, in Markdown
+    std::string base_label, base;  ///< the point that errors are multiples of; `base` in Markdown
+    Names machines;                ///< those with points at a cost
+
+    bool is_timed() const { return found.kind == CostKind::timed; }
+    std::string label_of(const PointName& name) const;
+    const MeasuredShot& shot_of(const std::string& name) const;
+};
+
+/// Which technique at which cost, over scenes, and which at any cost.
+std::string answers_at_costs(const AnswerContext& context);
+
+/// Each shot's front and curves, and the errors that no cost removes.
+std::string answers_of_shots(const AnswerContext& context);
