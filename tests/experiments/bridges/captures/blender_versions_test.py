@@ -14,7 +14,7 @@ from unittest import mock
 
 import numpy as np
 
-CAPTURES = Path(__file__).resolve().parents[3] / "experiments/captures"
+CAPTURES = Path(__file__).resolve().parents[4] / "experiments/bridges/captures"
 
 
 def exporter(bpy=None):
