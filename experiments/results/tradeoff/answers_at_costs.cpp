@@ -178,7 +178,7 @@ struct AtCosts : AnswerContext {
         Names named;
         for (size_t i = 0; i < rows.size(); ++i)
             if (i == 0 || (i < 3 && *(rows[i]->*chance) >= 0.02))
-                named.push_back(markdown_text(rows[i]->label) + " with " + fixed_text(*(rows[i]->*chance, 2)));
+                named.push_back(markdown_text(rows[i]->label) + " with " + fixed_text(*(rows[i]->*chance), 2));
         return listed(named, most_listed);
     }
 
