@@ -5,7 +5,7 @@
 #include "core/json.h"
 #include "core/near_miss.h"
 #include "core/path_inside.h"
-#include "variants/resolves/resolves.h"
+#include "variants/denoisers/denoisers.h"
 #include "variants/tracers/tracers.h"
 
 /// Of variants/declared, which the cells of points name among their sources: those of references do not depend on it.
@@ -109,7 +109,7 @@ bool are_lifted(const VariantLimits& limits, const nlohmann::json& parameters) {
 const VariantEntry& find_variant(const std::string& name) { return find_named(variant_table(), name, "variant"); }
 
 bool is_read(const ParameterSet& params, const std::string& name) {
-    return is_of_chosen_tracer(params, name) && is_of_chosen_resolve(params, name);
+    return is_of_chosen_tracer(params, name) && is_of_chosen_denoiser(params, name);
 }
 
 std::string limits_text(const VariantLimits& limits) {

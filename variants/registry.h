@@ -29,7 +29,7 @@ void add_tuned_presets(VariantEntry& entry, const std::filesystem::path& file);
 const VariantEntry& find_variant(const std::string& name);
 
 /// Whether a technique whose parameters have these values reads its parameter `name`: not if that is of a tracer or a
-/// resolve that it has not chosen.
+/// denoiser that it has not chosen.
 bool is_read(const ParameterSet& params, const std::string& name);
 
 /// "WebGL 2 with EXT_color_buffer_float, unless hierarchy = mip_views"; "" where there are none.

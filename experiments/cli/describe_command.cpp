@@ -13,7 +13,7 @@
 #include "metrics/metric.h"
 #include "metrics/temporal.h"
 #include "variants/registry.h"
-#include "variants/resolves/resolves.h"
+#include "variants/denoisers/denoisers.h"
 #include "variants/tracers/tracers.h"
 
 #include <algorithm>
@@ -49,21 +49,21 @@ ParameterSet set_of(const std::vector<Parameter>& parameters) {
     return params;
 }
 
-void describe_resolve(const ResolveEntry& resolve) {
-    std::cout << resolve.name << ": " << resolve.title << "\n  " << resolve.description
-              << "\n  Source: " << resolve.source << '\n';
-    if (resolve.needs_density) std::cout << "  Needs the densities of rays, which mirror rays lack\n";
-    std::cout << set_of(resolve.passes->parameters).help();
+void describe_denoiser(const DenoiserEntry& denoiser) {
+    std::cout << denoiser.name << ": " << denoiser.title << "\n  " << denoiser.description
+              << "\n  Source: " << denoiser.source << '\n';
+    if (denoiser.needs_density) std::cout << "  Needs the densities of rays, which mirror rays lack\n";
+    std::cout << set_of(denoiser.passes->parameters).help();
 }
 
 /// Of a technique that has them.
-void describe_resolves(const ParameterSet& params) {
-    for (const ResolveEntry& resolve : resolve_table())
-        if (const std::string help = params.help(resolve.name); !help.empty())
-            std::cout << "\nParameters of the resolve " << resolve.name << ":\n" << help;
+void describe_denoisers(const ParameterSet& params) {
+    for (const DenoiserEntry& denoiser : denoiser_table())
+        if (const std::string help = params.help(denoiser.name); !help.empty())
+            std::cout << "\nParameters of the denoiser " << denoiser.name << ":\n" << help;
 }
 
-bool is_resolve(const std::string& name) { return std::ranges::count(resolve_table(), name, &ResolveEntry::name) > 0; }
+bool is_denoiser(const std::string& name) { return std::ranges::count(denoiser_table(), name, &DenoiserEntry::name) > 0; }
 
 bool is_tracer(const std::string& name) {
     return std::ranges::any_of(tracer_table(), [&](const TracerEntry& tracer) { return tracer.name == name; });
@@ -86,13 +86,13 @@ static void describe_command(const DescribeOptions& asked) {
                 for (const Parameter& parameter : tracer.parameters) params.add(parameter);
         return describe_tracer(find_tracer(options.variant), params);
     }
-    if (is_resolve(options.variant)) return describe_resolve(find_resolve(options.variant));
+    if (is_denoiser(options.variant)) return describe_denoiser(find_denoiser(options.variant));
     if (!options.variant.empty() && !std::ranges::count(variant_table(), options.variant, &VariantEntry::name)) {
         std::vector<std::string> names;
         for (const VariantEntry& entry : variant_table()) names.push_back(entry.name);
         for (const TracerEntry& tracer : tracer_table()) names.push_back(tracer.name);
-        for (const ResolveEntry& resolve : resolve_table()) names.push_back(resolve.name);
-        fail("unknown variant, tracer or resolve '", shortened(options.variant), "'",
+        for (const DenoiserEntry& denoiser : denoiser_table()) names.push_back(denoiser.name);
+        fail("unknown variant, tracer or denoiser '", shortened(options.variant), "'",
              suggestion(options.variant, names));
     }
     for (const VariantEntry& entry : variant_table()) {
@@ -105,7 +105,7 @@ static void describe_command(const DescribeOptions& asked) {
         const std::string parameters = variant->params.help();
         std::cout << (parameters.empty() ? "\nIt has no parameters.\n" : "\nParameters:\n" + parameters);
         describe_tracers(variant->params);
-        describe_resolves(variant->params);
+        describe_denoisers(variant->params);
         if (!entry.presets.empty()) std::cout << "\nPresets:\n";
         for (const Preset& preset : entry.presets)
             std::cout << "  " << preset.name << ": " << preset.meaning << " " << preset.parameters.dump() << '\n';
@@ -119,7 +119,7 @@ void add_describe(Commands& line) {
         *line.app.add_subcommand("describe", "Print every parameter: default, range, unit, meaning, source");
     command
         .add_option("variant", describe.variant,
-                    "A variant or its folder, a tracer or a resolve; default: all variants")
+                    "A variant or its folder, a tracer or a denoiser; default: all variants")
         ->type_name("NAME");
     command.add_flag("--schema", describe.as_schema, "Print a JSON Schema for configs, so that editors complete them");
     command

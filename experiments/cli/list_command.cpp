@@ -13,7 +13,7 @@
 #include "metrics/metric.h"
 #include "metrics/temporal.h"
 #include "variants/registry.h"
-#include "variants/resolves/resolves.h"
+#include "variants/denoisers/denoisers.h"
 #include "variants/tracers/tracers.h"
 
 #include <algorithm>
@@ -105,9 +105,9 @@ static void list_command(const std::string& what, const CommonOptions& common) {
     if (what == "tracers")
         for (const TracerEntry& tracer : tracer_table())
             std::printf("%-22s %s (%s)\n", tracer.name.c_str(), tracer.title.c_str(), tracer.source.c_str());
-    if (what == "resolves")
-        for (const ResolveEntry& resolve : resolve_table())
-            std::printf("%-22s %s (%s)\n", resolve.name.c_str(), resolve.title.c_str(), resolve.source.c_str());
+    if (what == "denoisers")
+        for (const DenoiserEntry& denoiser : denoiser_table())
+            std::printf("%-22s %s (%s)\n", denoiser.name.c_str(), denoiser.title.c_str(), denoiser.source.c_str());
     if (what == "metrics") {
         const auto print = [](const auto& metric) {
             std::printf("%-25s %-26s %s\n", metric.name.c_str(), metric.formula.c_str(), metric.doc.c_str());
@@ -131,11 +131,11 @@ void add_list(Commands& line) {
     auto& what = line.keep<std::string>();
     CLI::App& command = *line.app.add_subcommand(
         "list",
-        "List scenes and what each tests, variants, their presets, tracers, resolves, metrics, devices or chips");
+        "List scenes and what each tests, variants, their presets, tracers, denoisers, metrics, devices or chips");
     command.add_option("what", what, "What to list")
         ->required()
-        ->check(CLI::IsMember({"scenes", "variants", "presets", "tracers", "resolves", "metrics", "devices", "chips"}))
-        ->type_name("scenes|variants|presets|tracers|resolves|metrics|devices|chips");
+        ->check(CLI::IsMember({"scenes", "variants", "presets", "tracers", "denoisers", "metrics", "devices", "chips"}))
+        ->type_name("scenes|variants|presets|tracers|denoisers|metrics|devices|chips");
     add_scene_path(command, line.common);
     add_reading(command);
     command.callback([&] { list_command(what, line.common); });

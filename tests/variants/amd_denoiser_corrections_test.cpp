@@ -15,16 +15,16 @@ nlohmann::json with(const char* correction, bool is_on, const char* form = "fait
     return {{"denoiser_form", form}, {"barrier_before_average", true}, {correction, is_on}};
 }
 
-void resolve(DenoiserBench& bench) { amd_resolve_temporal(bench.graph, bench.work, bench.histories, bench.denoiser); }
-void reproject(DenoiserBench& bench) {
+void resolve(AmdDenoiserBench& bench) { amd_resolve_temporal(bench.graph, bench.work, bench.histories, bench.denoiser); }
+void reproject(AmdDenoiserBench& bench) {
     amd_reproject(bench.graph, bench.gbuffer, bench.work, bench.histories, bench.denoiser);
 }
-void denoise(DenoiserBench& bench) {
+void denoise(AmdDenoiserBench& bench) {
     amd_denoise(bench.graph, bench.gbuffer, bench.work, bench.histories, bench.denoiser);
 }
 
 /// Fills what the temporal resolve reads: a checkered signal around its average, and history.
-void fill_resolve_inputs(DenoiserBench& bench, float history, float samples_before, float samples_now) {
+void fill_resolve_inputs(AmdDenoiserBench& bench, float history, float samples_before, float samples_now) {
     const AmdHistories& h = bench.histories;
     HostImage pixels(bench.graph.extent(), 4);
     for (unsigned y = 0; y < pixels.extent.y; ++y)
@@ -40,7 +40,7 @@ void fill_resolve_inputs(DenoiserBench& bench, float history, float samples_befo
 }
 
 /// The red value at the centre of an image.
-float at_center(DenoiserBench& bench, const Image& image) {
+float at_center(AmdDenoiserBench& bench, const Image& image) {
     return bench.graph.download(image).pixel(image.extent.x / 2, image.extent.y / 2)[0];
 }
 
@@ -53,7 +53,7 @@ constexpr float half_error = 1e-3f;  // of values up to 1, truncated to halves a
 TEST_F(AmdDenoiserCorrections, CurrentSampleCount) {
     for (const bool is_on : {false, true}) {
         const DenoiserInputs inputs = facing_wall({.color = checkered});
-        DenoiserBench bench(device(), inputs.depth.extent, with("current_sample_count", is_on));
+        AmdDenoiserBench bench(device(), inputs.depth.extent, with("current_sample_count", is_on));
         bench.begin_frame(inputs, nullptr);
         fill_resolve_inputs(bench, 0.6f, 0.0f, 4.0f);
         resolve(bench);
@@ -66,7 +66,7 @@ TEST_F(AmdDenoiserCorrections, CurrentSampleCount) {
 TEST_F(AmdDenoiserCorrections, NoDarkExit) {
     for (const bool is_on : {false, true}) {
         const DenoiserInputs inputs = facing_wall({.color = checkered});
-        DenoiserBench bench(device(), inputs.depth.extent, with("no_dark_exit", is_on));
+        AmdDenoiserBench bench(device(), inputs.depth.extent, with("no_dark_exit", is_on));
         bench.begin_frame(inputs, nullptr);
         fill_resolve_inputs(bench, 0.6f, 4.0f, 4.0f);
         HostImage pixels = bench.graph.download(bench.histories.radiance.previous);
@@ -86,7 +86,7 @@ TEST_F(AmdDenoiserCorrections, NoDarkExit) {
 TEST_F(AmdDenoiserCorrections, RunningVariance) {
     for (const bool is_on : {false, true}) {
         const DenoiserInputs inputs = facing_wall({});
-        DenoiserBench bench(device(), inputs.depth.extent, with("running_variance", is_on));
+        AmdDenoiserBench bench(device(), inputs.depth.extent, with("running_variance", is_on));
         bench.begin_frame(inputs, &inputs);
         bench.upload(bench.histories.radiance.previous, inputs.radiance);
         bench.fill(bench.histories.variance.previous, glm::vec4(0.5f));
@@ -100,7 +100,7 @@ TEST_F(AmdDenoiserCorrections, RunningVariance) {
 TEST_F(AmdDenoiserCorrections, RoundUpTiles) {
     for (const bool is_on : {false, true}) {
         const DenoiserInputs inputs = facing_wall({.extent = {92, 64}, .color = checkered});
-        DenoiserBench bench(device(), inputs.depth.extent, with("round_up_tiles", is_on));
+        AmdDenoiserBench bench(device(), inputs.depth.extent, with("round_up_tiles", is_on));
         bench.begin_frame(inputs, nullptr);
         fill_resolve_inputs(bench, 0.0f, 0.0f, 0.0f);
         HostImage averages({12, 8}, 3);
@@ -131,7 +131,7 @@ TEST_F(AmdDenoiserCorrections, RelativeDepthWeight) {
                     const glm::vec4 clip = inputs.camera.clip_from_view * glm::vec4(0, 0, -distance, 1);
                     *inputs.depth.pixel(x, y) = clip.z / clip.w;
                 }
-            DenoiserBench bench(device(), inputs.depth.extent, with("relative_depth_weight", is_on));
+            AmdDenoiserBench bench(device(), inputs.depth.extent, with("relative_depth_weight", is_on));
             bench.begin_frame(inputs, nullptr);
             bench.fill(bench.histories.variance.current, glm::vec4(1.0f));
             bench.fill(bench.histories.average_radiance.current, glm::vec4(0.5f));
@@ -151,7 +151,7 @@ TEST_F(AmdDenoiserCorrections, ReprojectHistoryDepth) {
     for (const bool is_on : {false, true}) {
         const DenoiserInputs before = facing_wall({.distance = 4, .distance_before = 4, .color = checkered});
         const DenoiserInputs now = facing_wall({.distance = 3.2f, .distance_before = 4, .color = checkered});
-        DenoiserBench bench(device(), now.depth.extent, with("reproject_history_depth", is_on));
+        AmdDenoiserBench bench(device(), now.depth.extent, with("reproject_history_depth", is_on));
         bench.begin_frame(now, &before);
         bench.fill(bench.histories.radiance.previous, glm::vec4(0.5f));
         bench.fill(bench.histories.sample_count.previous, glm::vec4(7.0f));
@@ -177,7 +177,7 @@ TEST_F(AmdDenoiserCorrections, ReprojectHistoryDepthKnowsTheLastProjection) {
         now.camera = camera_data(pose, &pose_before, {.extent = {64, 64}, .frame = 1});
         const glm::vec4 clip = clip_from_view(pose_before, 1, DepthDirection::standard) * glm::vec4(0, 0, -4, 1);
         before.depth = HostImage({64, 64}, 1, clip.z / clip.w);
-        DenoiserBench bench(device(), now.depth.extent, with("reproject_history_depth", is_on));
+        AmdDenoiserBench bench(device(), now.depth.extent, with("reproject_history_depth", is_on));
         bench.begin_frame(now, &before);
         bench.fill(bench.histories.radiance.previous, glm::vec4(0.5f));
         bench.fill(bench.histories.sample_count.previous, glm::vec4(7.0f));
@@ -191,7 +191,7 @@ TEST_F(AmdDenoiserCorrections, FiniteNeighborhood) {
     for (const bool is_on : {false, true}) {
         DenoiserInputs inputs = facing_wall({.color = checkered});
         inputs.radiance.set_rgb(32 * 64 + 32, glm::vec3(std::numeric_limits<float>::infinity()));
-        DenoiserBench bench(device(), inputs.depth.extent, with("finite_neighborhood", is_on));
+        AmdDenoiserBench bench(device(), inputs.depth.extent, with("finite_neighborhood", is_on));
         bench.begin_frame(inputs, nullptr);
         denoise(bench);
         const HostImage found = bench.graph.download(bench.histories.radiance.current);
@@ -214,7 +214,7 @@ TEST_F(AmdDenoiserCorrections, FiniteNeighborhoodTakesNothingForMoreThanTheLarge
     for (const char* form : {"faithful", "fast"}) {
         nlohmann::json parameters = with("finite_neighborhood", true, form);
         parameters["float_histories"] = true;
-        DenoiserBench bench(device(), inputs.depth.extent, parameters);
+        AmdDenoiserBench bench(device(), inputs.depth.extent, parameters);
         HostImage found[3];
         for (int i = 0; i < 3; ++i) {
             const float brightest[] = {65504, 1e6f, 1e30f};
@@ -240,7 +240,7 @@ TEST_F(AmdDenoiserCorrections, FiniteNeighborhoodClampsAverages) {
         for (int i = 0; i < 2; ++i) {
             DenoiserInputs inputs = facing_wall({.color = checkered});
             inputs.radiance.set_rgb(32 * 64 + 32, glm::vec3(i == 0 ? 65504.0f : 1e9f));
-            DenoiserBench bench(device(), inputs.depth.extent, parameters);
+            AmdDenoiserBench bench(device(), inputs.depth.extent, parameters);
             bench.begin_frame(inputs, nullptr);
             reproject(bench);
             found[i] = bench.graph.download(bench.histories.average_radiance.current);
@@ -259,7 +259,7 @@ TEST_F(AmdDenoiserCorrections, FreshNeighborhood) {
             for (unsigned y = 0; y < 64; ++y)
                 for (unsigned x = 32; x < 64; ++x)
                     *inputs.roughness.pixel(x, y) = 0.5f, *inputs.tiles.pixel(x / 8, y / 8) = 0;
-            DenoiserBench bench(device(), inputs.depth.extent, with("fresh_neighborhood", is_on));
+            AmdDenoiserBench bench(device(), inputs.depth.extent, with("fresh_neighborhood", is_on));
             bench.begin_frame(inputs, nullptr);
             const AmdHistories& h = bench.histories;
             for (const Image& image : {h.radiance.previous, h.variance.current, h.average_radiance.current})
@@ -285,7 +285,7 @@ TEST_F(AmdDenoiserCorrections, FloatHistories) {
     const DenoiserInputs inputs = facing_wall({.color = [&](unsigned, unsigned) { return glm::vec3(color); }});
     double error[2];
     for (const bool is_on : {false, true}) {
-        DenoiserBench bench(device(), inputs.depth.extent, with("float_histories", is_on, "fast"));
+        AmdDenoiserBench bench(device(), inputs.depth.extent, with("float_histories", is_on, "fast"));
         for (unsigned frame = 0; frame < 16; ++frame) {
             bench.begin_frame(inputs, &inputs);
             denoise(bench);
@@ -300,7 +300,7 @@ TEST_F(AmdDenoiserCorrections, FloatHistories) {
 TEST_F(AmdDenoiserCorrections, FloatHistoriesFilterWhatHalvesTakeForNothing) {
     for (const bool is_on : {false, true}) {
         const DenoiserInputs inputs = facing_wall({.color = checkered});
-        DenoiserBench bench(device(), inputs.depth.extent, with("float_histories", is_on, "fast"));
+        AmdDenoiserBench bench(device(), inputs.depth.extent, with("float_histories", is_on, "fast"));
         bench.begin_frame(inputs, nullptr);
         bench.fill(bench.histories.variance.current, glm::vec4(1e-9f));
         bench.fill(bench.histories.average_radiance.current, glm::vec4(0.5f));
@@ -319,7 +319,7 @@ TEST_F(AmdDenoiserCorrections, FloatHistoriesFilterWhatHalvesTakeForNothing) {
 TEST_F(AmdDenoiserCorrections, WithoutStaleAverage) {
     for (const bool is_stale : {true, false}) {
         const DenoiserInputs inputs = facing_wall({});
-        DenoiserBench bench(device(), inputs.depth.extent, with("stale_average", is_stale));
+        AmdDenoiserBench bench(device(), inputs.depth.extent, with("stale_average", is_stale));
         bench.begin_frame(inputs, nullptr);
         denoise(bench);
         EXPECT_NEAR(at_center(bench, bench.histories.radiance.current), is_stale ? 0.0 : 0.5, 0.01);

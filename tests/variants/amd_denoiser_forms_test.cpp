@@ -23,8 +23,8 @@ nlohmann::json with_form(nlohmann::json parameters, const char* form) {
 }
 
 struct AmdDenoiserForms : VariantTest, testing::WithParamInterface<Case> {
-    DenoiserBench faithful{device(), GetParam().extent, with_form(GetParam().parameters, "faithful")};
-    DenoiserBench fast{device(), GetParam().extent, with_form(GetParam().parameters, "fast")};
+    AmdDenoiserBench faithful{device(), GetParam().extent, with_form(GetParam().parameters, "faithful")};
+    AmdDenoiserBench fast{device(), GetParam().extent, with_form(GetParam().parameters, "fast")};
 
     /// Holds the fast form's image to the faithful one's and replaces it by that, so that each pass is fed alike.
     void compare(const std::string& what, const DenoiserInputs& inputs, const Image& expected, const Image& found,
@@ -58,19 +58,19 @@ TEST_P(AmdDenoiserForms, GiveTheSame) {
         const DenoiserInputs& now = frames.back();
         const DenoiserInputs* before = index > 0 ? &frames[index - 1] : nullptr;
         const std::string frame = " of frame " + std::to_string(index);
-        for (DenoiserBench* bench : {&faithful, &fast}) bench->begin_frame(now, before);
+        for (AmdDenoiserBench* bench : {&faithful, &fast}) bench->begin_frame(now, before);
         const AmdHistories &a = faithful.histories, &b = fast.histories;
-        for (DenoiserBench* bench : {&faithful, &fast})
+        for (AmdDenoiserBench* bench : {&faithful, &fast})
             amd_reproject(bench->graph, bench->gbuffer, bench->work, bench->histories, bench->denoiser);
         compare("reprojected" + frame, now, faithful.reprojected(), fast.reprojected(), interpolated);
         compare("variance" + frame, now, a.variance.current, b.variance.current, squared_change);
         compare("count" + frame, now, a.sample_count.current, b.sample_count.current, one_half);
         compare("average" + frame, now, a.average_radiance.current, b.average_radiance.current, one_small_float);
-        for (DenoiserBench* bench : {&faithful, &fast})
+        for (AmdDenoiserBench* bench : {&faithful, &fast})
             amd_prefilter(bench->graph, bench->work, bench->histories, bench->denoiser);
         compare("prefiltered" + frame, now, a.radiance.previous, b.radiance.previous, one_half);
         compare("prefiltered variance" + frame, now, a.variance.previous, b.variance.previous, squared_change);
-        for (DenoiserBench* bench : {&faithful, &fast})
+        for (AmdDenoiserBench* bench : {&faithful, &fast})
             amd_resolve_temporal(bench->graph, bench->work, bench->histories, bench->denoiser);
         compare("resolved" + frame, now, a.radiance.current, b.radiance.current, one_half);
         compare("resolved variance" + frame, now, a.variance.current, b.variance.current, squared_change);
@@ -88,7 +88,7 @@ namespace {
 struct AmdDenoiserFloat16 : VariantTest {
     /// What the denoiser shows of the last of some frames, each fed by the form's own.
     HostImage resolved(const char* form, const std::vector<DenoiserInputs>& frames) {
-        DenoiserBench bench(device(), frames.front().depth.extent, with_form({}, form));
+        AmdDenoiserBench bench(device(), frames.front().depth.extent, with_form({}, form));
         HostImage image;
         for (size_t i = 0; i < frames.size(); ++i) {
             bench.begin_frame(frames[i], i > 0 ? &frames[i - 1] : nullptr);

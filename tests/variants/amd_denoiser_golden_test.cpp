@@ -27,7 +27,7 @@ protected:
     const std::vector<GoldenDenoiserFrame>& frames = frames_of(GetParam().set);
     const nlohmann::json meta = golden_meta(GetParam().set);
     const unsigned border = meta.value("compare_border", 0u);
-    DenoiserBench bench{VariantTest::device(),
+    AmdDenoiserBench bench{VariantTest::device(),
                         frames.front().resolved.extent,
                         {{"denoiser_form", GetParam().form},
                          {"stale_average", true},

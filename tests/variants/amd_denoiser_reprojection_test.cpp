@@ -71,7 +71,7 @@ struct AmdDenoiserReprojection : VariantTest {
         for (size_t i = 0; i < now.radiance.pixel_count(); ++i) now.radiance.values[4 * i + 3] = reflected_at;
         const FrameView view_before{.extent = extent, .jitter = view.previous_jitter};
         const DenoiserInputs last = wall_seen_by(before, camera_data(before, nullptr, view_before), reflected_at);
-        DenoiserBench bench(device(), extent, parameters);
+        AmdDenoiserBench bench(device(), extent, parameters);
         bench.begin_frame(now, &last);
         bench.upload(bench.histories.radiance.previous, ramp());
         amd_reproject(bench.graph, bench.gbuffer, bench.work, bench.histories, bench.denoiser);

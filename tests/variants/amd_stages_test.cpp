@@ -94,7 +94,7 @@ TEST_F(AmdStages, OfTheDenoiserLeaveWhatTheyWereGiven) {
         struct Passes {
             HostImage samples, traced, prefiltered, resolved;
         };
-        DenoiserBench bench(device(), inputs.depth.extent, parameters);
+        AmdDenoiserBench bench(device(), inputs.depth.extent, parameters);
         Passes passes;
         for (unsigned frame = 0; frame < 3; ++frame) {
             DenoiserInputs now = inputs;

@@ -24,7 +24,7 @@ struct ConeMips : VariantTest {
     HostImage levels;  ///< which each traced pixel chose
 
     ConeMips() {
-        add_resolve(params, "cone_mips");
+        add_denoiser(params, "cone_mips");
         params.assign({{"half_resolution", false}, {"max_roughness", 1.0}, {"fade_begin", 1.0}});
     }
 
@@ -57,7 +57,7 @@ struct ConeMips : VariantTest {
         graph.upload(own_length, HostImage(extent, 1, ray_length));
         graph.begin_frame(camera, params, gbuffer.images());
         const HostImage shown = graph.download(
-            resolve_passes("cone_mips", graph, gbuffer, {{"own_radiance", own_radiance}, {"own_length", own_length}})
+            denoiser_passes("cone_mips", graph, gbuffer, {{"own_radiance", own_radiance}, {"own_length", own_length}})
                 .radiance);
         levels =
             graph.download(graph.image_of("cone_level", Format::r32f, half_resolution ? (extent + 1u) / 2u : extent));

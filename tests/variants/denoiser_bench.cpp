@@ -1,73 +1,79 @@
 #include "tests/variants/denoiser_bench.h"
 
-#include <algorithm>
+#include "variants/denoisers/first_turn.h"
+#include "variants/denoisers/denoisers.h"
 
-namespace {
-
-unsigned channels_of(Format format) {
-    switch (format) {
-        case Format::rgba16f:
-        case Format::rgba32f:
-            return 4;
-        case Format::r11g11b10f:
-            return 3;
-        default:
-            return 1;
-    }
+DenoiserBench::DenoiserBench(Device& device, const std::string& denoiser, const CameraPose& pose, glm::uvec2 extent,
+                           SyntheticScene scene, const nlohmann::json& own, const nlohmann::json& of_technique)
+    : pose(pose),
+      graph(device, extent),
+      scene_(std::move(scene)),
+      denoiser_(std::make_unique<Denoiser>(find_denoiser(denoiser))) {
+    add_block(technique_, "denoisers/rays.json");
+    technique_.assign({{"misses", "weight"}});
+    technique_.assign({{"half_resolution", false}, {"max_roughness", 1}});
+    technique_.assign(of_technique);
+    denoiser_->params.assign(own);
 }
 
-}  // namespace
-
-HostImage resized_channels(const HostImage& image, unsigned channels) {
-    HostImage result(image.extent, channels);
-    for (size_t i = 0; i < image.pixel_count(); ++i)
-        for (unsigned c = 0; c < std::min(channels, image.channels); ++c)
-            result.values[i * channels + c] = image.values[i * image.channels + c];
-    return result;
+/// As traced_pixel.glsl says of the seed 0.
+std::vector<glm::uvec2> DenoiserBench::traced_pixels() const {
+    const unsigned side = value_of(technique_, "half_resolution") == true ? 2 : 1, turn = frame_ + first_turn(0);
+    const glm::uvec2 of_quad = side == 1 ? glm::uvec2(0) : glm::uvec2((turn ^ turn >> 1) & 1, turn & 1);
+    std::vector<glm::uvec2> pixels;
+    for (unsigned y = 0; y < graph.extent().y; y += side)
+        for (unsigned x = 0; x < graph.extent().x; x += side)
+            pixels.push_back(glm::min(glm::uvec2(x, y) + of_quad, graph.extent() - 1u));
+    return pixels;
 }
 
-DenoiserBench::DenoiserBench(Device& device, glm::uvec2 extent, const nlohmann::json& parameters)
-    : graph(device, extent) {
-    params.assign(parameters);
-    const size_t tiles = size_t((extent.x + 7) / 8) * ((extent.y + 7) / 8);
-    work = {.ray_list = {},
-            .tile_list = graph.buffer("tiles", 4 * tiles),
-            .counters = graph.buffer("counters", 16),
-            .indirect_arguments = graph.buffer("arguments", 36)};
-}
-
-void DenoiserBench::begin_frame(const DenoiserInputs& frame, const DenoiserInputs* before) {
-    const auto input = [&](const char* name, Format format, const HostImage& pixels) {
-        const Image image = graph.image(name, format);
-        graph.upload(image, pixels);
-        return image;
+/// In images of their own; in the first frame its own.
+void DenoiserBench::keep_previous(GBuffer& gbuffer) {
+    const auto keep = [&](Image& input, const char* name, const Image& current, HostImage& before) {
+        const HostImage now = graph.download(current);
+        input = graph.image(std::string("kept_") + name, current.format).as(name);
+        graph.upload(input, frame_ > 0 ? before : now);
+        before = now;
     };
-    gbuffer.depth = input("depth", Format::r32f, frame.depth);
-    gbuffer.normal = input("normal", Format::rgba32f, frame.normal);
-    gbuffer.motion = input("motion", Format::rg32f, frame.motion);
-    gbuffer.previous_depth =
-        input("previous_depth", Format::r32f, before ? before->depth : HostImage(graph.extent(), 1));
-    gbuffer.previous_normal =
-        input("previous_normal", Format::rgba32f, before ? before->normal : HostImage(graph.extent(), 4));
-    graph.begin_frame(frame.camera, params, std::vector{gbuffer.depth, gbuffer.normal, gbuffer.motion});
-    histories = amd_histories(graph, denoiser.float_histories, false);
-    upload(histories.radiance.current, frame.radiance);
-    graph.upload(histories.roughness.current, frame.roughness);
-    graph.upload(histories.roughness.previous, before ? before->roughness : HostImage(graph.extent(), 1));
-
-    std::vector<uint32_t> list;
-    for (uint32_t y = 0; y < frame.tiles.extent.y; ++y)
-        for (uint32_t x = 0; x < frame.tiles.extent.x; ++x)
-            if (*frame.tiles.pixel(x, y) > 0) list.push_back(8 * y << 16 | 8 * x);
-    const uint32_t count = uint32_t(list.size());
-    const uint32_t arguments[9] = {0, 0, 1, count, 1, 1, (count + 7) / 8, 1, 1}, counters[4] = {0, 0, 0, count};
-    graph.upload(work.counters, std::as_bytes(std::span(counters)));
-    graph.upload(work.tile_list, std::as_bytes(std::span(list)));
-    graph.upload(work.indirect_arguments, std::as_bytes(std::span(arguments)));
+    keep(gbuffer.previous_depth, "previous_depth", gbuffer.depth, depth_before_);
+    keep(gbuffer.previous_normal, "previous_normal", gbuffer.normal, normal_before_);
 }
 
-void DenoiserBench::upload(const Image& image, const HostImage& pixels) {
-    graph.upload(image, resized_channels(pixels, channels_of(image.format)));
+HostImage DenoiserBench::next(const RayFrame& frame) {
+    const glm::uvec2 extent = graph.extent();
+    const FrameView view{.extent = extent, .frame = frame_};
+    const CameraData camera = camera_data(pose, frame_ > 0 ? &pose_before_ : nullptr, view);
+    GBuffer gbuffer = upload_gbuffer(graph, pose, camera, scene_);
+    keep_previous(gbuffer);
+    graph.upload(gbuffer.fallback, HostImage(extent, 4, environment));
+    const bool has_moved = frame_ > 0 && pose.world_from_view != pose_before_.world_from_view;
+    HostImage color(extent, 4, 1), motion = has_moved ? motion_of(pose, camera, scene_) : HostImage(extent, 2);
+    for (unsigned y = 0; y < extent.y; ++y)
+        for (unsigned x = 0; x < extent.x; ++x) {
+            color.set_rgb(size_t(y) * extent.x + x, frame.color({x, y}));
+            for (int c = 0; c < 2; ++c) motion.pixel(x, y)[c] += frame.motion({x, y})[c];
+        }
+    graph.upload(gbuffer.motion, motion);
+    std::vector<StoredRay> rays;
+    for (const glm::uvec2 pixel : traced_pixels()) {
+        const CameraRay seen = camera_ray(pose, extent, glm::vec2(pixel) + 0.5f);
+        const glm::vec3 mirrored = reflect(seen.direction, scene_(seen).normal);
+        rays.push_back({.direction = transpose(glm::mat3(pose.world_from_view)) * mirrored,
+                        .inverse_density = 1,
+                        .target = packed(pixel),
+                        .length = 1});
+        frame.change(pixel, rays.back());
+    }
+    graph.begin_frame(camera, technique_, gbuffer.images());
+    if (value_of(technique_, "misses") == "probe") probe = screen_probe(graph, gbuffer);
+    const DenoisedRays resolved{.technique = technique_,
+                                .traced = upload_rays(graph, rays),
+                                .color = graph.image("shown_by_hits", Format::rgba32f),
+                                .probe = probe};
+    graph.upload(resolved.color, color);
+    const HostImage radiance = graph.download(denoiser_->run(graph, gbuffer, resolved).radiance);
+    graph.set_params(technique_);
+    ++frame_;
+    pose_before_ = pose;
+    return radiance;
 }
-
-void DenoiserBench::fill(const Image& image, glm::vec4 value) { graph.clear(image, value); }

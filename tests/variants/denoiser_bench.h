@@ -1,36 +1,44 @@
 #pragma once
-#include "core/gpu/passes/pass_graph.h"
-#include "tests/variants/amd_passes.h"
+#include "tests/variants/frostbite_bench.h"
 
-/// What the denoiser gets for one frame.
-struct DenoiserInputs {
-    CameraData camera;
-    HostImage depth, normal, motion;  ///< as in GBuffer
-    HostImage radiance, roughness;    ///< rgb and length of the ray; alpha
-    HostImage tiles;                  ///< 1 for each listed tile
+/// What one frame is made of. By default each traced pixel's ray mirrors the view and shows the colour of the pixel
+/// itself.
+struct RayFrame {
+    std::function<glm::vec3(glm::uvec2)> color = [](glm::uvec2) { return glm::vec3(0); };
+    /// Beside what the camera's motion makes (uv).
+    std::function<glm::vec2(glm::uvec2)> motion = [](glm::uvec2) { return glm::vec2(0); };
+    std::function<void(glm::uvec2, StoredRay&)> change = [](glm::uvec2, StoredRay&) {};
 };
 
-/// Runs the denoiser's passes on given inputs.
-struct DenoiserBench {
+inline RayFrame of_one_color(float value) {
+    return {.color = [=](glm::uvec2) { return glm::vec3(value); }};
+}
+
+inline unsigned packed(glm::uvec2 pixel) { return pixel.x | pixel.y << 16; }
+
+/// Frames in a row of one denoiser, with rays that a test makes up.
+class DenoiserBench {
+public:
+    DenoiserBench(Device& device, const std::string& denoiser, const CameraPose& pose, glm::uvec2 extent,
+                 SyntheticScene scene, const nlohmann::json& own,
+                 const nlohmann::json& of_technique = nlohmann::json::object());
+
+    /// Channels: radiance, confidence.
+    HostImage next(const RayFrame& frame);
+
+    CameraPose pose;  ///< of the next frame
     PassGraph graph;
-    ParameterSet params;
-    AmdTracingParameters tracing{params};
-    AmdDenoiserParameters denoiser{params};
-    GBuffer gbuffer;
-    AmdWork work;
-    AmdHistories histories;
+    float environment = 0;             ///< everywhere
+    std::optional<ScreenProbe> probe;  ///< of the last frame, where `misses` is probe
 
-    DenoiserBench(Device& device, glm::uvec2 extent, const nlohmann::json& parameters);
+private:
+    std::vector<glm::uvec2> traced_pixels() const;
+    void keep_previous(GBuffer& gbuffer);
 
-    /// Uploads the frame's inputs. `before`: the frame before, or nullptr, which makes its depth, normals and alpha 0.
-    void begin_frame(const DenoiserInputs& frame, const DenoiserInputs* before);
-
-    Image reprojected() { return graph.image("reprojected_radiance", histories.radiance.current.format); }
-
-    /// Uploads what the image's format holds of the channels of `pixels`.
-    void upload(const Image& image, const HostImage& pixels);
-    void fill(const Image& image, glm::vec4 value);
+    SyntheticScene scene_;
+    ParameterSet technique_;
+    std::unique_ptr<Denoiser> denoiser_;
+    CameraPose pose_before_;
+    HostImage depth_before_, normal_before_;
+    unsigned frame_ = 0;
 };
-
-/// The first channels of an image, or those of `image` and zeros.
-HostImage resized_channels(const HostImage& image, unsigned channels);

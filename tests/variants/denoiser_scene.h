@@ -1,6 +1,6 @@
 #pragma once
 #include "core/scene/camera.h"
-#include "tests/variants/denoiser_bench.h"
+#include "tests/variants/amd_denoiser_bench.h"
 
 #include <functional>
 

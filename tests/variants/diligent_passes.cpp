@@ -2,7 +2,7 @@
 
 namespace {
 
-const Technique& diligent() { return declared_technique("diligent_ssr"); }
+const Declaration& diligent() { return declared_technique("diligent_ssr"); }
 
 std::map<std::string, Image> images_of(const DiligentMask& mask) {
     std::map<std::string, Image> images = {{"roughness", mask.roughness}, {"mask", mask.full}};

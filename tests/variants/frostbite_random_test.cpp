@@ -1,6 +1,6 @@
 #include "tests/variants/frostbite_passes.h"
 #include "variants/common/halton.h"
-#include "variants/resolves/first_turn.h"
+#include "variants/denoisers/first_turn.h"
 
 #include <map>
 #include <numbers>

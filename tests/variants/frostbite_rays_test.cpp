@@ -1,6 +1,6 @@
 #include "tests/variants/frostbite_passes.h"
 #include "tests/variants/lobe_quadrature.h"
-#include "variants/resolves/first_turn.h"
+#include "variants/denoisers/first_turn.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/packing.hpp>

@@ -1,6 +1,6 @@
 #include "tests/variants/frostbite_reference.h"
 
-#include "variants/resolves/first_turn.h"
+#include "variants/denoisers/first_turn.h"
 
 using glm::dmat3, glm::dvec2, glm::dvec3, glm::dvec4;
 

@@ -4,7 +4,7 @@
 
 namespace {
 
-const Technique& frostbite() { return declared_technique("frostbite_sssr"); }
+const Declaration& frostbite() { return declared_technique("frostbite_sssr"); }
 
 }  // namespace
 

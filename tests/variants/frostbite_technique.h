@@ -1,12 +1,12 @@
 #pragma once
 #include "tests/variants/technique_passes.h"
-#include "variants/resolves/resolve.h"
+#include "variants/denoisers/denoiser.h"
 
 // The passes of variants/frostbite_sssr/technique.json, as functions of images of a test's own.
 
-/// Those of variants/resolves/ray_draw.json.
+/// Those of variants/denoisers/ray_draw.json.
 struct RayDrawParameters {
-    explicit RayDrawParameters(ParameterSet& all) : RayDrawParameters(all, "resolves/ray_draw.json") {}
+    explicit RayDrawParameters(ParameterSet& all) : RayDrawParameters(all, "denoisers/ray_draw.json") {}
 
     ParameterSet& params;
     ParameterView half_resolution{params, "half_resolution"}, max_roughness{params, "max_roughness"},

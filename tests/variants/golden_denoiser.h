@@ -1,5 +1,5 @@
 #pragma once
-#include "tests/variants/denoiser_bench.h"
+#include "tests/variants/amd_denoiser_bench.h"
 #include "tests/variants/golden_vectors.h"
 
 /// What one frame of a golden denoiser sequence holds: the inputs and what each of the original's passes wrote.

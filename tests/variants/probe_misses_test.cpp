@@ -1,5 +1,5 @@
-// What rays that miss see where misses = probe, through a resolve that shows each pixel's own ray of the frame.
-#include "tests/variants/resolve_bench.h"
+// What rays that miss see where misses = probe, through a denoiser that shows each pixel's own ray of the frame.
+#include "tests/variants/denoiser_bench.h"
 #include "tests/variants/variant_fixture.h"
 
 #include <cmath>
@@ -15,7 +15,7 @@ struct ProbeMissesTest : VariantTest {
         return glm::rotate(glm::translate(glm::mat4(1), place), glm::radians(degrees), axis);
     }
     /// More than a right angle, so that six frames show all around.
-    ResolveBench bench(const SyntheticScene& scene) {
+    DenoiserBench bench(const SyntheticScene& scene) {
         const CameraPose pose{.world_from_view = turned(0, {0, 1, 0}), .vertical_fov = 1.6f};
         return {device(),
                 "ratio_accumulation",
@@ -40,7 +40,7 @@ TEST_F(ProbeMissesTest, SeeWhatTheRayMeets) {
                             .specular = 1,
                             .lit = color(ray.direction)};
     };
-    ResolveBench mirrors = bench(surface);
+    DenoiserBench mirrors = bench(surface);
     RayFrame rays = {.color = [](glm::uvec2) { return glm::vec3(7); }};
     rays.change = [](glm::uvec2 pixel, StoredRay& ray) {
         if (pixel.x % 2 == 0)
@@ -72,7 +72,7 @@ TEST_F(ProbeMissesTest, SeeWhatTheRayMeets) {
 /// Below the horizon all is as bright as the environment above it: so is what rays see, whatever share of it is
 /// guessed.
 TEST_F(ProbeMissesTest, SeeTheEnvironmentBesideSurfaces) {
-    ResolveBench open = bench([](const CameraRay& ray) {
+    DenoiserBench open = bench([](const CameraRay& ray) {
         if (ray.direction.y > 0) return SyntheticHit{.lit = glm::vec3(3)};
         return SyntheticHit{.distance = 1 / -ray.direction.y,
                             .normal = {0, 1, 0},

@@ -1,5 +1,5 @@
 #pragma once
-#include "tests/variants/resolve_bench.h"
+#include "tests/variants/denoiser_bench.h"
 #include "tests/variants/variant_fixture.h"
 #include "variants/common/ggx_lobe.h"
 
@@ -25,11 +25,11 @@ struct RatioAccumulationTest : VariantTest {
                 .metalness = 1,
                 .specular = 1};
     }
-    ResolveBench bench(const nlohmann::json& own, const nlohmann::json& of_technique = nlohmann::json::object()) {
+    DenoiserBench bench(const nlohmann::json& own, const nlohmann::json& of_technique = nlohmann::json::object()) {
         return {device(), "ratio_accumulation", pose, extent, [this](const CameraRay& ray) { return wall(ray); },
                 own,      of_technique};
     }
-    void move_to(ResolveBench& bench, glm::vec3 place) const {
+    void move_to(DenoiserBench& bench, glm::vec3 place) const {
         bench.pose.world_from_view = glm::translate(glm::mat4(1), place);
     }
 

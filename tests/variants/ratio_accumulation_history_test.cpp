@@ -1,4 +1,4 @@
-// When the resolve ratio_accumulation gives up history: what changes, what moves, and what is noise alone.
+// When the denoiser ratio_accumulation gives up history: what changes, what moves, and what is noise alone.
 #include "tests/variants/ratio_accumulation_fixture.h"
 
 namespace {
@@ -11,7 +11,7 @@ namespace {
 TEST_F(RatioAccumulationTest, ChangesOfLightShortenHistory) {
     roughness = 0.5f;
     const auto frames_to_follow = [&](double deviations, double share, int most) {
-        ResolveBench step = bench({{"reuse_neighbors", false}, {"change_deviations", deviations}});
+        DenoiserBench step = bench({{"reuse_neighbors", false}, {"change_deviations", deviations}});
         for (int frame = 1 - 100; frame <= most; ++frame) {
             HostImage colors = any_colors();
             for (float& value : colors.values) value = (frame > 0 ? 4.0f : 1.0f) * (0.75f + 0.5f * value);
@@ -29,7 +29,7 @@ TEST_F(RatioAccumulationTest, ChangesOfLightShortenHistory) {
 TEST_F(RatioAccumulationTest, NoiseIsNoChange) {
     extent = {24, 24};
     const auto variance = [&](double deviations) {
-        ResolveBench noisy = bench({{"change_deviations", deviations}});
+        DenoiserBench noisy = bench({{"change_deviations", deviations}});
         random.seed(1);
         double squares = 0;
         for (int frame = 0; frame < 260; ++frame) {
@@ -49,7 +49,7 @@ TEST_F(RatioAccumulationTest, NoiseIsNoChange) {
 TEST_F(RatioAccumulationTest, HitsThatMoveEndHistory) {
     const glm::uvec2 hit(15, 11);
     const auto share_of_new = [&](float pixels) {
-        ResolveBench moving = bench(of_means);
+        DenoiserBench moving = bench(of_means);
         RayFrame rays = drawn(0);
         rays.motion = [=](glm::uvec2 pixel) { return glm::vec2(0, pixel == hit ? pixels / 12 : 0.0f); };
         rays.change = [=, this](glm::uvec2 pixel, StoredRay& ray) {
@@ -69,7 +69,7 @@ TEST_F(RatioAccumulationTest, HitsThatMoveEndHistory) {
 /// What stands still beside a camera that moves is as good as at rest. History is read between texels of one value.
 TEST_F(RatioAccumulationTest, MotionOfTheCameraIsNoneOfHits) {
     roughness = 0.8f;
-    ResolveBench moving = bench(of_means);
+    DenoiserBench moving = bench(of_means);
     HostImage found;
     for (int frame = 0; frame < 4; ++frame) {
         move_to(moving, float(frame) * glm::vec3(0.3f, 0.2f, 0));
@@ -86,7 +86,7 @@ TEST_F(RatioAccumulationTest, HistoryOfAnotherDistanceIsRefused) {
     const float pixels_at_one = float(extent.y) / 2 / std::tan(pose.vertical_fov / 2), depth_before = 6;
     const auto share_of_new = [&](float parallax) {
         const float depth_now = pixels_at_one / (pixels_at_one / depth_before - parallax);
-        ResolveBench mirror = bench(of_means);
+        DenoiserBench mirror = bench(of_means);
         const auto show = [&](float value, float depth) {
             RayFrame rays = drawn(value);
             rays.change = [=, this](glm::uvec2 pixel, StoredRay& ray) {

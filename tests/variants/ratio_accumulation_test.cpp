@@ -1,4 +1,4 @@
-// The resolve ratio_accumulation, with rays that the tests make up, against closed forms.
+// The denoiser ratio_accumulation, with rays that the tests make up, against closed forms.
 #include "tests/variants/changed.h"
 #include "tests/variants/probe_lookup.h"
 #include "tests/variants/ratio_accumulation_fixture.h"
@@ -16,7 +16,7 @@ TEST_F(RatioAccumulationTest, ConstantRadianceStays) {
     for (const float of_wall : {0.0f, 0.3f, 0.8f})
         for (const bool is_moving : {false, true}) {
             roughness = of_wall;
-            ResolveBench constant = bench(defaults, {{"half_resolution", is_moving}});
+            DenoiserBench constant = bench(defaults, {{"half_resolution", is_moving}});
             size_t known = 0;
             for (int frame = 0; frame < 8; ++frame) {
                 if (is_moving) move_to(constant, float(frame) * glm::vec3(0.2f, 0.1f, -0.1f));
@@ -49,7 +49,7 @@ TEST_F(RatioAccumulationTest, MirrorsShowTheirOwnRays) {
     const HostImage colors = any_colors();
     for (const double least : {least_ratio, 0.0})
         for (const bool half : {false, true}) {
-            ResolveBench mirror = bench({{"least_ratio", least}}, {{"half_resolution", half}});
+            DenoiserBench mirror = bench({{"least_ratio", least}}, {{"half_resolution", half}});
             for (int frame = 1; frame <= 12; ++frame) {
                 const HostImage found = mirror.next(drawn(colors));
                 if (half && frame % 4 != 0) continue;  // not every pixel has had its turn as often
@@ -71,7 +71,7 @@ TEST_F(RatioAccumulationTest, MeanIsThatOfTheLobe) {
     extent = {32, 32};
     pose.is_orthographic = true, pose.orthographic_height = 4;
     roughness = 1;
-    ResolveBench rough = bench(of_means);
+    DenoiserBench rough = bench(of_means);
     const unsigned frames = 60, pixels = extent.x * extent.y;
     RayFrame rays{.color = [&](glm::uvec2 pixel) {
         return glm::vec3((float(pixel.y * extent.x + pixel.x) + 0.5f) / float(pixels));
@@ -98,7 +98,7 @@ TEST_F(RatioAccumulationTest, VarianceFallsWithFramesUpToMaxHistory) {
     roughness = 1;
     nlohmann::json own = of_means;
     own["max_history"] = 16;
-    ResolveBench noisy = bench(own);
+    DenoiserBench noisy = bench(own);
     const double weight = 1 + least_ratio, share = weight / (16 + weight);
     for (int frame = 1; frame <= 80; ++frame) {
         const HostImage colors = any_colors();
@@ -130,10 +130,10 @@ TEST_F(RatioAccumulationTest, RoughSurfacesShowTheProbe) {
             const int steps = roughness < 1 ? 41 : 1;
             const nlohmann::json draw = {{"max_roughness", 0.5}, {"half_resolution", half}};
             const HostImage without_probe =
-                ResolveBench(device(), "ratio_accumulation", pose, extent, half_a_wall, defaults, draw)
+                DenoiserBench(device(), "ratio_accumulation", pose, extent, half_a_wall, defaults, draw)
                     .next(of_one_color(7));
             for (const float value : without_probe.values) ASSERT_EQ(value, 0);
-            ResolveBench rough(device(), "ratio_accumulation", pose, extent, half_a_wall, defaults,
+            DenoiserBench rough(device(), "ratio_accumulation", pose, extent, half_a_wall, defaults,
                                changed(draw, {{"misses", "probe"}}));
             const HostImage found = rough.next(of_one_color(7));
             std::vector<ProbeRay> rays;
@@ -175,7 +175,7 @@ TEST_F(RatioAccumulationTest, NumbersAloneStay) {
     const float infinite = std::numeric_limits<float>::infinity();
     const float none[] = {std::nanf(""), infinite, -infinite, 1};
     for (const bool reuses : {false, true}) {
-        ResolveBench broken = bench({{"change_deviations", 0.0}, {"reuse_neighbors", reuses}});
+        DenoiserBench broken = bench({{"change_deviations", 0.0}, {"reuse_neighbors", reuses}});
         HostImage found;
         for (int frame = 0; frame < 10; ++frame) {
             found = broken.next(drawn([&](glm::uvec2) { return glm::vec3(frame == 0 ? none[random() % 4] : 1); }));
@@ -201,7 +201,7 @@ TEST_F(RatioAccumulationTest, ExtremesStayFinite) {
         for (const bool half : {false, true}) {
             extent = size;
             pose.is_orthographic = half;
-            ResolveBench extremes = bench(defaults, {{"half_resolution", half}, {"max_rays", 1}});
+            DenoiserBench extremes = bench(defaults, {{"half_resolution", half}, {"max_rays", 1}});
             for (int frame = 0; frame < 6; ++frame) {
                 roughness = any_of({0, 0.3f, 1});
                 move_to(extremes, {any_of({0, 0.1f, 100}), 0, 0});

@@ -1,7 +1,7 @@
 // The ratio filter against closed forms: what its averages, its history and its weights come to.
 #include "tests/variants/frostbite_bench.h"
 #include "tests/variants/frostbite_passes.h"
-#include "variants/resolves/resolves.h"
+#include "variants/denoisers/denoisers.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <map>
@@ -26,14 +26,14 @@ struct RatioFilterBench {
     FrameView view;
     SyntheticScene scene;
     FrostbiteParameters technique;  ///< among them those of its rays
-    std::unique_ptr<Resolve> resolve = std::make_unique<Resolve>(find_resolve("ratio_filter"));
+    std::unique_ptr<Denoiser> denoiser = std::make_unique<Denoiser>(find_denoiser("ratio_filter"));
 
     RatioFilterBench(Device& device, const CameraPose& camera, const FrameView& frame, const SyntheticScene& shown,
                      const nlohmann::json& of_technique, const nlohmann::json& own)
         : graph(device, frame.extent), pose(camera), view(frame), scene(shown) {
         technique.params.assign({{"half_resolution", false}, {"previous_frame", false}, {"max_roughness", 1.0}});
         technique.params.assign(of_technique);
-        resolve->params.assign(own);
+        denoiser->params.assign(own);
     }
 
     /// `rays`: max_rays for each traced pixel. `color`: what hits show, 4 channels.
@@ -43,9 +43,9 @@ struct RatioFilterBench {
         graph.begin_frame(camera, technique.params, gbuffer.images());
         const Image lit = graph.image("shown_by_hits", Format::rgba32f);
         graph.upload(lit, color);
-        const ResolvedRays traced{
+        const DenoisedRays traced{
             .technique = technique.params, .traced = upload_rays(graph, rays), .color = lit, .probe = {}};
-        const Reflections reflections = resolve->run(graph, gbuffer, traced);
+        const Reflections reflections = denoiser->run(graph, gbuffer, traced);
         ++view.frame;
         pose_before = pose;
         return graph.download(reflections.radiance);

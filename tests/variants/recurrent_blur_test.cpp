@@ -25,7 +25,7 @@ struct RecurrentBlurTest : VariantTest {
     glm::uvec2 extent{64, 48};
 
     RecurrentBlurTest() {  // what makes it other than an average
-        add_resolve(params, "recurrent_blur");
+        add_denoiser(params, "recurrent_blur");
         params.assign({{"max_roughness", 1},
                        {"scale_free", true},
                        {"flicker_suppression", 0},
@@ -50,7 +50,7 @@ struct RecurrentBlurTest : VariantTest {
     }
 
     static Image blurred(PassGraph& graph, const GBuffer& gbuffer, const Image& radiance, const Image& length) {
-        return resolve_passes("recurrent_blur", graph, gbuffer, {{"own_radiance", radiance}, {"own_length", length}})
+        return denoiser_passes("recurrent_blur", graph, gbuffer, {{"own_radiance", radiance}, {"own_length", length}})
             .radiance;
     }
 

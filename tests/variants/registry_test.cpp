@@ -155,7 +155,7 @@ TEST(Registry, CompilesEveryTechniqueWithEveryTracer) {
     expect_all_techniques(compiled);
 }
 
-/// Of the tracers and resolves that it has, whose own are others.
+/// Of the tracers and denoisers that it has, whose own are others.
 TEST(Registry, ATechniqueBeginsWithItsOwnDefaults) {
     const nlohmann::json composed = make_variant("composed_ssr")->params.values(),
                          amd = make_variant("amd_sssr")->params.values();

@@ -38,7 +38,7 @@ struct ReservoirsTest : VariantTest {
     unsigned frame = 0;
 
     ReservoirsTest() {
-        add_resolve(params, "reservoirs");
+        add_denoiser(params, "reservoirs");
         params.assign({{"half_resolution", false}, {"max_roughness", 1.0}, {"lobe", "visible_normals"}});
     }
 
@@ -70,7 +70,7 @@ struct ReservoirsTest : VariantTest {
         graph->upload(gbuffer.fallback, HostImage(extent, 4, fallback));
         graph->begin_frame(camera, params, gbuffer.images());
         ++frame;
-        return graph->download(resolve_passes("reservoirs", *graph, gbuffer,
+        return graph->download(denoiser_passes("reservoirs", *graph, gbuffer,
                                               {{"ray_radiance", ray_radiance}, {"ray_direction", ray_direction}})
                                    .radiance);
     }

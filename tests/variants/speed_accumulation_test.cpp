@@ -1,5 +1,5 @@
-// The resolve speed_accumulation, with rays that the tests make up, against closed forms.
-#include "tests/variants/resolve_bench.h"
+// The denoiser speed_accumulation, with rays that the tests make up, against closed forms.
+#include "tests/variants/denoiser_bench.h"
 #include "tests/variants/variant_fixture.h"
 
 #include <glm/gtc/constants.hpp>
@@ -24,14 +24,14 @@ struct SpeedAccumulationTest : VariantTest {
                 .metalness = 1,
                 .specular = 1};
     }
-    ResolveBench bench(const nlohmann::json& parameters) {
+    DenoiserBench bench(const nlohmann::json& parameters) {
         return {device(),  "speed_accumulation", pose, extent, [this](const CameraRay& ray) { return wall(ray); },
                 parameters};
     }
     static const float* middle_of(const HostImage& image) { return image.pixel(middle.x, middle.y); }
 
     /// Share of the new frame in the mean (A* of the law): white after three black ones.
-    float share(ResolveBench&& bench, const RayFrame& white) {
+    float share(DenoiserBench&& bench, const RayFrame& white) {
         for (int i = 0; i < 3; ++i) bench.next(of_one_color(0));
         return *middle_of(bench.next(white));
     }
@@ -47,7 +47,7 @@ TEST_F(SpeedAccumulationTest, ConstantRadianceStays) {
     const nlohmann::json corrected = {
         {"ratio_estimator", true}, {"average_confidence", true}, {"reproject_history", true}, {"average_evenly", true}};
     for (const nlohmann::json& parameters : {plain, corrected}) {
-        ResolveBench constant = bench(parameters);
+        DenoiserBench constant = bench(parameters);
         for (unsigned frame = 0; frame < 6; ++frame) {
             RayFrame rays{.color = [](glm::uvec2) { return glm::vec3(2, 3, 4); },
                           .motion = [=](glm::uvec2) { return glm::vec2(2e-4f * float(frame), 0); }};
@@ -135,7 +135,7 @@ TEST_F(SpeedAccumulationTest, WeightsAreThoseOfTheLobe) {
 TEST_F(SpeedAccumulationTest, AtRestTheMeanIsExponential) {
     for (const auto& [accumulation, expected_share] :
          {std::pair(0.75, share_at_rest), {0.25, 0.29730178}, {0.0, 1.0}}) {
-        ResolveBench step = bench({{"accumulation", accumulation}});
+        DenoiserBench step = bench({{"accumulation", accumulation}});
         for (const float value : {9.0f, 7.0f, 0.0f})
             EXPECT_NEAR(*middle_of(step.next(of_one_color(value))), value, 1e-5);
         for (int k = 1; k <= 8; ++k)
@@ -145,7 +145,7 @@ TEST_F(SpeedAccumulationTest, AtRestTheMeanIsExponential) {
 
 /// What was seen fades, and keeps its colour.
 TEST_F(SpeedAccumulationTest, MissesTakeConfidenceAlone) {
-    ResolveBench fading = bench(plain);
+    DenoiserBench fading = bench(plain);
     RayFrame misses;
     misses.change = [](glm::uvec2, StoredRay& ray) { ray.target = ray_missed; };
     for (int i = 0; i < 3; ++i) fading.next(of_one_color(5));
@@ -157,7 +157,7 @@ TEST_F(SpeedAccumulationTest, MissesTakeConfidenceAlone) {
 }
 
 TEST_F(SpeedAccumulationTest, AveragesEvenlySinceTheLastRejection) {
-    ResolveBench even = bench({{"average_evenly", true}});
+    DenoiserBench even = bench({{"average_evenly", true}});
     for (int n = 1; n <= 6; ++n) EXPECT_NEAR(*middle_of(even.next(of_one_color(float(n)))), 0.5 * (n + 1), 1e-5);
     RayFrame fast = of_one_color(10);
     fast.motion = [](glm::uvec2) { return glm::vec2(0.1f, 0); };
@@ -215,7 +215,7 @@ TEST_F(SpeedAccumulationTest, TheFirstPixelRejectsOnlyInTheOriginal) {
     misses.change = [](glm::uvec2, StoredRay& ray) { ray.target = ray_missed; };
     // No confidence is new: 1 - A* of it is left.
     const auto left = [&](const nlohmann::json& parameters) {
-        ResolveBench fading = bench(parameters);
+        DenoiserBench fading = bench(parameters);
         for (int i = 0; i < 3; ++i) fading.next(of_one_color(1));
         return middle_of(fading.next(misses))[3];
     };
@@ -231,7 +231,7 @@ TEST_F(SpeedAccumulationTest, TheFirstPixelRejectsOnlyInTheOriginal) {
     for (const bool is_corrected : {false, true}) {
         const float distance = is_corrected ? wall_distance : wall_distance / 2;
         const float per_uv = std::tan(pose.vertical_fov / 2) * distance * pose.far / (pose.far - distance);
-        ResolveBench target(device(), "speed_accumulation", pose, extent, with_corner,
+        DenoiserBench target(device(), "speed_accumulation", pose, extent, with_corner,
                             {{"rejection", "world_smooth"}, {"speed_of", "target"}, {"depth_of_target", is_corrected}});
         EXPECT_NEAR(share(std::move(target), moving({0, 0}, {0, 1e-4f / per_uv})), mixed(0.25 * 0.5), 1e-3);
     }
@@ -241,7 +241,7 @@ TEST_F(SpeedAccumulationTest, TheFirstPixelRejectsOnlyInTheOriginal) {
 TEST_F(SpeedAccumulationTest, HistoryMovesWithTheSurface) {
     const auto color = [](glm::uvec2 pixel) { return glm::vec3(float(pixel.x * pixel.x)); };
     for (const bool is_corrected : {false, true}) {
-        ResolveBench sliding =
+        DenoiserBench sliding =
             bench({{"reproject_history", is_corrected}, {"speed_rejection", 0.0}, {"reuse_neighbors", false}});
         for (int i = 0; i < 3; ++i) sliding.next({.color = color});
         RayFrame black = of_one_color(0);
@@ -276,7 +276,7 @@ TEST_F(SpeedAccumulationTest, ExtremesStayFinite) {
                 hit.roughness = ray.direction.x + ray.origin.x < 0 ? 0.0f : 1.0f;
                 return hit;
             };
-            ResolveBench extremes(device(), "speed_accumulation", pose, size, scene, parameters);
+            DenoiserBench extremes(device(), "speed_accumulation", pose, size, scene, parameters);
             for (int frame = 0; frame < 5; ++frame) {
                 RayFrame rays{.color = [&](glm::uvec2) { return glm::vec3(any_of(values), any_of(values), 1); },
                               .motion = [&](glm::uvec2) { return glm::vec2(any_of(values), 0); }};

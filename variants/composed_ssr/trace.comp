@@ -1,4 +1,4 @@
-// The rays of each traced pixel, for a resolve.
+// The rays of each traced pixel, for a denoiser.
 #include "tracer"
 #include "frostbite_sssr/horizon.glsl"
 #include "frostbite_sssr/trace_ray.glsl"

@@ -9,7 +9,7 @@
 #include "variants/passes/check_frames.h"
 #include "variants/passes/read_passes.h"
 #include "variants/passes/technique_files.h"
-#include "variants/resolves/resolves.h"
+#include "variants/denoisers/denoisers.h"
 
 #include <algorithm>
 #include <cctype>
@@ -23,7 +23,7 @@ std::string function_of(const std::string& slot) {
     return slot.ends_with("tracer") ? slot.substr(0, slot.size() - 1) : slot + "_trace";
 }
 
-void read_tracers(JsonObject object, Technique& technique) {
+void read_tracers(JsonObject object, Declaration& declaration) {
     know_keys(object, {"slots", "after", "source", "defaults"});
     for (JsonObject& of_slot : object.objects("slots")) {
         know_keys(of_slot, {"name", "function", "default", "meaning"});
@@ -33,73 +33,73 @@ void read_tracers(JsonObject object, Technique& technique) {
         slot.initial = of_slot.choice("default", names_of(tracer_table(), &TracerEntry::name), "");
         slot.doc = of_slot.text("meaning", "the march that finds what a ray meets");
         of_slot.finish();
-        technique.slots.push_back(slot);
+        declaration.slots.push_back(slot);
     }
-    if (technique.slots.empty()) fail(object.at("slots"), ": 'slots' must name at least one tracer's place");
+    if (declaration.slots.empty()) fail(object.at("slots"), ": 'slots' must name at least one tracer's place");
     if (object.has("after")) {
         const std::string name =
-            object.choice("after", names_of(technique.parameters, &Parameter::name), technique.parameters.back().name);
-        const auto found = std::ranges::find(technique.parameters, name, &Parameter::name);
-        technique.parameters_before_tracers = size_t(found - technique.parameters.begin()) + 1;
+            object.choice("after", names_of(declaration.parameters, &Parameter::name), declaration.parameters.back().name);
+        const auto found = std::ranges::find(declaration.parameters, name, &Parameter::name);
+        declaration.parameters_before_tracers = size_t(found - declaration.parameters.begin()) + 1;
     }
-    technique.tracers_source = object.text("source", "");
-    if (object.has("defaults")) technique.tracer_defaults = object.any("defaults");
+    declaration.tracers_source = object.text("source", "");
+    if (object.has("defaults")) declaration.tracer_defaults = object.any("defaults");
     object.finish();
     ParameterSet params;
     try {
-        Tracers(params, technique.slots, technique.tracers_source, technique.tracer_defaults);
+        Tracers(params, declaration.slots, declaration.tracers_source, declaration.tracer_defaults);
     } catch (const Error& error) {
         fail(object.at("defaults"), ": ", error.what());
     }
 }
 
-void read_resolve(JsonObject object, Technique& technique) {
+void read_denoiser(JsonObject object, Declaration& declaration) {
     know_keys(object, {"default", "defaults"});
-    const std::vector<std::string> names = names_of(resolve_table(), &ResolveEntry::name);
+    const std::vector<std::string> names = names_of(denoiser_table(), &DenoiserEntry::name);
     object.any("default");
-    DeclaredResolve resolve{.initial = object.choice("default", names, ""), .place = object.where()};
-    if (object.has("defaults")) resolve.defaults = object.any("defaults");
+    DeclaredDenoiser denoiser{.initial = object.choice("default", names, ""), .place = object.where()};
+    if (object.has("defaults")) denoiser.defaults = object.any("defaults");
     object.finish();
-    technique.resolve = std::move(resolve);
+    declaration.denoiser = std::move(denoiser);
     try {
-        make_declared(std::make_shared<Technique>(technique));
+        make_declared(std::make_shared<Declaration>(declaration));
     } catch (const Error& error) {
         fail(object.at("defaults"), ": ", error.what());
     }
 }
 
 /// Fails if two of the parameters that shaders see have one name.
-void refuse_repetition(const std::vector<DeclaredParameter>& declared, const Technique& technique) {
-    const std::unique_ptr<Variant> variant = make_declared(std::make_shared<Technique>(technique));
+void refuse_repetition(const std::vector<DeclaredParameter>& declared, const Declaration& declaration) {
+    const std::unique_ptr<Variant> variant = make_declared(std::make_shared<Declaration>(declaration));
     for (size_t i = 0; i < declared.size(); ++i) {
         const auto& [parameter, place] = declared[i];
         const std::string& name = parameter.name;
-        if (name == "resolve" && !technique.resolve)
+        if (name == "denoiser" && !declaration.denoiser)
             fail(place,
-                 ": the parameter 'resolve' chooses one of ssrlab's resolves, which a technique with "
-                 "\"resolve\": {...} has; call yours otherwise");
+                 ": the parameter 'denoiser' chooses one of ssrlab's denoisers, which a technique with "
+                 "\"denoiser\": {...} has; call yours otherwise");
         if (std::ranges::count(variant->params, parameter.glsl_name(), &Parameter::glsl_name) == 1) continue;
-        const auto first = std::ranges::find(technique.parameters, name, &Parameter::name);
-        if (first - technique.parameters.begin() < long(i))
+        const auto first = std::ranges::find(declaration.parameters, name, &Parameter::name);
+        if (first - declaration.parameters.begin() < long(i))
             fail(place, ": the parameter '", name, "' is declared twice");
-        if (std::ranges::count(technique.parameters, name, &Parameter::name) == 1)
+        if (std::ranges::count(declaration.parameters, name, &Parameter::name) == 1)
             fail(place, ": the parameter '", name,
-                 "' is one that every such technique, its tracers or its resolve have already; call yours otherwise");
+                 "' is one that every such technique, its tracers or its denoiser have already; call yours otherwise");
     }
 }
 
-/// `parameters`, `tracers` and `resolve` of a technique.json.
-void read_parameters(JsonObject& root, ParameterReader& reader, Technique& technique) {
+/// `parameters`, `tracers` and `denoiser` of a technique.json.
+void read_parameters(JsonObject& root, ParameterReader& reader, Declaration& declaration) {
     const std::vector<DeclaredParameter> declared = reader.read(root);
-    for (const DeclaredParameter& one : declared) technique.parameters.push_back(one.parameter);
-    technique.parameters_before_tracers = declared.size();
-    if (root.has("tracers")) read_tracers(root.object("tracers"), technique);
-    if (root.has("resolve")) read_resolve(root.object("resolve"), technique);
-    refuse_repetition(declared, technique);
+    for (const DeclaredParameter& one : declared) declaration.parameters.push_back(one.parameter);
+    declaration.parameters_before_tracers = declared.size();
+    if (root.has("tracers")) read_tracers(root.object("tracers"), declaration);
+    if (root.has("denoiser")) read_denoiser(root.object("denoiser"), declaration);
+    refuse_repetition(declared, declaration);
 }
 
 /// `presets`: what points may start from. One may begin with another that stands before it.
-std::vector<Preset> read_presets(JsonObject& root, const std::shared_ptr<const Technique>& technique) {
+std::vector<Preset> read_presets(JsonObject& root, const std::shared_ptr<const Declaration>& declaration) {
     std::vector<Preset> presets;
     for (JsonObject& object : root.objects("presets")) {
         know_keys(object, {"name", "description", "begins_with", "parameters"});
@@ -119,7 +119,7 @@ std::vector<Preset> read_presets(JsonObject& root, const std::shared_ptr<const T
         if (std::ranges::find(presets, preset.name, &Preset::name) != presets.end())
             fail(object.at("name"), ": there are two presets '", shortened(preset.name), "'");
         try {
-            make_declared(technique)->params.assign(preset.parameters);
+            make_declared(declaration)->params.assign(preset.parameters);
         } catch (const Error& error) {
             fail(object.at("parameters"), ": ", error.what());
         }
@@ -169,37 +169,37 @@ DeclaredEntry read_technique(const fs::path& named) {
     write_out_short_forms(document.value);
     JsonObject root(document, file.string());
     know_keys(root,
-              {"title", "source", "description", "parameters", "tracers", "pyramids", "resolve", "conditions", "images",
+              {"title", "source", "description", "parameters", "tracers", "pyramids", "denoiser", "conditions", "images",
                "buffers", "passes", "result", "random", "not_repeatable", "reflects", "limits", "presets"});
 
-    auto technique = std::make_shared<Technique>();
-    technique->name = declared_name(folder);
+    auto declaration = std::make_shared<Declaration>();
+    declaration->name = declared_name(folder);
     if (const auto passes = document.value.find("passes"); passes != document.value.end() && passes->is_array())
-        technique->reads_inputs =
+        declaration->reads_inputs =
             !std::ranges::all_of(*passes, [](const auto& pass) { return pass.contains("clear"); });
-    VariantEntry entry{.name = technique->name,
+    VariantEntry entry{.name = declaration->name,
                        .title = root.text("title"),
                        .source = root.text("source", ""),
                        .description = root.text("description", ""),
                        .presets = {},
                        .create = {}};
     ParameterReader reader(folder);
-    read_parameters(root, reader, *technique);
-    const std::unique_ptr<Variant> plain = make_declared(std::make_shared<Technique>(*technique));
-    read_passes(root, KnownValues(plain->params), *technique);
+    read_parameters(root, reader, *declaration);
+    const std::unique_ptr<Variant> plain = make_declared(std::make_shared<Declaration>(*declaration));
+    read_passes(root, KnownValues(plain->params), *declaration);
     TechniqueFolder read{.path = folder, .files = {}, .sources = {}, .content_hash = {}};
-    read_shaders(*technique, read);
-    check_frames(*technique, plain->params);
-    entry.limits = technique->limits;
-    entry.presets = read_presets(root, technique);
+    read_shaders(*declaration, read);
+    check_frames(*declaration, plain->params);
+    entry.limits = declaration->limits;
+    entry.presets = read_presets(root, declaration);
     root.finish();
 
     for (const std::string& block : reader.of_folder) read.files[block] = read_text(path_inside(folder, block));
     read.content_hash = hash_of(as_written, read, reader.of_ssrlab);
     read.files["technique.json"] = read_text(file);
-    entry.create = [technique] { return make_declared(technique); };
+    entry.create = [declaration] { return make_declared(declaration); };
     entry.folder = std::make_shared<TechniqueFolder>(std::move(read));
-    return {std::move(entry), technique};
+    return {std::move(entry), declaration};
 }
 
 VariantEntry declared_entry(const fs::path& folder) { return read_technique(folder).entry; }

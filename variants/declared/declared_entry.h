@@ -1,10 +1,10 @@
 #pragma once
-#include "variants/passes/technique.h"
+#include "variants/passes/declaration.h"
 
 /// A technique of a folder: its row of the table, and what its technique.json declares.
 struct DeclaredEntry {
     VariantEntry entry;
-    std::shared_ptr<const Technique> technique;
+    std::shared_ptr<const Declaration> declaration;
 };
 
 /// Reads and judges `folder`/technique.json with all that takes part; its tuned_presets.json is left to the table.
@@ -16,4 +16,4 @@ VariantEntry declared_entry(const std::filesystem::path& folder);
 std::string declared_name(const std::filesystem::path& folder);
 
 /// Runs it. Needs no more than its parameters and tracers until it renders.
-std::unique_ptr<Variant> make_declared(std::shared_ptr<const Technique> technique);
+std::unique_ptr<Variant> make_declared(std::shared_ptr<const Declaration> declaration);

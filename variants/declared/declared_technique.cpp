@@ -4,8 +4,8 @@
 #include "variants/common/lit_history.h"
 #include "variants/common/parameter_block.h"
 #include "variants/common/repaired_inputs.h"
-#include "variants/passes/pass_list.h"
-#include "variants/resolves/resolves.h"
+#include "variants/passes/declared_passes.h"
+#include "variants/denoisers/denoisers.h"
 
 #include <algorithm>
 
@@ -14,11 +14,11 @@ namespace {
 /// The technique that a technique.json declares.
 class DeclaredTechnique final : public Variant {
 public:
-    explicit DeclaredTechnique(std::shared_ptr<const Technique> technique)
-        : technique_(std::move(technique)), tracers_(own_parameters()) {
-        if (!technique_->resolve) return;
-        resolves_ = std::make_unique<Resolves>(params, technique_->resolve->initial);
-        params.change_defaults(technique_->resolve->defaults);
+    explicit DeclaredTechnique(std::shared_ptr<const Declaration> declaration)
+        : declaration_(std::move(declaration)), tracers_(own_parameters()) {
+        if (!declaration_->denoiser) return;
+        denoisers_ = std::make_unique<Denoisers>(params, declaration_->denoiser->initial);
+        params.change_defaults(declaration_->denoiser->defaults);
     }
 
     Reflections render(PassGraph& graph, const GBuffer& gbuffer) override;
@@ -32,32 +32,32 @@ public:
 
 private:
     Tracers own_parameters() {
-        if (technique_->reads_inputs) add_block(params, "common/repair_inputs.json");
-        if (technique_->resolve) add_block(params, "resolves/rays.json");
-        const std::vector<Parameter>& own = technique_->parameters;
-        const auto rest = own.begin() + ptrdiff_t(technique_->parameters_before_tracers);
+        if (declaration_->reads_inputs) add_block(params, "common/repair_inputs.json");
+        if (declaration_->denoiser) add_block(params, "denoisers/rays.json");
+        const std::vector<Parameter>& own = declaration_->parameters;
+        const auto rest = own.begin() + ptrdiff_t(declaration_->parameters_before_tracers);
         std::for_each(own.begin(), rest, [&](const Parameter& parameter) { params.add(parameter); });
-        Tracers tracers(params, technique_->slots, technique_->tracers_source, technique_->tracer_defaults);
+        Tracers tracers(params, declaration_->slots, declaration_->tracers_source, declaration_->tracer_defaults);
         std::for_each(rest, own.end(), [&](const Parameter& parameter) { params.add(parameter); });
         return tracers;
     }
-    KnownValues known() const { return technique_->known_values(params, facts_); }
-    KnownValues of_any_shot() const { return technique_->known_values(params); }
+    KnownValues known() const { return declaration_->known_values(params, facts_); }
+    KnownValues of_any_shot() const { return declaration_->known_values(params); }
     std::vector<std::string> slots_in_use(const KnownValues& known) const {
-        return slots_of(technique_->passes_in_use(known));
+        return slots_of(declaration_->passes_in_use(known));
     }
-    bool repairs_inputs() const { return technique_->reads_inputs && value_of(params, "repair_inputs") == true; }
+    bool repairs_inputs() const { return declaration_->reads_inputs && value_of(params, "repair_inputs") == true; }
     bool has_no_rays(const KnownValues& known) const;
     Reflections run_passes(PassGraph& graph, const GBuffer& gbuffer);
-    Reflections run_with_resolve(PassGraph& graph, const GBuffer& gbuffer, const PassList::Around& around);
+    Reflections run_with_denoiser(PassGraph& graph, const GBuffer& gbuffer, const DeclaredPasses::Around& around);
     /// All stages that begin with its rays, in their order.
     std::vector<std::string> stages() const;
     void add_left_out(std::vector<LeftOut>& left_out, const SceneFacts& facts);
     std::vector<std::string> readers_of(const std::string& scene_constant) const;
 
-    std::shared_ptr<const Technique> technique_;
+    std::shared_ptr<const Declaration> declaration_;
     Tracers tracers_;
-    std::unique_ptr<Resolves> resolves_;  ///< none without a resolve
+    std::unique_ptr<Denoisers> denoisers_;  ///< none without a denoiser
     ProvidedImages provided_;
     std::optional<SceneFacts> facts_;  ///< once they are known
     Constants constants_;              ///< of leave_out()
@@ -65,28 +65,28 @@ private:
 
 bool DeclaredTechnique::depends_on_seed() const {
     const KnownValues known = of_any_shot();
-    if (technique_->draws_random_numbers.holds(known)) return true;
-    if (!resolves_) {
-        const RoughnessLimit* limit = first_that_holds(technique_->reflects, known);
+    if (declaration_->draws_random_numbers.holds(known)) return true;
+    if (!denoisers_) {
+        const RoughnessLimit* limit = first_that_holds(declaration_->reflects, known);
         const bool has_no_surface = limit && limit->is_excluded && limit->excludes_all_from(0, known);
         return !has_no_surface && tracers_.needs(slots_in_use(known)).random;
     }
     // With half_resolution pixels take turns, in an order of the seed's.
     return tracers_.needs(slots_in_use(known)).random || known.by_name().at("draw_directions") == true ||
-           known.by_name().at("half_resolution") == true || resolves_->chosen().draws_random_numbers();
+           known.by_name().at("half_resolution") == true || denoisers_->chosen().draws_random_numbers();
 }
 
 std::string DeclaredTechnique::not_repeatable() const {
     const std::string of_rays = tracers_.not_repeatable(),
-                      of_rest = resolves_ ? resolves_->chosen().not_repeatable()
-                                          : because(technique_->not_repeatable, of_any_shot());
+                      of_rest = denoisers_ ? denoisers_->chosen().not_repeatable()
+                                          : because(declaration_->not_repeatable, of_any_shot());
     return of_rays + (of_rays.empty() || of_rest.empty() ? "" : "; ") + of_rest;
 }
 
 ShaderIncludes DeclaredTechnique::shader_includes() const {
     ShaderIncludes includes = tracers_.includes();
     const KnownValues known = of_any_shot();
-    for (const DeclaredPass& pass : technique_->passes)
+    for (const DeclaredPass& pass : declaration_->passes)
         for (const DeclaredInclude* include : in_use(pass.includes, &DeclaredInclude::name, known))
             includes[include->name] = "#include \"" + include->file + "\"\n";
     return includes;
@@ -95,7 +95,7 @@ ShaderIncludes DeclaredTechnique::shader_includes() const {
 bool DeclaredTechnique::needs_depth_layers() const {
     const KnownValues known = of_any_shot();
     if (tracers_.needs(slots_in_use(known)).depth_layers) return true;
-    for (const DeclaredPass* pass : technique_->passes_in_use(known))
+    for (const DeclaredPass* pass : declaration_->passes_in_use(known))
         for (const DeclaredUse* read : in_use(pass->reads, &DeclaredUse::as, known))
             if (ProvidedImages::is_depth_layer(read->image)) return true;
     return false;
@@ -114,39 +114,39 @@ Reflections DeclaredTechnique::render(PassGraph& graph, const GBuffer& gbuffer) 
 
 Reflections DeclaredTechnique::run_passes(PassGraph& graph, const GBuffer& gbuffer) {
     provided_.begin_frame();
-    const PassList::Around around{graph, gbuffer, provided_, &tracers_, ray_probe};
-    if (resolves_) return run_with_resolve(graph, gbuffer, around);
-    PassList passes(*technique_, params, known(), around);
+    const DeclaredPasses::Around around{graph, gbuffer, provided_, &tracers_, ray_probe};
+    if (denoisers_) return run_with_denoiser(graph, gbuffer, around);
+    DeclaredPasses passes(*declaration_, params, known(), around);
     passes.run_all();
     return passes.result();
 }
 
-Reflections DeclaredTechnique::run_with_resolve(PassGraph& graph, const GBuffer& gbuffer,
-                                                const PassList::Around& around) {
+Reflections DeclaredTechnique::run_with_denoiser(PassGraph& graph, const GBuffer& gbuffer,
+                                                const DeclaredPasses::Around& around) {
     const KnownValues known = this->known();
     const nlohmann::json& values = known.by_name();
     const ScreenShare traced{.divisor = values.at("half_resolution") == true ? 2u : 1u, .rounds_up = true};
     const glm::uvec2 extent = traced.of(graph.extent());
     const size_t bytes = size_t(extent.x) * extent.y * values.at("max_rays").get<size_t>() * 16;
-    ResolvedRays rays{
+    DenoisedRays rays{
         .technique = params,
         .traced = {.directions = graph.buffer("directions", bytes), .hits = graph.buffer("hits", bytes)},
         .color = provided_.image(graph, gbuffer, values.at("previous_frame") == true ? "lit_before" : "lit", params),
         .probe = {}};
     if (values.at("misses") == "probe") rays.probe = screen_probe(graph, gbuffer);
-    PassList(*technique_, params, known, around, {},
+    DeclaredPasses(*declaration_, params, known, around, {},
              {{"directions", rays.traced.directions}, {"hits", rays.traced.hits}})
         .run_all();
-    return resolves_->run(graph, gbuffer, rays);
+    return denoisers_->run(graph, gbuffer, rays);
 }
 
 bool DeclaredTechnique::has_no_rays(const KnownValues& known) const {
     if (!facts_->has_reflective) return true;
-    if (resolves_) {
-        const bool answers_rough = known.by_name().at("misses") == "probe" && resolves_->entry().answers_rough_surfaces;
+    if (denoisers_) {
+        const bool answers_rough = known.by_name().at("misses") == "probe" && denoisers_->entry().answers_rough_surfaces;
         return facts_->min_roughness > known.by_name().at("max_roughness").get<float>() && !answers_rough;
     }
-    const RoughnessLimit* limit = first_that_holds(technique_->reflects, known);
+    const RoughnessLimit* limit = first_that_holds(declaration_->reflects, known);
     return limit && limit->excludes_all_from(facts_->min_roughness, known);
 }
 
@@ -157,21 +157,21 @@ std::vector<std::string> DeclaredTechnique::stages() const {
     };
     const KnownValues any_shot = of_any_shot();
     const TracerNeeds needs = tracers_.needs(slots_in_use(any_shot));
-    if (resolves_ && any_shot.by_name().at("previous_frame") == true) add(ProvidedImages::stage_of("lit_before"));
-    for (const DeclaredPass* pass : technique_->passes_in_use(any_shot)) {
+    if (denoisers_ && any_shot.by_name().at("previous_frame") == true) add(ProvidedImages::stage_of("lit_before"));
+    for (const DeclaredPass* pass : declaration_->passes_in_use(any_shot)) {
         for (const DeclaredUse* read : in_use(pass->reads, &DeclaredUse::as, any_shot)) {
-            const auto images = in_use(technique_->images, &DeclaredImage::name, any_shot);
+            const auto images = in_use(declaration_->images, &DeclaredImage::name, any_shot);
             const auto own = std::ranges::find(images, read->image, &DeclaredImage::name);
             add(ProvidedImages::stage_of(own == images.end() ? read->image : (*own)->same_as));
         }
         if (!pass->tracers.empty() && (needs.nearest_mips > 0 || needs.farthest_mips > 0))
-            add(pyramid_maker(*technique_, any_shot).stage);
+            add(pyramid_maker(*declaration_, any_shot).stage);
         if (pass->cleared.empty()) add(pass->stage);
     }
-    if (!resolves_) return stages;
+    if (!denoisers_) return stages;
     if (any_shot.by_name().at("misses") == "probe")
         for (const std::string& stage : screen_probe_stages()) add(stage);
-    for (const std::string& stage : resolves_->chosen().stages()) add(stage);
+    for (const std::string& stage : denoisers_->chosen().stages()) add(stage);
     return stages;
 }
 
@@ -181,14 +181,14 @@ std::vector<std::string> DeclaredTechnique::readers_of(const std::string& scene_
         if (!stage.empty() && !std::ranges::count(readers, stage)) readers.push_back(stage);
     };
     const KnownValues known = this->known();
-    for (const std::string& stage : technique_->readers_of(scene_constant, known)) add(stage);
-    if (!resolves_) return readers;
-    const Resolve& resolve = resolves_->chosen();
-    for (const std::string& stage : resolve.readers_of(scene_constant)) add(stage);
+    for (const std::string& stage : declaration_->readers_of(scene_constant, known)) add(stage);
+    if (!denoisers_) return readers;
+    const Denoiser& denoiser = denoisers_->chosen();
+    for (const std::string& stage : denoiser.readers_of(scene_constant)) add(stage);
     const nlohmann::json& values = known.by_name();
-    if (scene_constant == "scene_is_still" && values.at("previous_frame") == true) add(resolve.stage_of_rays());
+    if (scene_constant == "scene_is_still" && values.at("previous_frame") == true) add(denoiser.stage_of_rays());
     if (scene_constant == "scene_has_environment") {
-        if (values.at("misses") != "weight") add(resolve.stage_of_rays());
+        if (values.at("misses") != "weight") add(denoiser.stage_of_rays());
         if (values.at("misses") == "probe") add(screen_probe_stages().front());
     }
     return readers;
@@ -200,11 +200,11 @@ std::vector<LeftOut> DeclaredTechnique::leave_out(const SceneFacts& facts) {
     std::vector<LeftOut> left_out;
     const KnownValues known = this->known();
     if (has_no_rays(known)) {
-        const RoughnessLimit* limit = first_that_holds(technique_->reflects, known);
+        const RoughnessLimit* limit = first_that_holds(declaration_->reflects, known);
         const std::string fact =
             !facts.has_reflective
                 ? "nothing reflective"
-                : "no reflective surface " + (resolves_ ? "as smooth as max_roughness" : limit->surfaces_within());
+                : "no reflective surface " + (denoisers_ ? "as smooth as max_roughness" : limit->surfaces_within());
         for (const std::string& stage : stages()) left_out.push_back({stage, fact, "no pixel would start a ray"});
     } else {
         add_left_out(left_out, facts);
@@ -217,7 +217,7 @@ std::vector<LeftOut> DeclaredTechnique::leave_out(const SceneFacts& facts) {
 /// Where some pixel starts a ray.
 void DeclaredTechnique::add_left_out(std::vector<LeftOut>& left_out, const SceneFacts& facts) {
     const KnownValues known = this->known();
-    for (const DeclaredPass* pass : technique_->passes_in_use(of_any_shot())) {
+    for (const DeclaredPass* pass : declaration_->passes_in_use(of_any_shot())) {
         if (!pass->when.holds(known))
             left_out.push_back({pass->stage, pass->when.failing_member(known),
                                 "the technique's declaration runs it for other shots only", "", false});
@@ -249,6 +249,6 @@ void DeclaredTechnique::add_left_out(std::vector<LeftOut>& left_out, const Scene
 
 }  // namespace
 
-std::unique_ptr<Variant> make_declared(std::shared_ptr<const Technique> technique) {
-    return std::make_unique<DeclaredTechnique>(std::move(technique));
+std::unique_ptr<Variant> make_declared(std::shared_ptr<const Declaration> declaration) {
+    return std::make_unique<DeclaredTechnique>(std::move(declaration));
 }

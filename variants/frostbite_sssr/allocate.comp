@@ -2,7 +2,7 @@
 // run to run; each ray has a place of its own to write to, so that nothing else does.
 #include "frostbite_sssr/counters.glsl"
 #include "frostbite_sssr/draw_ray.glsl"
-#include "resolves/ray.glsl"
+#include "denoisers/ray.glsl"
 #include "frostbite_sssr/tile.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

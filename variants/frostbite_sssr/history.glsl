@@ -1,7 +1,7 @@
 // Where a pixel's reflection was in the frame before. Needs the parameter misses.
 #ifndef FROSTBITE_SSSR_HISTORY_GLSL
 #define FROSTBITE_SSSR_HISTORY_GLSL
-#include "resolves/reflector_history.glsl"
+#include "denoisers/reflector_history.glsl"
 
 // What a plane mirrors seems to stand behind it, as far as it is away, and to stay there while the camera moves. A ray
 // length of 0 stands for infinity.

@@ -2,7 +2,7 @@
 #ifndef FROSTBITE_SSSR_RANDOM_GLSL
 #define FROSTBITE_SSSR_RANDOM_GLSL
 #include "common/halton.h"
-#include "resolves/traced_pixel.glsl"
+#include "denoisers/traced_pixel.glsl"
 
 // Dimensions of a ray's random numbers: its draws, of which there are at most 17, and the start of its march. Those of
 // probes follow, which are as many.

@@ -4,7 +4,7 @@
 #include "core/shaders/gbuffer/environment.glsl"
 #include "frostbite_sssr/lobe_cone.h"
 #include "frostbite_sssr/reuse.glsl"
-#include "resolves/pixel_scale.glsl"
+#include "denoisers/pixel_scale.glsl"
 
 uniform sampler2D color_pyramid;
 

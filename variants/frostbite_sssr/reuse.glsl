@@ -2,10 +2,10 @@
 #ifndef FROSTBITE_SSSR_REUSE_GLSL
 #define FROSTBITE_SSSR_REUSE_GLSL
 #include "frostbite_sssr/previous_view.glsl"
-#include "resolves/aimed_ray.glsl"
-#include "resolves/hit_color.glsl"
-#include "resolves/ray.glsl"
-#include "resolves/solid_angle.glsl"
+#include "denoisers/aimed_ray.glsl"
+#include "denoisers/hit_color.glsl"
+#include "denoisers/ray.glsl"
+#include "denoisers/solid_angle.glsl"
 #include "frostbite_sssr/surface.glsl"
 
 // All of a ray that does not depend on who resolves it. View space.

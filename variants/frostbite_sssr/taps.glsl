@@ -3,7 +3,7 @@
 #define FROSTBITE_SSSR_TAPS_GLSL
 #include "core/shared/brdf.h"
 #include "frostbite_sssr/random.glsl"
-#include "resolves/ray.glsl"
+#include "denoisers/ray.glsl"
 
 // The choices of `taps` and `pattern`.
 const int tap_count = taps == 0u ? 1 : taps == 1u ? 4 : 16;

@@ -2,7 +2,7 @@
 #ifndef FROSTBITE_SSSR_TRACE_RAY_GLSL
 #define FROSTBITE_SSSR_TRACE_RAY_GLSL
 #include "frostbite_sssr/draw_ray.glsl"
-#include "resolves/ray.glsl"
+#include "denoisers/ray.glsl"
 
 // To be defined by whoever includes this, which says how it marches.
 TraceEnd march(TraceRay ray);

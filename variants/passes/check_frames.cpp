@@ -18,21 +18,21 @@ using Uses = std::vector<const DeclaredUse*>;
 /// One frame, of the passes and images that its values leave.
 class FrameCheck {
 public:
-    FrameCheck(const Technique& technique, const FrameValues& values) : technique_(technique), values_(values) {}
+    FrameCheck(const Declaration& declaration, const FrameValues& values) : declaration_(declaration), values_(values) {}
 
     void run() {
-        for (const DeclaredImage* image : in_use(technique_.images, &DeclaredImage::name, values_.known()))
+        for (const DeclaredImage* image : in_use(declaration_.images, &DeclaredImage::name, values_.known()))
             images_.emplace(image->name, image);
-        for (const DeclaredBuffer* buffer : in_use(technique_.buffers, &DeclaredBuffer::name, values_.known()))
+        for (const DeclaredBuffer* buffer : in_use(declaration_.buffers, &DeclaredBuffer::name, values_.known()))
             buffers_.insert(buffer->name);
-        if (technique_.resolve || technique_.is_resolve) buffers_.insert(ray_buffers.begin(), ray_buffers.end());
-        if (technique_.is_resolve) buffers_.insert(seen_rays_buffer);
-        for (const DeclaredPass* pass : technique_.passes_in_use(values_.known())) check(*pass);
+        if (declaration_.denoiser || declaration_.is_denoiser) buffers_.insert(ray_buffers.begin(), ray_buffers.end());
+        if (declaration_.is_denoiser) buffers_.insert(seen_rays_buffer);
+        for (const DeclaredPass* pass : declaration_.passes_in_use(values_.known())) check(*pass);
         for (const auto& [name, place] : read_of_last_frame_)
             if (!written_.contains(name) && !written_.contains(previous + name))
                 fail_here(place, "reads '" + previous + name + "', but no pass writes '" + name + "'");
-        if (technique_.resolve)
-            check_rays(*technique_.resolve);
+        if (declaration_.denoiser)
+            check_rays(*declaration_.denoiser);
         else
             check_results();
     }
@@ -47,7 +47,7 @@ private:
 
     bool is_given(const std::string& name) const {
         return !images_.contains(name) &&
-               (ProvidedImages::has(name) || (technique_.is_resolve && std::ranges::count(resolve_images, name)));
+               (ProvidedImages::has(name) || (declaration_.is_denoiser && std::ranges::count(denoiser_images, name)));
     }
 
     /// The name of what is behind names that are others'.
@@ -60,7 +60,7 @@ private:
     const DeclaredImage& image(const std::string& name, const std::string& place) const {
         if (const auto found = images_.find(name); found != images_.end()) return *found->second;
         std::vector<std::string> names = ProvidedImages::names();
-        for (const DeclaredImage& known : technique_.images) {
+        for (const DeclaredImage& known : declaration_.images) {
             if (known.name == name) fail_here(place, "there is no image '" + name + "'");
             names.push_back(known.name);
             if (known.has_history) names.push_back(previous + known.name);
@@ -88,7 +88,7 @@ private:
         written_.insert(tested.begin(), tested.end());
         if (!pass.each_mip_of.empty()) image(pass.each_mip_of, pass.place);
         if (const DeclaredExtent* over = first_that_holds(pass.over, values_.known()); over && !over->image.empty())
-            if (!(technique_.resolve && over->image == traced_pixels)) image(over->image, pass.place);
+            if (!(declaration_.denoiser && over->image == traced_pixels)) image(over->image, pass.place);
         for (const DeclaredUse* write : writes) written_.insert(write->image);
         used_buffers_.insert(pass.buffers.begin(), pass.buffers.end());
     }
@@ -171,17 +171,17 @@ private:
                                      std::to_string(image.mips) + ", counted from 0");
     }
 
-    void check_rays(const DeclaredResolve& resolve) const {
+    void check_rays(const DeclaredDenoiser& denoiser) const {
         for (const std::string& buffer : ray_buffers)
             if (!used_buffers_.contains(buffer))
-                fail_here(resolve.place,
-                          "no pass has '" + buffer + "' among its 'buffers', for rays that the resolve reads");
+                fail_here(denoiser.place,
+                          "no pass has '" + buffer + "' among its 'buffers', for rays that the denoiser reads");
     }
 
     void check_results() const {
         const auto found =
-            std::ranges::find_if(technique_.results, [&](const DeclaredResult& r) { return holds(r.when); });
-        if (found == technique_.results.end()) fail_here(technique_.results.front().place, "there is no result");
+            std::ranges::find_if(declaration_.results, [&](const DeclaredResult& r) { return holds(r.when); });
+        if (found == declaration_.results.end()) fail_here(declaration_.results.front().place, "there is no result");
         for (const std::string& name : {found->radiance, found->confidence}) {
             if (is_given(name)) continue;
             const DeclaredImage& shown = image(name, found->place);
@@ -196,7 +196,7 @@ private:
                                         ", which lacks it");
     }
 
-    const Technique& technique_;
+    const Declaration& declaration_;
     const FrameValues& values_;
     std::map<std::string, const DeclaredImage*> images_;  // that there are, by name
     std::set<std::string> buffers_, used_buffers_, written_;
@@ -205,23 +205,23 @@ private:
 
 }  // namespace
 
-void check_frames(const Technique& technique, const ParameterSet& params) {
-    if (technique.resolve) {
-        for (const DeclaredBuffer& buffer : technique.buffers)
+void check_frames(const Declaration& declaration, const ParameterSet& params) {
+    if (declaration.denoiser) {
+        for (const DeclaredBuffer& buffer : declaration.buffers)
             if (std::ranges::count(ray_buffers, buffer.name))
-                fail(buffer.place, ": a technique with a resolve has a buffer '", buffer.name,
+                fail(buffer.place, ": a technique with a denoiser has a buffer '", buffer.name,
                      "' already; call yours otherwise");
-        for (const DeclaredImage& image : technique.images)
+        for (const DeclaredImage& image : declaration.images)
             if (image.name == traced_pixels)
-                fail(image.place, ": a technique with a resolve has '", image.name, "' already; call yours otherwise");
+                fail(image.place, ": a technique with a denoiser has '", image.name, "' already; call yours otherwise");
     }
     std::set<std::string> written;
-    for (const FrameValues& values : representative_frames(technique, params)) {
-        FrameCheck frame(technique, values);
+    for (const FrameValues& values : representative_frames(declaration, params)) {
+        FrameCheck frame(declaration, values);
         frame.run();
         written.insert(frame.written().begin(), frame.written().end());
     }
-    for (const DeclaredImage& image : technique.images)
+    for (const DeclaredImage& image : declaration.images)
         if (image.same_as.empty() && !written.contains(image.name))
             fail(image.place, ": no pass writes the image '", image.name, "'");
 }

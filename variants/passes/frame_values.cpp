@@ -8,14 +8,14 @@ using nlohmann::json;
 
 namespace {
 
-std::vector<const Condition*> conditions_of(const Technique& technique) {
-    std::vector<const Condition*> all = {&technique.draws_random_numbers};
+std::vector<const Condition*> conditions_of(const Declaration& declaration) {
+    std::vector<const Condition*> all = {&declaration.draws_random_numbers};
     const auto add = [&](const auto& of) {
         for (const auto& one : of) all.push_back(&one.when);
     };
-    for (const NamedCondition& named : technique.conditions) all.push_back(&named.condition);
-    add(technique.images), add(technique.buffers), add(technique.results), add(technique.passes);
-    for (const DeclaredPass& pass : technique.passes) {
+    for (const NamedCondition& named : declaration.conditions) all.push_back(&named.condition);
+    add(declaration.images), add(declaration.buffers), add(declaration.results), add(declaration.passes);
+    for (const DeclaredPass& pass : declaration.passes) {
         add(pass.reads), add(pass.writes), add(pass.depth), add(pass.stencil), add(pass.over);
         for (const DeclaredLeftOut& one : pass.left_out)
             if (one.part.empty()) all.push_back(&one.when);
@@ -49,13 +49,13 @@ std::vector<json> sides_of(const std::vector<double>& numbers, const json& initi
 }
 
 /// The values that matter of each name that a condition has, its default first.
-std::map<std::string, std::vector<json>> values_that_matter(const Technique& technique, const ParameterSet& params,
+std::map<std::string, std::vector<json>> values_that_matter(const Declaration& declaration, const ParameterSet& params,
                                                             const KnownValues& defaults) {
     std::map<std::string, std::vector<double>> numbers;
-    for (const Condition* condition : conditions_of(technique))
+    for (const Condition* condition : conditions_of(declaration))
         for (const json& members : condition->alternatives())
             for (const auto& [name, test] : members.items())
-                if (!std::ranges::count(technique.conditions, name, &NamedCondition::name))
+                if (!std::ranges::count(declaration.conditions, name, &NamedCondition::name))
                     add_numbers(test, defaults, numbers[name]);
     std::map<std::string, std::vector<json>> values;
     for (const auto& [name, compared] : numbers) {
@@ -89,12 +89,12 @@ std::string FrameValues::text() const {
     return list;
 }
 
-std::vector<FrameValues> representative_frames(const Technique& technique, const ParameterSet& params) {
+std::vector<FrameValues> representative_frames(const Declaration& declaration, const ParameterSet& params) {
     constexpr size_t most_frames = 1000;
     KnownValues defaults(params);
-    defaults.derive(technique.conditions);
+    defaults.derive(declaration.conditions);
     defaults.know_shot();
-    const auto values = values_that_matter(technique, params, defaults);
+    const auto values = values_that_matter(declaration, params, defaults);
     size_t count = 1;
     for (const auto& [name, of_name] : values) count = std::min(count * of_name.size(), most_frames + 1);
     std::vector<FrameValues> frames;
@@ -107,7 +107,7 @@ std::vector<FrameValues> representative_frames(const Technique& technique, const
             frame.set(name, of_name[(is_sampled ? random() : rest) % of_name.size()]);
             rest /= of_name.size();
         }
-        frame.derive(technique.conditions);
+        frame.derive(declaration.conditions);
     }
     return frames;
 }

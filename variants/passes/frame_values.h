@@ -1,5 +1,5 @@
 #pragma once
-#include "variants/passes/technique.h"
+#include "variants/passes/declaration.h"
 
 /// Values of all that the conditions of a technique ask for.
 class FrameValues {
@@ -19,4 +19,4 @@ private:
 
 /// For each way in which the technique's conditions can hold or not one frame, the defaults first; of more than a
 /// thousand a thousand.
-std::vector<FrameValues> representative_frames(const Technique& technique, const ParameterSet& params);
+std::vector<FrameValues> representative_frames(const Declaration& declaration, const ParameterSet& params);

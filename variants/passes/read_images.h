@@ -1,5 +1,5 @@
 #pragma once
-#include "variants/passes/technique.h"
+#include "variants/passes/declaration.h"
 
 inline constexpr int largest_side = 16384, most_mips = 15;  // of any device
 inline constexpr int most_bytes = 1 << 28;

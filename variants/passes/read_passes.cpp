@@ -4,7 +4,7 @@
 #include "core/gpu/pipelines/shader.h"
 #include "core/near_miss.h"
 #include "variants/common/names.h"
-#include "variants/passes/pass_list.h"
+#include "variants/passes/declared_passes.h"
 #include "variants/passes/read_images.h"
 
 #include <algorithm>
@@ -88,17 +88,17 @@ PushValue read_push_value(const json& value, const std::string& where) {
     return vector;
 }
 
-void read_rays(JsonObject& object, const Technique& technique, DeclaredPass& pass) {
+void read_rays(JsonObject& object, const Declaration& declaration, DeclaredPass& pass) {
     if (!object.has("rays")) return;
     if (!object.any("rays").is_string()) {
         pass.rays = unsigned(object.integer("rays", 1, 64));
         return;
     }
     std::vector<std::string> counts;
-    for (const Parameter& p : technique.parameters)
+    for (const Parameter& p : declaration.parameters)
         if (p.choices.empty() && (p.glsl_type == "uint" || p.glsl_type == "int") && p.min >= 1 && p.max <= 64)
             counts.push_back(p.name);
-    if (technique.resolve) counts.push_back("max_rays");
+    if (declaration.denoiser) counts.push_back("max_rays");
     pass.rays_parameter = object.text("rays");
     if (!std::ranges::count(counts, pass.rays_parameter))
         fail(object.at("rays"), ": 'rays' names '", shortened(pass.rays_parameter),
@@ -207,19 +207,19 @@ std::vector<DeclaredLeftOut> read_left_out(JsonObject& object, const KnownValues
     return all;
 }
 
-/// Those of the technique, of one with a resolve, and of a resolve.
+/// Those of the technique, of one with a denoiser, and of a denoiser.
 void check_buffers(JsonObject& object, const std::string& key, const std::vector<std::string>& named,
-                   const Technique& technique) {
+                   const Declaration& declaration) {
     std::vector<std::string> names;
-    if (technique.resolve || technique.is_resolve) names = ray_buffers;
-    if (technique.is_resolve) names.push_back(seen_rays_buffer);
-    for (const DeclaredBuffer& known_buffer : technique.buffers) names.push_back(known_buffer.name);
+    if (declaration.denoiser || declaration.is_denoiser) names = ray_buffers;
+    if (declaration.is_denoiser) names.push_back(seen_rays_buffer);
+    for (const DeclaredBuffer& known_buffer : declaration.buffers) names.push_back(known_buffer.name);
     for (const std::string& buffer : named)
         if (!std::ranges::count(names, buffer))
             fail(object.at(key), ": there is no buffer '", shortened(buffer), "'", suggestion(buffer, names));
 }
 
-void read_shader(JsonObject& object, const Technique& technique, const KnownValues& known, DeclaredPass& pass) {
+void read_shader(JsonObject& object, const Declaration& declaration, const KnownValues& known, DeclaredPass& pass) {
     know_keys(object,
               {"shader", "forms", "stage", "reads", "writes", "depth", "stencil", "buffers", "tracers", "rays", "over",
                "each_mip_of", "first_mip", "includes", "set", "environment", "scene_constants", "left_out", "when"});
@@ -233,17 +233,17 @@ void read_shader(JsonObject& object, const Technique& technique, const KnownValu
         if (!tests->empty() && pass.is_compute())
             fail(tests->front().place, ": only a fragment shader is tested by depth or stencil");
     pass.buffers = object.texts("buffers");
-    check_buffers(object, "buffers", pass.buffers, technique);
+    check_buffers(object, "buffers", pass.buffers, declaration);
     for (const DeclaredForm& form : pass.forms)
         if (!form.arguments.empty())
-            check_buffers(object, object.has("forms") ? "forms" : "arguments", {form.arguments}, technique);
+            check_buffers(object, object.has("forms") ? "forms" : "arguments", {form.arguments}, declaration);
     pass.tracers = object.texts("tracers");
     for (const std::string& slot : pass.tracers) {
-        const std::vector<std::string> names = names_of(technique.slots, &TracerSlot::name);
+        const std::vector<std::string> names = names_of(declaration.slots, &TracerSlot::name);
         if (!std::ranges::count(names, slot))
             fail(object.at("tracers"), ": 'tracers' has no slot '", shortened(slot), "'", suggestion(slot, names));
     }
-    read_rays(object, technique, pass);
+    read_rays(object, declaration, pass);
     pass.over = read_over(object, known);
     if (!pass.over.empty() && !pass.is_compute())
         fail(object.at("over"), ": a fragment shader runs over the images that it writes");
@@ -261,13 +261,13 @@ void read_shader(JsonObject& object, const Technique& technique, const KnownValu
     pass.left_out = read_left_out(object, known);
 }
 
-DeclaredPass read_pass(JsonObject object, const Technique& technique, const KnownValues& known) {
+DeclaredPass read_pass(JsonObject object, const Declaration& declaration, const KnownValues& known) {
     DeclaredPass pass;
     pass.place = object.where();
     if (object.has("clear"))
         read_clear(object, known, pass);
     else
-        read_shader(object, technique, known, pass);
+        read_shader(object, declaration, known, pass);
     pass.when = Condition(object, "when", known);
     object.finish();
     return pass;
@@ -285,7 +285,7 @@ DeclaredResult read_result(JsonObject object, const KnownValues& known) {
     return result;
 }
 
-RoughnessLimit read_limit(JsonObject object, const Technique& technique, const KnownValues& known) {
+RoughnessLimit read_limit(JsonObject object, const Declaration& declaration, const KnownValues& known) {
     know_keys(object, {"up_to", "below", "of", "bits", "when"});
     RoughnessLimit limit;
     limit.is_alpha = object.value_of<bool>("of", {{"roughness", false}, {"alpha", true}});
@@ -295,7 +295,7 @@ RoughnessLimit read_limit(JsonObject object, const Technique& technique, const K
     const std::string key = limit.is_excluded ? "below" : "up_to";
     limit.parameter = object.text(key);
     std::vector<std::string> numbers;
-    for (const Parameter& p : technique.parameters)
+    for (const Parameter& p : declaration.parameters)
         if (p.glsl_type == "float") numbers.push_back(p.name);
     if (!std::ranges::count(numbers, limit.parameter))
         fail(object.at(key), ": '", key, "' names '", shortened(limit.parameter), "', which is no float parameter",
@@ -341,39 +341,39 @@ void write_out_short_forms(json& root) {
             write_out(pass, key);
 }
 
-void read_passes(JsonObject& root, KnownValues known, Technique& technique) {
+void read_passes(JsonObject& root, KnownValues known, Declaration& declaration) {
     for (JsonObject& object : root.objects("conditions")) {
         const std::string name = variable_name(object, "name");
         if (known.by_name().contains(name))
             fail(object.at("name"), ": there is a parameter or a condition '", name, "' already");
         object.any("when");
-        technique.conditions.push_back({name, Condition(object, "when", known)});
-        known.derive(technique.conditions);
+        declaration.conditions.push_back({name, Condition(object, "when", known)});
+        known.derive(declaration.conditions);
         object.finish();
     }
-    for (JsonObject& image : root.objects("images")) technique.images.push_back(read_image(std::move(image), known));
+    for (JsonObject& image : root.objects("images")) declaration.images.push_back(read_image(std::move(image), known));
     for (JsonObject& buffer : root.objects("buffers"))
-        technique.buffers.push_back(read_buffer(std::move(buffer), known));
+        declaration.buffers.push_back(read_buffer(std::move(buffer), known));
     root.any("passes");
     for (const char* key : {"result", "reflects"})
-        if (technique.resolve && root.has(key))
-            fail(root.at(key), ": a technique with a 'resolve' has no '", key, "': the resolve decides that");
-    if (!technique.resolve) root.any("result");
+        if (declaration.denoiser && root.has(key))
+            fail(root.at(key), ": a technique with a 'denoiser' has no '", key, "': the denoiser decides that");
+    if (!declaration.denoiser) root.any("result");
     for (JsonObject& pass : root.objects("passes"))
-        technique.passes.push_back(read_pass(std::move(pass), technique, known));
+        declaration.passes.push_back(read_pass(std::move(pass), declaration, known));
     for (JsonObject& result : root.objects("result"))
-        technique.results.push_back(read_result(std::move(result), known));
-    if (technique.results.empty() && !technique.resolve) fail(root.at("result"), ": 'result' is empty");
-    if (root.has("random")) technique.draws_random_numbers = Condition::or_truth(root, "random", known);
-    if (root.has("limits")) technique.limits = read_limits(root.object("limits"), known);
+        declaration.results.push_back(read_result(std::move(result), known));
+    if (declaration.results.empty() && !declaration.denoiser) fail(root.at("result"), ": 'result' is empty");
+    if (root.has("random")) declaration.draws_random_numbers = Condition::or_truth(root, "random", known);
+    if (root.has("limits")) declaration.limits = read_limits(root.object("limits"), known);
     for (JsonObject& limit : root.objects("reflects"))
-        technique.reflects.push_back(read_limit(std::move(limit), technique, known));
-    technique.not_repeatable = read_reasons(root, known);
+        declaration.reflects.push_back(read_limit(std::move(limit), declaration, known));
+    declaration.not_repeatable = read_reasons(root, known);
     for (JsonObject& pyramid : root.objects("pyramids")) {
         std::vector<std::pair<std::string, std::string>> makers;
         for (const NamedPyramidMaker& maker : pyramid_makers()) makers.emplace_back(maker.name, maker.name);
         pyramid.any("made_by");
-        technique.pyramids.push_back({pyramid.value_of("made_by", makers), Condition(pyramid, "when", known)});
+        declaration.pyramids.push_back({pyramid.value_of("made_by", makers), Condition(pyramid, "when", known)});
         pyramid.finish();
     }
 }

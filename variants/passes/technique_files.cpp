@@ -5,7 +5,7 @@
 #include "core/gpu/pipelines/shader_files.h"
 #include "core/near_miss.h"
 #include "core/path_inside.h"
-#include "variants/passes/pass_list.h"
+#include "variants/passes/declared_passes.h"
 
 #include <algorithm>
 #include <set>
@@ -43,8 +43,8 @@ void add_names(const fs::path& folder, std::vector<std::string>& names) {
 /// Follows the includes of one pass.
 class Reader {
 public:
-    Reader(const Technique& technique, const DeclaredPass& pass, TechniqueFolder& read)
-        : technique_(technique), pass_(pass), read_(read) {}
+    Reader(const Declaration& declaration, const DeclaredPass& pass, TechniqueFolder& read)
+        : declaration_(declaration), pass_(pass), read_(read) {}
 
     /// Whether the shader is one of the folder.
     bool read_shader(const std::string& name) { return visit(name, true, pass_.place + ": 'shader' = '" + name + "'"); }
@@ -56,7 +56,7 @@ private:
         const bool is_of_folder = may_be_of_folder && is_in_folder(name, where);
         const std::string source = is_of_folder ? "" : own_source(name);
         if (!is_of_folder && source.empty()) fail_missing(name, where);
-        const std::string shown_name = is_of_folder ? technique_.name + "/" + name : source;
+        const std::string shown_name = is_of_folder ? declaration_.name + "/" + name : source;
         if (std::ranges::count(open_, shown_name) > 0) fail(where, ": ", shown_name, " includes itself");
         if (!visited_.insert(shown_name).second) return is_of_folder;
         const fs::path file = is_of_folder ? path_inside(read_.path, name) : path_inside(SSRLAB_SOURCE_DIR, source);
@@ -81,7 +81,7 @@ private:
     }
 
     [[noreturn]] void fail_missing(const std::string& name, const std::string& where) const {
-        for (const TracerSlot& slot : technique_.slots)
+        for (const TracerSlot& slot : declaration_.slots)
             if (slot.name == name)
                 fail(where, ": the pass does not name the tracer; write \"tracers\": \"", name, "\"");
         std::vector<std::string> names;
@@ -92,7 +92,7 @@ private:
              ", and none of ssrlab under variants/ or core/", near.empty() ? "" : "; did you mean '" + near + "'?");
     }
 
-    const Technique& technique_;
+    const Declaration& declaration_;
     const DeclaredPass& pass_;
     TechniqueFolder& read_;
     std::vector<std::string> open_;  ///< files, each included by the one before
@@ -101,22 +101,22 @@ private:
 
 }  // namespace
 
-void read_shaders(Technique& technique, TechniqueFolder& read) {
-    for (DeclaredPass& pass : technique.passes) {
+void read_shaders(Declaration& declaration, TechniqueFolder& read) {
+    for (DeclaredPass& pass : declaration.passes) {
         if (pass.forms.empty()) continue;
-        Reader reader(technique, pass, read);
+        Reader reader(declaration, pass, read);
         for (DeclaredInclude& include : pass.includes)
-            if (reader.read_include(include.file)) include.file = technique.name + "/" + include.file;
+            if (reader.read_include(include.file)) include.file = declaration.name + "/" + include.file;
         for (DeclaredForm& form : pass.forms)
-            if (reader.read_shader(form.shader)) form.shader = technique.name + "/" + form.shader;
+            if (reader.read_shader(form.shader)) form.shader = declaration.name + "/" + form.shader;
         const std::string& shader = pass.forms.back().shader;
         const std::string stem = shader.substr(0, shader.rfind('.'));
         pass.stage = pass.stage.empty() ? stem : stem.substr(0, stem.rfind('/') + 1) + pass.stage;
     }
-    for (const DeclaredPyramid& pyramid : technique.pyramids)
+    for (const DeclaredPyramid& pyramid : declaration.pyramids)
         for (const std::string& shader :
              std::ranges::find(pyramid_makers(), pyramid.maker, &NamedPyramidMaker::name)->shaders)
-            Reader(technique, DeclaredPass(), read).read_shader(shader);
+            Reader(declaration, DeclaredPass(), read).read_shader(shader);
     std::ranges::sort(read.sources);
     read.sources.erase(std::ranges::unique(read.sources).begin(), read.sources.end());
 }

@@ -1,8 +1,8 @@
 #pragma once
-#include "variants/passes/technique.h"
+#include "variants/passes/declaration.h"
 
 /// Reads what the technique's passes name: shaders of its folder, or of ssrlab by their paths under variants/, and what
 /// these include. DeclaredForm::shader and DeclaredPass::stage then are as a graph wants them. Adds to `files` and
 /// `sources` of `read`, whose path is the folder. Fails with Error, which names file and line, on what is missing,
 /// includes itself or lies elsewhere.
-void read_shaders(Technique& technique, TechniqueFolder& read);
+void read_shaders(Declaration& declaration, TechniqueFolder& read);

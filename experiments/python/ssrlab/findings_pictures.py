@@ -309,15 +309,15 @@ def exact_rays():
     return Picture(panels, "exact rays (%); error over that without them, mean over 13 scenes, 95 % intervals", kind="lines", columns=3)
 
 
-def resolves():
-    cells = {tuple(word.split(" = ")[1] for word in place): cell for place, cell in grid("resolves", "matrix").items()}
+def denoisers():
+    cells = {tuple(word.split(" = ")[1] for word in place): cell for place, cell in grid("denoisers", "matrix").items()}
     marches = list(dict.fromkeys(march for march, _ in cells))
 
-    def mark(march, resolve):
+    def mark(march, denoiser):
         color, shape = (GREY, "|") if march == "exact_scene" else style.series(marches.index(march))
-        return Mark("exact rays" if march == "exact_scene" else march, color, shape, cells[march, resolve])
+        return Mark("exact rays" if march == "exact_scene" else march, color, shape, cells[march, denoiser])
 
-    by_error = sorted(dict.fromkeys(resolve for _, resolve in cells), key=lambda r: cells["cells", r].value)
+    by_error = sorted(dict.fromkeys(denoiser for _, denoiser in cells), key=lambda r: cells["cells", r].value)
     return Picture([Panel("", [(r, [mark(m, r) for m in marches]) for r in by_error])], "MSE over that of no reflections, mean over scenes like these, 95 % intervals", columns=1)
 
 
@@ -354,7 +354,7 @@ def engines():
 
 PUBLISHED_PRESETS = ("default", "sdk_1_5", "current", "frostbite_2015", "blog", "high")
 
-PICTURES = {p.__name__: p for p in (techniques, budgets, rooms, metrics, causes, limit, third_party, traced_environment, corrections, estimators, march, thickness, temporal, fragments, resolution, compilers, gpu_times, exact_rays, resolves, composed, engines)}
+PICTURES = {p.__name__: p for p in (techniques, budgets, rooms, metrics, causes, limit, third_party, traced_environment, corrections, estimators, march, thickness, temporal, fragments, resolution, compilers, gpu_times, exact_rays, denoisers, composed, engines)}
 
 
 def save(name, folder):

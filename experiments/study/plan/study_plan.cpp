@@ -12,7 +12,7 @@
 #include "experiments/study/measuring/frames/capture.h"
 #include "experiments/study/measuring/shot_truth.h"
 #include "variants/registry.h"
-#include "variants/resolves/resolves.h"
+#include "variants/denoisers/denoisers.h"
 #include "variants/tracers/tracers.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ namespace {
 struct PointIdentity {
     std::string parameters;  ///< all values, and the content of its folder if it is declared by one
     std::vector<std::string>
-        sources;  ///< the folders of its technique and of the tracers and the resolve that it has chosen
+        sources;  ///< the folders of its technique and of the tracers and the denoiser that it has chosen
 };
 
 PointIdentity identity_of(const VariantConfig& config) {
@@ -45,10 +45,10 @@ PointIdentity identity_of(const VariantConfig& config) {
                 identity.sources.push_back("variants/" + tracer.shader.substr(0, tracer.shader.rfind('/') + 1));
                 identity.parameters += tracer.content_hash;
             }
-    if (values.contains("resolve")) {
-        const ResolveEntry& resolve = find_resolve(values.at("resolve"));
-        identity.sources.insert(identity.sources.end(), resolve.sources.begin(), resolve.sources.end());
-        identity.parameters += resolve.content_hash;
+    if (values.contains("denoiser")) {
+        const DenoiserEntry& denoiser = find_denoiser(values.at("denoiser"));
+        identity.sources.insert(identity.sources.end(), denoiser.sources.begin(), denoiser.sources.end());
+        identity.parameters += denoiser.content_hash;
     }
     return identity;
 }

@@ -152,7 +152,7 @@ TEST_F(CommandLine, NamesBrokenFiles) {
     expect_mistake("rays room:x", "no scene is called 'room:x'");
     EXPECT_EQ(ssrlab("rays \"room:*\" --count 0").code, 2);
     expect_mistake("figures .", "manifest.json");
-    expect_mistake("describe mcguire", "unknown variant, tracer or resolve 'mcguire'");
+    expect_mistake("describe mcguire", "unknown variant, tracer or denoiser 'mcguire'");
     EXPECT_EQ(ssrlab("reference fence --size 0 10").code, 2);
     expect_mistake("rnu study.json", "unknown command 'rnu'; did you mean 'run'?");
     expect_mistake("frobnicate", "known are: run, plan, merge");

@@ -100,7 +100,7 @@ TEST_F(DeclaredStudy, AnEditRedoesItsCellsAndNoOthers) {
     all.insert({"none default", "composed_ssr default"});
     EXPECT_EQ(with_edit_of("variants/declared/declared_technique.cpp"), all) << "it reads every technique";
     EXPECT_EQ(with_edit_of("variants/mcguire_dda/trace.comp"), of_this_march);
-    EXPECT_EQ(with_edit_of("variants/resolves/ratio_accumulation/accumulate.comp"),
+    EXPECT_EQ(with_edit_of("variants/denoisers/ratio_accumulation/accumulate.comp"),
               std::set<std::string>{"composed_ssr default"});
     EXPECT_EQ(with_edit_of("variants/amd_sssr/intersect.comp"), std::set<std::string>());
 }

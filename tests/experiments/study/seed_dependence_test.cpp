@@ -30,7 +30,7 @@ std::vector<Point> points_of(const VariantEntry& entry) {
     if (entry.name == "composed_ssr")
         for (const bool is_half : {false, true})
             points.push_back(
-                {.parameters = {{"resolve", "mean"}, {"draw_directions", false}, {"half_resolution", is_half}}});
+                {.parameters = {{"denoiser", "mean"}, {"draw_directions", false}, {"half_resolution", is_half}}});
     if (entry.name != "diligent_ssr") return points;
     for (const float threshold : {0.0f, 1.0f}) points.push_back({.parameters = {{"roughness_threshold", threshold}}});
     for (const float bias : {0.0f, 1.0f})

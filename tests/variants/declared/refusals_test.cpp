@@ -114,12 +114,12 @@ TEST_F(DeclaredRefusals, Images) {
     expect_part(error_with({{"images", images}}), "images[1]: no pass writes the image 'unused'");
 }
 
-TEST_F(DeclaredRefusals, Resolves) {
+TEST_F(DeclaredRefusals, Denoisers) {
     const auto error_of = [&](const Json& patch) {
         Json changed = {{"result", nullptr},
                         {"images", nullptr},
                         {"tracers", {{"slots", {{{"name", "tracer"}, {"default", "dda"}}}}}},
-                        {"resolve", {{"default", "mean"}, {"defaults", {{"lobe", "visible_normals"}}}}},
+                        {"denoiser", {{"default", "mean"}, {"defaults", {{"lobe", "visible_normals"}}}}},
                         {"passes",
                          {{{"shader", "composed_ssr/trace.comp"},
                            {"tracers", "tracer"},
@@ -134,14 +134,14 @@ TEST_F(DeclaredRefusals, Resolves) {
         return error_with(changed);
     };
     EXPECT_EQ(error_of(Json::object()), "no error");
-    expect_part(error_of({{"resolve", {{"default", "meen"}}}}),
+    expect_part(error_of({{"denoiser", {{"default", "meen"}}}}),
                 "'default' = \"meen\" is not known; did you mean 'mean'?");
-    expect_part(error_of({{"resolve", {{"default", nullptr}}}}), "lacks the key 'default'");
-    expect_part(error_of({{"resolve", {{"defaults", {{"lobee", "normals"}}}}}}), "did you mean 'lobe'?");
-    expect_part(error_of({{"result", sound["result"]}}), "a technique with a 'resolve' has no 'result'");
-    expect_part(error_of({{"reflects", {{"up_to", "limit"}}}}), "a technique with a 'resolve' has no 'reflects'");
-    expect_part(error_of({{"pass", {{"buffers", {"directions"}}}}}), "resolve: no pass has 'hits' among its 'buffers'");
-    expect_part(error_of({{"pass", {{"when", {{"mode", "a"}}}}}}), "'buffers', for rays that the resolve reads, where");
+    expect_part(error_of({{"denoiser", {{"default", nullptr}}}}), "lacks the key 'default'");
+    expect_part(error_of({{"denoiser", {{"defaults", {{"lobee", "normals"}}}}}}), "did you mean 'lobe'?");
+    expect_part(error_of({{"result", sound["result"]}}), "a technique with a 'denoiser' has no 'result'");
+    expect_part(error_of({{"reflects", {{"up_to", "limit"}}}}), "a technique with a 'denoiser' has no 'reflects'");
+    expect_part(error_of({{"pass", {{"buffers", {"directions"}}}}}), "denoiser: no pass has 'hits' among its 'buffers'");
+    expect_part(error_of({{"pass", {{"when", {{"mode", "a"}}}}}}), "'buffers', for rays that the denoiser reads, where");
     expect_part(error_of({{"buffers", {{{"name", "hits"}, {"bytes", 4}}}}}), "has a buffer 'hits' already");
     expect_part(error_of({{"images", {{{"name", "below_horizon"}, {"format", "r8"}}}}}),
                 "image 'below_horizon' already");
@@ -152,7 +152,7 @@ TEST_F(DeclaredRefusals, Resolves) {
         return parameters;
     };
     expect_part(error_of({{"parameters", parameters_and("max_rays")}}), "the parameter 'max_rays' is one that every");
-    expect_part(error_with({{"parameters", parameters_and("resolve")}}), "the parameter 'resolve' chooses one of");
+    expect_part(error_with({{"parameters", parameters_and("denoiser")}}), "the parameter 'denoiser' chooses one of");
     expect_part(error_with_pass({{"over", "traced_pixels"}}), "there is no image 'traced_pixels'");
     expect_part(error_with_pass({{"buffers", {"hits"}}}), "there is no buffer 'hits'");
 }

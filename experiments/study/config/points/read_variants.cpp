@@ -79,7 +79,7 @@ bool complete_point(VariantConfig& point, const Shared& shared, ConfigObject& ob
     return true;
 }
 
-/// The parameter of a chosen tracer or resolve whose name is like that of another's; "" if there is none.
+/// The parameter of a chosen tracer or denoiser whose name is like that of another's; "" if there is none.
 std::string meant_by(const std::string& name, const ParameterSet& params) {
     const auto leaf = [](const std::string& whole) { return whole.substr(whole.find('.') + 1); };
     std::vector<std::string> leaves;
@@ -110,7 +110,7 @@ void refuse_unread(std::span<const VariantConfig> points, const std::string& whe
         if (read.contains(name)) continue;
         const VariantConfig& first = points.front();
         const std::string meant = meant_by(name, make_variant(first.variant, first.parameters, first.preset)->params);
-        fail(where, ": no point reads '", name, "', a parameter of a tracer or resolve that none of them uses",
+        fail(where, ": no point reads '", name, "', a parameter of a tracer or denoiser that none of them uses",
              meant.empty() ? "" : "; did you mean '" + meant + "'?");
     }
 }

@@ -449,7 +449,7 @@ TEST(PointNames, StayShort) {
 }
 
 TEST_F(Designs, WhatNoPointReadsIsNotVaried) {
-    const std::string of_another = "a parameter of a tracer or resolve that none of them uses";
+    const std::string of_another = "a parameter of a tracer or denoiser that none of them uses";
     EXPECT_NE(mistake(dda(R"("sweep": {"hierarchy.depth_buffer_thickness": [0.1, 0.2]})"))
                   .find("no point reads 'hierarchy.depth_buffer_thickness', " + of_another +
                         "; did you mean 'dda.thickness'?"),

@@ -1,7 +1,7 @@
 #include "core/error.h"
 #include "experiments/study/stability/precision/double_shader.h"
 #include "tests/variants/variant_fixture.h"
-#include "variants/resolves/resolves.h"
+#include "variants/denoisers/denoisers.h"
 
 #include <filesystem>
 #include <fstream>
@@ -69,7 +69,7 @@ TEST(DoublePrecision, EveryShaderCompiles) {
         const std::unique_ptr<Variant> variant = make_variant(entry.name, {}, "");
         compile_all(entry.name, variant->params, variant->shader_includes());
     }
-    compile_all("resolves", make_variant("composed_ssr")->params, {});  // what reads rays
-    for (const ResolveEntry& entry : resolve_table()) compile_all("resolves/" + entry.name, Resolve(entry).params, {});
+    compile_all("denoisers", make_variant("composed_ssr")->params, {});  // what reads rays
+    for (const DenoiserEntry& entry : denoiser_table()) compile_all("denoisers/" + entry.name, Denoiser(entry).params, {});
     EXPECT_GT(count, 50u);
 }
