@@ -32,7 +32,7 @@ std::string message_text(const Args&... args) {
     return text.str();
 }
 
-/// fail("no variant named '", name, "'"): puts its arguments into the message and throws Error.
+/// fail("no technique named '", name, "'"): puts its arguments into the message and throws Error.
 template <class... Args>
 [[noreturn]] void fail(const Args&... args) {
     throw Error(message_text(args...));

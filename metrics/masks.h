@@ -15,7 +15,7 @@ struct MaskInputs {
     const HostImage& material_id;  ///< 1 channel; 0 where nothing was hit
     const HostImage& roughness;    ///< 1 channel, perceptual
     const HostImage& reflectance;  ///< 1 or more channels: F0 A + F90 B, the split-sum reflectance
-    const HostImage& confidence;   ///< 1 channel in [0, 1]: the variant's
+    const HostImage& confidence;   ///< 1 channel in [0, 1]: the technique's
     float reflective_max_roughness = 0.6f;
     float reflective_min_reflectance = 0.02f;
     const PreviousFrame* previous = nullptr;  ///< nullptr: there is no frame before, so nothing is disoccluded

@@ -106,11 +106,11 @@ foreach(room results study report bridges live)
   endforeach()
 endforeach()
 check_rooms(experiments gpu_costs results study report bridges live cli)
-check_rooms(experiments/results tables stability cells source_table verdicts tradeoff answers)
+check_rooms(experiments/results files stability cells source_table verdicts tradeoff answers)
 check_rooms(experiments/gpu_costs spirv waves chips)
 check_rooms(experiments/study config measuring shots plan stability)
 # Techniques are JSON and shaders: C++ is what reads them and what they share.
-check_rooms(variants common amd_sssr frostbite_sssr tracers passes resolves declared)  # formulas that shaders share lie beside these
+check_rooms(variants common amd_sssr frostbite_sssr tracers passes denoisers declared)  # formulas that shaders share lie beside these
 check_rooms(groundtruth sampling scene lights paths reference)
 if(found)
   message(FATAL_ERROR "includes against the direction of the architecture:${found}")

@@ -36,7 +36,7 @@ ALLOWED = {
     ("experiments/study/config/extends.cpp", "from / path"): REQUEST,
     ("experiments/study/config/shots/read_shots.cpp", 'folder / shot.get<std::string>("gbuffer")'): REQUEST,
     ("experiments/study/config/shots/read_shots.cpp", 'folder / shot.get<std::string>("reference")'): REQUEST,
-    ("experiments/study/config/points/read_variants.cpp", 'folder / object.get<std::string>("external")'): REQUEST,
+    ("experiments/study/config/points/read_techniques.cpp", 'folder / object.get<std::string>("external")'): REQUEST,
     ("experiments/study/measuring/times/clock_proofs.cpp", 'folder / ("clock-" + hash.hex() + ".json")'): PROGRAM,
     ("experiments/bridges/inspect/describe_frames.cpp", 'view.folder / ("f" + std::to_string(*view.frames.begin()) + ".s0.exr")'): PROGRAM,
     ("experiments/study/plan/estimate.cpp", 'folder_ / ("cache" + std::to_string(size))'): PROGRAM,

@@ -5,7 +5,7 @@
 function(add_suites program folder)
   set(slow_suites StudyTest CommandLine NoiseCoverage TracersTest StabilityTest ExactTracers SeedDependence CompiledShaders
     estimator EstimatesOfSamples FrostbiteEstimators FourModeTest FrostbiteTruth ShaderWorkTest Faults ExternalImagesTest
-    GpuEstimates Registry DiligentVariant Needs)
+    GpuEstimates Registry DiligentTechnique Needs)
   get_filename_component(name ${program} NAME)
   if(NOT EXISTS ${program})
     add_test(${name}_NOT_BUILT ${name}_NOT_BUILT)
@@ -29,7 +29,7 @@ function(add_suites program folder)
     set_tests_properties(${test} PROPERTIES WORKING_DIRECTORY ${folder} TIMEOUT 600 COST ${count}
       ENVIRONMENT "SSRLAB_VALIDATE=1")
     # What every technique and tracer must keep, over the tables of both: ctest -L contract.
-    if(test MATCHES "^(Registry|TracersTest|TracersInRoom|TracersInWebgl2|Webgl2Variant|SeedDependence|ExactTracers)$")
+    if(test MATCHES "^(Registry|TracersTest|TracersInRoom|TracersInWebgl2|Webgl2Technique|SeedDependence|ExactTracers)$")
       set_tests_properties(${test} PROPERTIES LABELS contract)
     endif()
     if(test STREQUAL "Clock")  # what measures time runs alone

@@ -9,13 +9,13 @@
 #include "variants/tracers/tracers.h"
 
 /// Of variants/declared, which the cells of points name among their sources: those of references do not depend on it.
-VariantEntry declared_entry(const std::filesystem::path& folder);
+TechniqueEntry declared_entry(const std::filesystem::path& folder);
 
 namespace {
 
 /// variants/<name>/technique.json.
-VariantEntry own_declared_entry(const std::string& name) {
-    VariantEntry entry = declared_entry(std::filesystem::path(SSRLAB_SOURCE_DIR) / "variants" / name);
+TechniqueEntry own_declared_entry(const std::string& name) {
+    TechniqueEntry entry = declared_entry(std::filesystem::path(SSRLAB_SOURCE_DIR) / "variants" / name);
     TechniqueFolder folder = *entry.folder;
     folder.is_ssrlabs = true;
     entry.folder = std::make_shared<TechniqueFolder>(std::move(folder));
@@ -23,30 +23,30 @@ VariantEntry own_declared_entry(const std::string& name) {
 }
 
 /// In the order of lists and reports.
-std::deque<VariantEntry> entries_with_tuned_presets() {
-    std::deque<VariantEntry> entries;
+std::deque<TechniqueEntry> entries_with_tuned_presets() {
+    std::deque<TechniqueEntry> entries;
     for (const char* name : {"none", "mcguire_dda", "amd_sssr", "diligent_ssr", "frostbite_sssr", "simple_ssr",
                              "four_mode_ssr", "composed_ssr"})
         entries.push_back(own_declared_entry(name));
-    for (VariantEntry& entry : entries) {
-        const auto file = std::filesystem::path(SSRLAB_SOURCE_DIR) / "variants" / entry.name / "tuned_presets.json";
+    for (TechniqueEntry& entry : entries) {
+        const auto file = std::filesystem::path(SSRLAB_SOURCE_DIR) / "techniques" / entry.name / "tuned_presets.json";
         if (std::filesystem::exists(file)) add_tuned_presets(entry, file);
     }
     return entries;
 }
 
-std::deque<VariantEntry>& growing_table() {
-    static std::deque<VariantEntry> table = entries_with_tuned_presets();
+std::deque<TechniqueEntry>& growing_table() {
+    static std::deque<TechniqueEntry> table = entries_with_tuned_presets();
     return table;
 }
 
 }  // namespace
 
-const std::deque<VariantEntry>& variant_table() { return growing_table(); }
+const std::deque<TechniqueEntry>& technique_table() { return growing_table(); }
 
-const VariantEntry& add_technique_folder(const std::filesystem::path& folder) {
-    VariantEntry entry = declared_entry(folder);
-    const auto known = std::ranges::find(growing_table(), entry.name, &VariantEntry::name);
+const TechniqueEntry& add_technique_folder(const std::filesystem::path& folder) {
+    TechniqueEntry entry = declared_entry(folder);
+    const auto known = std::ranges::find(growing_table(), entry.name, &TechniqueEntry::name);
     const bool is_new = known == growing_table().end();
     if (!is_new && known->is_ssrlabs())
         fail(folder.string(), ": '", entry.name, "' is one of ssrlab's own techniques; give the folder another name");
@@ -70,12 +70,12 @@ std::string technique_point_name(const std::string& text) {
     return technique_name(text.substr(0, colon)) + text.substr(colon);
 }
 
-void add_tuned_presets(VariantEntry& entry, const std::filesystem::path& file) {
+void add_tuned_presets(TechniqueEntry& entry, const std::filesystem::path& file) {
     const JsonDocument document = read_json_document(file);
     JsonObject root(document, file.string());
     for (JsonObject& found : root.objects("presets")) {
-        const std::string of = found.text("variant");
-        if (of != entry.name) fail(found.at("variant"), ": '", of, "' is not '", entry.name, "'");
+        const std::string of = found.text("technique");
+        if (of != entry.name) fail(found.at("technique"), ": '", of, "' is not '", entry.name, "'");
         const Preset preset{found.text("name"), found.text("description"), found.any("parameters")};
         if (std::ranges::find(entry.presets, preset.name, &Preset::name) != entry.presets.end())
             fail(found.at("name"), ": '", entry.name, "' has a preset '", preset.name, "' already");
@@ -98,7 +98,7 @@ const auto& find_named(const Entries& entries, const std::string& name, const st
     fail("unknown ", what, " '", name, "'", suggestion(name, names));
 }
 
-bool are_lifted(const VariantLimits& limits, const nlohmann::json& parameters) {
+bool are_lifted(const TechniqueLimits& limits, const nlohmann::json& parameters) {
     for (const auto& [name, value] : limits.lifted_by.items())
         if (parameters.at(name) == value) return true;
     return false;
@@ -106,13 +106,15 @@ bool are_lifted(const VariantLimits& limits, const nlohmann::json& parameters) {
 
 }  // namespace
 
-const VariantEntry& find_variant(const std::string& name) { return find_named(variant_table(), name, "variant"); }
+const TechniqueEntry& find_technique(const std::string& name) {
+    return find_named(technique_table(), name, "technique");
+}
 
 bool is_read(const ParameterSet& params, const std::string& name) {
     return is_of_chosen_tracer(params, name) && is_of_chosen_denoiser(params, name);
 }
 
-std::string limits_text(const VariantLimits& limits) {
+std::string limits_text(const TechniqueLimits& limits) {
     std::string text = name_of(limits.api);
     for (const auto& [name, value] : limits.lifted_by.items())
         text += ", unless " + name + " = " + (value.is_string() ? value.get<std::string>() : value.dump());
@@ -120,18 +122,18 @@ std::string limits_text(const VariantLimits& limits) {
     return text;
 }
 
-std::unique_ptr<Variant> make_variant(const std::string& name, const nlohmann::json& parameters,
-                                      const std::string& preset) {
-    const VariantEntry& entry = find_variant(name);
-    std::unique_ptr<Variant> variant = entry.create();
+std::unique_ptr<Technique> make_technique(const std::string& name, const nlohmann::json& parameters,
+                                          const std::string& preset) {
+    const TechniqueEntry& entry = find_technique(name);
+    std::unique_ptr<Technique> technique = entry.create();
     if (!preset.empty())
-        variant->params.assign(find_named(entry.presets, preset, "preset of variant '" + name + "':").parameters);
+        technique->params.assign(find_named(entry.presets, preset, "preset of technique '" + name + "':").parameters);
     try {
-        if (!parameters.is_null()) variant->params.assign(parameters);
+        if (!parameters.is_null()) technique->params.assign(parameters);
     } catch (const Error& error) {
-        fail("variant '", name, "': ", error.what());
+        fail("technique '", name, "': ", error.what());
     }
-    const bool is_free = variant->uses_scene_data() || are_lifted(entry.limits, variant->params.values());
-    variant->limits = is_free ? Limits::none : entry.limits.api;
-    return variant;
+    const bool is_free = technique->uses_scene_data() || are_lifted(entry.limits, technique->params.values());
+    technique->limits = is_free ? Limits::none : entry.limits.api;
+    return technique;
 }

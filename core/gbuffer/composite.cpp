@@ -19,10 +19,10 @@ glm::vec3 pixel_direction(const CameraData& camera, unsigned x, unsigned y) {
 }  // namespace
 
 Composite Compositor::render(const GBuffer& g, const Reflections& reflections) {
-    const Composite result{graph_.image("specular", Format::rgba32f), graph_.image("image", Format::rgba32f)};
-    auto pass = graph_.compute("gbuffer/composite.comp");
+    const Composite result{pass_list_.image("specular", Format::rgba32f), pass_list_.image("image", Format::rgba32f)};
+    auto pass = pass_list_.compute("gbuffer/composite.comp");
     for (const Image& image :
-         {g.depth, g.normal, g.base_color, g.emission, g.dielectric_f0, g.fallback, split_sum_.on(graph_)})
+         {g.depth, g.normal, g.base_color, g.emission, g.dielectric_f0, g.fallback, split_sum_.on(pass_list_)})
         pass.read(image);
     pass.read((g.lit_without_specular.storage ? g.lit_without_specular : g.lit).as("lit"))
         .read(reflections.radiance.as("radiance"))
@@ -36,10 +36,10 @@ Composite Compositor::render(const GBuffer& g, const Reflections& reflections) {
 }
 
 void Compositor::add_environment(GBuffer& gbuffer) {
-    const Image none = graph_.image("no_confidence", Format::r8);
-    graph_.clear(none, glm::vec4(0));
+    const Image none = pass_list_.image("no_confidence", Format::r8);
+    pass_list_.clear(none, glm::vec4(0));
     const Image with = render(gbuffer, {gbuffer.fallback, none}).image;
-    graph_.times();
+    pass_list_.times();
     gbuffer.lit_without_specular = std::exchange(gbuffer.lit, with.as("lit")).as("lit_without_specular");
 }
 

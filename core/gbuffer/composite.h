@@ -3,7 +3,7 @@
 #include "core/gbuffer/gbuffer_file.h"
 #include "core/gbuffer/reflections.h"
 #include "core/gbuffer/split_sum_image.h"
-#include "core/gpu/passes/pass_graph.h"
+#include "core/gpu/passes/pass_list.h"
 
 /// How reflections are put together with the environment's.
 enum class CompositeFormula {
@@ -18,24 +18,24 @@ struct Composite {
     Image image;     ///< rgba32f: lit, without reflections of its own, + specular
 };
 
-/// The one compositor for all variants (design: the factorisation of Karis 2013, with the split-sum integral of our
+/// The one compositor for all techniques (design: the factorisation of Karis 2013, with the split-sum integral of our
 /// BRDF).
 class Compositor {
 public:
-    /// `graph` must outlive it.
-    explicit Compositor(PassGraph& graph, CompositeFormula formula = CompositeFormula::split_sum)
-        : graph_(graph), formula_(formula) {}
+    /// `pass_list` must outlive it.
+    explicit Compositor(PassList& pass_list, CompositeFormula formula = CompositeFormula::split_sum)
+        : pass_list_(pass_list), formula_(formula) {}
 
-    /// A pass of the graph's current frame.
+    /// A pass of the pass_list's current frame.
     Composite render(const GBuffer& gbuffer, const Reflections& reflections);
 
     /// Adds to `lit` the environment's specular reflection, (F0 A + F90 B) fallback, as engines have it in the image
     /// that SSR reads: what rays hit then shows its environment. Composites go on to use `lit` as it was. Passes of the
-    /// graph's current frame, waited for.
+    /// pass_list's current frame, waited for.
     void add_environment(GBuffer& gbuffer);
 
 private:
-    PassGraph& graph_;
+    PassList& pass_list_;
     CompositeFormula formula_;
     SplitSumImage split_sum_;
 };

@@ -81,14 +81,14 @@ DrawnMaterial drawn(const Scene& scene, const Material& m) {
 
 }  // namespace
 
-DrawnScene::DrawnScene(PassGraph& graph, const Scene& scene, bool has_dielectric_f0, bool keep_all)
-    : graph_(graph), scene_(scene), has_dielectric_f0_(has_dielectric_f0), keep_all_(keep_all) {
+DrawnScene::DrawnScene(PassList& pass_list, const Scene& scene, bool has_dielectric_f0, bool keep_all)
+    : pass_list_(pass_list), scene_(scene), has_dielectric_f0_(has_dielectric_f0), keep_all_(keep_all) {
     if (scene.instances.empty()) return;
     std::vector<DrawnMaterial> materials;
     for (const Material& material : scene.materials) materials.push_back(drawn(scene, material));
-    materials_ = graph.buffer("Materials", materials.size() * sizeof(DrawnMaterial));
-    graph.upload(materials_, bytes_of(materials));
-    instances_ = graph.buffer("Instances", scene.instances.size() * sizeof(DrawnInstance));
+    materials_ = pass_list.buffer("Materials", materials.size() * sizeof(DrawnMaterial));
+    pass_list.upload(materials_, bytes_of(materials));
+    instances_ = pass_list.buffer("Instances", scene.instances.size() * sizeof(DrawnInstance));
 
     std::vector<MeshBuffers> buffers(scene.meshes.size());
     std::vector<std::shared_ptr<const LeadingVertices>> leading(scene.meshes.size());
@@ -103,7 +103,7 @@ DrawnScene::DrawnScene(PassGraph& graph, const Scene& scene, bool has_dielectric
         MeshBuffers of_instance = buffers[index];
         if (deforms(scene, scene.instances[i])) {
             const size_t floats = leading[index]->source.size() * (vertex_stride + 3);
-            of_instance.vertices = graph.buffer("Vertices_of_instance" + std::to_string(i), floats * sizeof(float));
+            of_instance.vertices = pass_list.buffer("Vertices_of_instance" + std::to_string(i), floats * sizeof(float));
             deformed_.push_back({.instance = i, .leading = leading[index], .vertices = of_instance.vertices});
             deformed_.back().floats.resize(floats);
         } else {
@@ -124,8 +124,9 @@ DrawnScene::Kind DrawnScene::kind_of(const Material& material) const {
 }
 
 Buffer DrawnScene::upload_indices(const LeadingVertices& leading, size_t mesh) {
-    const Buffer buffer = graph_.buffer("Indices" + std::to_string(mesh), leading.indices.size() * sizeof(uint32_t));
-    graph_.upload(buffer, bytes_of(leading.indices));
+    const Buffer buffer =
+        pass_list_.buffer("Indices" + std::to_string(mesh), leading.indices.size() * sizeof(uint32_t));
+    pass_list_.upload(buffer, bytes_of(leading.indices));
     return buffer;
 }
 
@@ -137,8 +138,8 @@ Buffer DrawnScene::upload_vertices(const Mesh& mesh, const LeadingVertices& lead
         std::memcpy(of_triangle, &leading.triangle_normal[v], sizeof(glm::vec3));
         of_triangle[3] = leading.triangle_alpha[v];
     }
-    const Buffer buffer = graph_.buffer("Vertices" + std::to_string(index), floats.size() * sizeof(float));
-    graph_.upload(buffer, bytes_of(floats));
+    const Buffer buffer = pass_list_.buffer("Vertices" + std::to_string(index), floats.size() * sizeof(float));
+    pass_list_.upload(buffer, bytes_of(floats));
     return buffer;
 }
 
@@ -174,14 +175,14 @@ void DrawnScene::pose(DeformedInstance& deformed, const ScenePose& pose, const S
         const glm::vec3 normal = triangle_normal(position(0), position(1), position(2));
         std::memcpy(&floats[(corner[0] + 1) * vertex_stride - floats_of_triangle], &normal, sizeof(glm::vec3));
     });
-    graph_.upload(deformed.vertices, bytes_of(floats));
+    pass_list_.upload(deformed.vertices, bytes_of(floats));
 }
 
 Image DrawnScene::texture_image(const TextureSlot& slot) {
     if (slot.texture < 0) {
         if (!no_texture_.storage) {
-            no_texture_ = graph_.image_of("no_texture", Format::rgba8, {1, 1});
-            graph_.upload_rgba8(no_texture_, std::vector<uint8_t>(4, 255));
+            no_texture_ = pass_list_.image_of("no_texture", Format::rgba8, {1, 1});
+            pass_list_.upload_rgba8(no_texture_, std::vector<uint8_t>(4, 255));
         }
         return no_texture_;
     }
@@ -190,11 +191,11 @@ Image DrawnScene::texture_image(const TextureSlot& slot) {
     if (image.storage) return image;
     const std::string name = "texture" + std::to_string(slot.texture);
     if (texture.channel_bytes == 2) {
-        image = graph_.image_of(name, Format::rgba32f, texture.extent);
-        graph_.upload(image, values_of(texture));
+        image = pass_list_.image_of(name, Format::rgba32f, texture.extent);
+        pass_list_.upload(image, values_of(texture));
     } else {
-        image = graph_.image_of(name, Format::rgba8, texture.extent);
-        graph_.upload_rgba8(image, *texture.rgba);
+        image = pass_list_.image_of(name, Format::rgba8, texture.extent);
+        pass_list_.upload_rgba8(image, *texture.rgba);
     }
     return image;
 }
@@ -235,7 +236,7 @@ void DrawnScene::pose(const ScenePose& pose, const ScenePose& previous) {
              .normal_matrix = glm::mat4(normals.matrix),
              .ids = {scene_.meshes[scene_.instances[i].mesh].material, normals.is_mirrored, previous_positions[i], 0}});
     }
-    graph_.upload(instances_, bytes_of(instances));
+    pass_list_.upload(instances_, bytes_of(instances));
     for (std::vector<Draw>& draws : draws_)
         for (Draw& draw : draws) draw.cull = cull_of(draw.first_instance, instances[draw.first_instance].ids.y == 1);
 }

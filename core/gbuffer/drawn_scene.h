@@ -1,6 +1,6 @@
 #pragma once
 #include "core/gbuffer/leading_vertices.h"
-#include "core/gpu/passes/pass_graph.h"
+#include "core/gpu/passes/pass_list.h"
 #include "core/scene/scene.h"
 
 #include <map>
@@ -15,7 +15,7 @@ public:
 
     /// Uploads all drawn meshes, materials and textures. With `has_dielectric_f0` none is drawn by the plain shader,
     /// with `keep_all` every mesh by the one for masks.
-    DrawnScene(PassGraph& graph, const Scene& scene, bool has_dielectric_f0, bool keep_all);
+    DrawnScene(PassList& pass_list, const Scene& scene, bool has_dielectric_f0, bool keep_all);
 
     /// Transforms and deformed vertices of this frame; `previous`: of the frame before.
     void pose(const ScenePose& pose, const ScenePose& previous);
@@ -44,7 +44,7 @@ private:
     Draw::Cull cull_of(unsigned instance, bool is_mirrored) const;
     Draw make_draw(unsigned instance, const MeshBuffers& buffers, Kind kind);
 
-    PassGraph& graph_;
+    PassList& pass_list_;
     const Scene& scene_;
     bool has_dielectric_f0_, keep_all_;
     Buffer materials_, instances_;

@@ -1,20 +1,20 @@
 #pragma once
 #include "core/gbuffer/gbuffer.h"
 #include "core/gbuffer/prefiltered_environment.h"
-#include "core/gpu/passes/pass_graph.h"
+#include "core/gpu/passes/pass_list.h"
 
 /// The environment on the GPU, for passes that include core/shaders/gbuffer/environment.glsl.
 class EnvironmentImages {
 public:
     /// Without `prefilter` only its sharp radiance can be read. `environment` must outlive this.
-    EnvironmentImages(PassGraph& graph, const Environment& environment, bool prefilter);
+    EnvironmentImages(PassList& pass_list, const Environment& environment, bool prefilter);
 
     /// Binds images and constants to the pass; `bind_sharp` for shaders that do not read the prefiltered image.
-    PassGraph::Pass& bind(PassGraph::Pass& pass) const;
-    PassGraph::Pass& bind_sharp(PassGraph::Pass& pass) const;
+    PassList::Pass& bind(PassList::Pass& pass) const;
+    PassList::Pass& bind_sharp(PassList::Pass& pass) const;
     /// The same, with the kind of environment compiled in.
-    PassGraph::Pass& bind_rays(PassGraph::Pass& pass) const;
-    static void compile_in(PassGraph::Pass& pass, unsigned kind);
+    PassList::Pass& bind_rays(PassList::Pass& pass) const;
+    static void compile_in(PassList::Pass& pass, unsigned kind);
 
     const PrefilteredEnvironment& prefiltered() const { return prefiltered_; }
 
@@ -26,4 +26,4 @@ private:
 
 /// Binds the environment for rays that hit nothing, for shaders that call
 /// environment_along_ray(). A G-buffer from files knows it only as `fallback`, its mean over each pixel's lobe.
-PassGraph::Pass& bind_environment(PassGraph::Pass& pass, const GBuffer& gbuffer);
+PassList::Pass& bind_environment(PassList::Pass& pass, const GBuffer& gbuffer);

@@ -20,10 +20,10 @@ struct GBuffer {
     Image previous_depth, previous_normal;  ///< of the frame before; in the first frame this frame's own
     Image lit;  ///< rgba32f: emission and diffusely reflected radiance towards the camera; environment where nothing
                 ///< was hit. With reflections: Compositor::add_environment()
-    Image
-        fallback;  ///< rgba32f: the environment prefiltered over each pixel's specular lobe, for composite and variants
+    Image fallback;  ///< rgba32f: the environment prefiltered over each pixel's specular lobe, for composite and
+                     ///< techniques
 
-    // The next layers of depth, without storage unless Variant::needs_depth_layers(); float32 for every depth format.
+    // The next layers of depth, without storage unless Technique::needs_depth_layers(); float32 for every depth format.
     Image second_depth;  ///< r32f: device depth of the next surface along each pixel's ray; of the far plane where
                          ///< there is none
     Image back_depth;    ///< r32f: the same if that is the back of a surface, where what is visible ends; `depth` if it

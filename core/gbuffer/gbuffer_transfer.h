@@ -1,15 +1,15 @@
 #pragma once
 #include "core/gbuffer/gbuffer.h"
 #include "core/gbuffer/gbuffer_file.h"
-#include "core/gpu/passes/pass_graph.h"
+#include "core/gpu/passes/pass_list.h"
 
 /// Copies all images; `camera` and `depth_format` are those it was drawn with.
-HostGBuffer download_gbuffer(PassGraph& graph, const GBuffer& gbuffer, const CameraData& camera,
+HostGBuffer download_gbuffer(PassList& pass_list, const GBuffer& gbuffer, const CameraData& camera,
                              DepthFormat depth_format);
 
 /// GBuffer::dielectric_f0 of a scene in which it is 0.04 everywhere: one pixel.
-Image one_dielectric_f0(PassGraph& graph);
+Image one_dielectric_f0(PassList& pass_list);
 
-/// Creates the images in `graph`, whose extent must be that of the G-buffer, and fills them, absent lit colour and
+/// Creates the images in `pass_list`, whose extent must be that of the G-buffer, and fills them, absent lit colour and
 /// fallback with 0. The downloaded G-buffer has the same bits.
-GBuffer upload_gbuffer(PassGraph& graph, const HostGBuffer& gbuffer);
+GBuffer upload_gbuffer(PassList& pass_list, const HostGBuffer& gbuffer);

@@ -17,7 +17,7 @@ Format format_of(DepthFormat format) {
 }
 
 /// What a fragment says of the surface that it shows.
-PassGraph::Pass& write_surface(PassGraph::Pass& pass, const GBuffer& g) {
+PassList::Pass& write_surface(PassList::Pass& pass, const GBuffer& g) {
     for (const Image& image : {g.geometric_normal, g.normal, g.base_color, g.emission, g.motion, g.material_id})
         pass.write(image);
     return pass;
@@ -30,15 +30,15 @@ DepthTest nearest_in(const Image& depth_buffer, const CameraData& camera) {
             .image = depth_buffer};
 }
 
-Buffer upload_lights(PassGraph& graph, const std::vector<PunctualLight>& lights) {
+Buffer upload_lights(PassList& pass_list, const std::vector<PunctualLight>& lights) {
     std::vector<DrawnLight> drawn;
     for (const PunctualLight& light : lights)
         drawn.push_back({.intensity_type = {light.intensity, float(light.type)},
                          .position_range = {light.position, light.range},
                          .direction_outer = {light.direction, light.outer_cone_cos},
                          .inner_cone = {light.inner_cone_cos, 0, 0, 0}});
-    const Buffer buffer = graph.buffer("Lights", std::max<size_t>(drawn.size(), 1) * sizeof(DrawnLight));
-    if (!drawn.empty()) graph.upload(buffer, std::as_bytes(std::span(drawn)));
+    const Buffer buffer = pass_list.buffer("Lights", std::max<size_t>(drawn.size(), 1) * sizeof(DrawnLight));
+    if (!drawn.empty()) pass_list.upload(buffer, std::as_bytes(std::span(drawn)));
     return buffer;
 }
 
@@ -67,9 +67,9 @@ Rasterizer::Rasterizer(Device& device, const Scene& scene, const RasterizerOptio
     : scene_(scene),
       options_(options),
       facts_(material_facts(scene)),
-      graph_(device, options.extent),
-      drawn_(graph_, scene, facts_.has_dielectric_f0, options.keep_all),
-      environment_(graph_, reflected_environment(),
+      pass_list_(device, options.extent),
+      drawn_(pass_list_, scene, facts_.has_dielectric_f0, options.keep_all),
+      environment_(pass_list_, reflected_environment(),
                    options.keep_all || (facts_.has_geometry && !reflected_environment().is_black())) {
     facts_.has_environment = !reflected_environment().is_black();
     if (!device.supports(format_of(options.depth_format)))
@@ -117,63 +117,63 @@ GBuffer Rasterizer::render(const SceneCamera& camera, const FrameView& view) {
     }
     last_camera_ = &camera;
     last_view_ = view;
-    graph_.times();  // waits for the device, so that other graphs may read the images
+    pass_list_.times();  // waits for the device, so that other graphs may read the images
     return gbuffer;
 }
 
 GBuffer Rasterizer::draw(const Frame& frame) {
     camera_ = frame.camera;
     scene_pose_ = frame.scene;
-    graph_.begin_frame(camera_, no_params_, {});
+    pass_list_.begin_frame(camera_, no_params_, {});
     if (!options_.keep_all)
-        graph_.set_constants({{"scene_is_still", options_.is_still},
-                              {"scene_has_environment", facts_.has_environment},
-                              {"scene_has_normal_maps", facts_.has_normal_maps},
-                              {"scene_has_vertex_colors", facts_.has_vertex_colors}});
+        pass_list_.set_constants({{"scene_is_still", options_.is_still},
+                                  {"scene_has_environment", facts_.has_environment},
+                                  {"scene_has_normal_maps", facts_.has_normal_maps},
+                                  {"scene_has_vertex_colors", facts_.has_vertex_colors}});
     drawn_.pose(frame.scene, frame.previous_scene);
-    const PassGraph::History depth = graph_.history("depth", Format::r32f),
-                             normal = graph_.history("normal", Format::rgba32f);
+    const PassList::History depth = pass_list_.history("depth", Format::r32f),
+                            normal = pass_list_.history("normal", Format::rgba32f);
     GBuffer g{.depth = depth.current,
-              .geometric_normal = graph_.image("geometric_normal", Format::rgba32f),
+              .geometric_normal = pass_list_.image("geometric_normal", Format::rgba32f),
               .normal = normal.current,
-              .base_color = graph_.image("base_color", Format::rgba32f),
-              .emission = graph_.image("emission", Format::rgba32f),
-              .motion = graph_.image("motion", Format::rg32f),
-              .material_id = graph_.image("material_id", Format::r32ui),
+              .base_color = pass_list_.image("base_color", Format::rgba32f),
+              .emission = pass_list_.image("emission", Format::rgba32f),
+              .motion = pass_list_.image("motion", Format::rg32f),
+              .material_id = pass_list_.image("material_id", Format::r32ui),
               .previous_depth = depth.previous,
               .previous_normal = normal.previous,
-              .lit = graph_.image("lit", Format::rgba32f),
-              .fallback = graph_.image("fallback", Format::rgba32f),
-              .dielectric_f0 =
-                  facts_.has_dielectric_f0 ? graph_.image("dielectric_f0", Format::rgba32f) : one_dielectric_f0(graph_),
+              .lit = pass_list_.image("lit", Format::rgba32f),
+              .fallback = pass_list_.image("fallback", Format::rgba32f),
+              .dielectric_f0 = facts_.has_dielectric_f0 ? pass_list_.image("dielectric_f0", Format::rgba32f)
+                                                        : one_dielectric_f0(pass_list_),
               .has_dielectric_f0 = facts_.has_dielectric_f0,
               .environment = &environment_};
-    if (g.has_dielectric_f0) graph_.clear(g.dielectric_f0, glm::vec4(0));
+    if (g.has_dielectric_f0) pass_list_.clear(g.dielectric_f0, glm::vec4(0));
 
-    const Image depth_buffer = graph_.image("depth_buffer", format_of(options_.depth_format));
-    graph_.clear(depth_buffer, glm::vec4(camera_.depth.z, 0, 0, 0));
-    auto background = graph_.fragment("gbuffer/background.frag");
+    const Image depth_buffer = pass_list_.image("depth_buffer", format_of(options_.depth_format));
+    pass_list_.clear(depth_buffer, glm::vec4(camera_.depth.z, 0, 0, 0));
+    auto background = pass_list_.fragment("gbuffer/background.frag");
     write_surface(background, g).run();
     draw_kind(g, depth_buffer, DrawnScene::Kind::plain, "plain");
     draw_kind(g, depth_buffer, DrawnScene::Kind::textured, g.has_dielectric_f0 ? "dielectric" : "textured");
     draw_kind(g, depth_buffer, DrawnScene::Kind::masked, g.has_dielectric_f0 ? "dielectric_masked" : "masked");
-    graph_.fragment("gbuffer/copy_depth.frag").read(depth_buffer).write(g.depth).run();
+    pass_list_.fragment("gbuffer/copy_depth.frag").read(depth_buffer).write(g.depth).run();
 
     if (options_.has_depth_layers) draw_depth_layers(g);
 
     if (needs_fallback()) {
-        auto pass = graph_.compute("gbuffer/fallback.comp");
+        auto pass = pass_list_.compute("gbuffer/fallback.comp");
         environment_.bind(pass).read(g.depth).read(g.normal).write(g.fallback).run();
     } else {
-        graph_.clear(g.fallback, glm::vec4(0));
+        pass_list_.clear(g.fallback, glm::vec4(0));
     }
-    graph_.clear(g.lit, glm::vec4(0));
+    pass_list_.clear(g.lit, glm::vec4(0));
     return g;
 }
 
 void Rasterizer::draw_kind(const GBuffer& g, const Image& depth_buffer, DrawnScene::Kind kind, const char* name) {
     if (drawn_.draws(kind).empty()) return;
-    auto pass = graph_.draw("gbuffer/mesh.vert", std::string("gbuffer/") + name + ".frag", drawn_.draws(kind));
+    auto pass = pass_list_.draw("gbuffer/mesh.vert", std::string("gbuffer/") + name + ".frag", drawn_.draws(kind));
     if (g.has_dielectric_f0) pass.write(g.dielectric_f0);
     write_surface(pass, g)
         .depth(nearest_in(depth_buffer, camera_))
@@ -183,11 +183,11 @@ void Rasterizer::draw_kind(const GBuffer& g, const Image& depth_buffer, DrawnSce
 }
 
 void Rasterizer::draw_depth_layers(GBuffer& g) {
-    g.second_depth = graph_.image("second_depth", Format::r32f);
-    g.back_depth = graph_.image("back_depth", Format::r32f);
-    graph_.fragment("gbuffer/no_layers.frag").read(g.depth).write(g.second_depth).write(g.back_depth).run();
-    const Image depth_buffer = graph_.image("second_depth_buffer", Format::d32f);
-    graph_.clear(depth_buffer, glm::vec4(camera_.depth.z, 0, 0, 0));
+    g.second_depth = pass_list_.image("second_depth", Format::r32f);
+    g.back_depth = pass_list_.image("back_depth", Format::r32f);
+    pass_list_.fragment("gbuffer/no_layers.frag").read(g.depth).write(g.second_depth).write(g.back_depth).run();
+    const Image depth_buffer = pass_list_.image("second_depth_buffer", Format::d32f);
+    pass_list_.clear(depth_buffer, glm::vec4(camera_.depth.z, 0, 0, 0));
     // What the depth buffer rounds: half a step of its codes, and as much again for rounding on the way.
     const float depth_step = options_.depth_format == DepthFormat::d32f  ? 0.0f
                              : options_.depth_format == DepthFormat::d24 ? 0x1p-24f
@@ -196,7 +196,7 @@ void Rasterizer::draw_depth_layers(GBuffer& g) {
          {DrawnScene::Kind::plain, DrawnScene::Kind::textured, DrawnScene::Kind::masked}) {
         if (drawn_.draws(kind).empty()) continue;
         const bool is_masked = kind == DrawnScene::Kind::masked;
-        graph_
+        pass_list_
             .draw("gbuffer/mesh.vert", is_masked ? "gbuffer/peel_masked.frag" : "gbuffer/peel.frag", drawn_.draws(kind))
             .read(g.depth)
             .write(g.second_depth)
@@ -209,15 +209,15 @@ void Rasterizer::draw_depth_layers(GBuffer& g) {
 }
 
 void Rasterizer::light_directly(const GBuffer& g) {
-    const Buffer lights = upload_lights(graph_, scene_pose_.lights);
-    const Buffer count = graph_.buffer("LightCount", sizeof(uint32_t));
-    graph_.clear(count, uint32_t(scene_pose_.lights.size()));
-    auto pass = graph_.compute("gbuffer/lit_direct.comp");
+    const Buffer lights = upload_lights(pass_list_, scene_pose_.lights);
+    const Buffer count = pass_list_.buffer("LightCount", sizeof(uint32_t));
+    pass_list_.clear(count, uint32_t(scene_pose_.lights.size()));
+    auto pass = pass_list_.compute("gbuffer/lit_direct.comp");
     environment_.bind(pass).use(lights).use(count);
     for (const Image& image : {g.depth, g.geometric_normal, g.normal, g.base_color, g.emission, g.dielectric_f0})
         pass.read(image);
     pass.write(g.lit).run();
-    graph_.times();
+    pass_list_.times();
 }
 
 void Rasterizer::upload_lit(const GBuffer& g, const HostImage& rgb) {
@@ -226,5 +226,5 @@ void Rasterizer::upload_lit(const GBuffer& g, const HostImage& rgb) {
              " channels, but the G-buffer is ", options_.extent.x, " x ", options_.extent.y, " and needs 3");
     HostImage rgba(rgb.extent, 4);
     for (size_t i = 0; i < rgb.pixel_count(); ++i) rgba.set_rgb(i, rgb.rgb(i));
-    graph_.upload(g.lit, rgba);
+    pass_list_.upload(g.lit, rgba);
 }

@@ -21,8 +21,8 @@ struct RasterizerOptions {
 /// What a rasteriser leaves out of frames with these facts.
 std::vector<LeftOut> left_out_of_rasterizer(const SceneFacts& facts);
 
-/// Draws the G-buffer of a scene. It has a pass graph of its own, so that its times are not those of a variant;
-/// variants read its images through theirs, after render() has waited for the device.
+/// Draws the G-buffer of a scene. It has a pass pass_list of its own, so that its times are not those of a technique;
+/// techniques read its images through theirs, after render() has waited for the device.
 ///
 /// Surfaces are drawn from both sides, their normals turned to the camera, as the path tracer sees them, but for backs
 /// that the scene hides (Scene::hides_backs_of()); where they are drawn the back of a single-sided emitter is dark.
@@ -46,7 +46,7 @@ public:
     const CameraData& camera() const { return camera_; }  ///< of the last frame
     const Scene& scene() const { return scene_; }
     const PrefilteredEnvironment& prefiltered_environment() const { return environment_.prefiltered(); }
-    PassGraph& graph() { return graph_; }
+    PassList& pass_list() { return pass_list_; }
 
 private:
     bool needs_fallback() const;
@@ -59,7 +59,7 @@ private:
     const Scene& scene_;
     RasterizerOptions options_;
     SceneFacts facts_;  ///< of the materials and lights; motion is looked at frame by frame
-    PassGraph graph_;
+    PassList pass_list_;
     DrawnScene drawn_;
     EnvironmentImages environment_;
     ParameterSet no_params_;

@@ -1,8 +1,8 @@
 #pragma once
 #include "core/gpu/image.h"
 
-/// What each variant estimates for each pixel of the G-buffer, in images of the graph's extent. The formats are the
-/// variant's own choice, which the composite reads as floats.
+/// What each technique estimates for each pixel of the G-buffer, in images of the pass_list's extent. The formats are
+/// the technique's own choice, which the composite reads as floats.
 struct Reflections {
     /// Mean incident radiance over the specular lobe, before the BRDF (rgb, W sr^-1 m^-2); finite where `confidence` is
     /// 0, too: the composite multiplies.

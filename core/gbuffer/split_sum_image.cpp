@@ -2,11 +2,11 @@
 
 #include "core/split_sum.h"
 
-Image SplitSumImage::on(PassGraph& graph) {
+Image SplitSumImage::on(PassList& pass_list) {
     const HostImage& table = default_split_sum_table();
-    const Image image = graph.image_of("split_sum", Format::rg32f, table.extent);
+    const Image image = pass_list.image_of("split_sum", Format::rg32f, table.extent);
     if (uploaded_.lock() != image.storage) {
-        graph.upload(image, table);
+        pass_list.upload(image, table);
         uploaded_ = image.storage;
     }
     return image;

@@ -52,7 +52,7 @@ struct Device::Impl {
     vk::raii::Fence fence{nullptr};
     std::shared_ptr<class PipelineCache> pipelines;  ///< see PipelineCache::of()
 
-    /// A graph that has recorded and not yet submitted; others call this before they start, so that work keeps its
+    /// A pass_list that has recorded and not yet submitted; others call this before they start, so that work keeps its
     /// order.
     std::function<void()> flush_recording;
 

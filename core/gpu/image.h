@@ -24,7 +24,7 @@ enum class Format {
     d32f_s8
 };
 
-/// A named 2D image of the graph, or one mip level of it. Copies refer to the same pixels.
+/// A named 2D image of the pass_list, or one mip level of it. Copies refer to the same pixels.
 struct Image {
     std::string name;  ///< also the name of the sampler, image or output variable in the shaders
     Format format{};

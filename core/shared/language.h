@@ -1,5 +1,5 @@
 // Lets the headers of this folder compile both as C++ (with GLM) and as GLSL, so that the path tracer, the G-buffer and
-// every variant evaluate the very same formulas.
+// every technique evaluate the very same formulas.
 #ifdef __cplusplus
 #pragma once
 #include <cmath>

@@ -80,18 +80,18 @@ constexpr const char *judged_point = "frames", *before_point = "before";
 
 /// The study that judges.
 Config study_of(const JudgeSettings& settings, const std::string& engine) {
-    json variants = {{{"variant", "none"}, {"baseline", settings.against.empty()}},
-                     {{"external", fs::absolute(settings.frames).string()},
-                      {"point", judged_point},
-                      {"label", fs::absolute(settings.frames).filename().string()}}};
+    json techniques = {{{"technique", "none"}, {"baseline", settings.against.empty()}},
+                       {{"external", fs::absolute(settings.frames).string()},
+                        {"point", judged_point},
+                        {"label", fs::absolute(settings.frames).filename().string()}}};
     if (!settings.against.empty())
-        variants.push_back({{"external", fs::absolute(settings.against).string()},
-                            {"point", before_point},
-                            {"label", fs::absolute(settings.against).filename().string() + " (before)"},
-                            {"baseline", true}});
+        techniques.push_back({{"external", fs::absolute(settings.against).string()},
+                              {"point", before_point},
+                              {"label", fs::absolute(settings.against).filename().string() + " (before)"},
+                              {"baseline", true}});
     json study = {{"title", engine},
                   {"shots", shots_of(settings)},
-                  {"variants", variants},
+                  {"techniques", techniques},
                   {"metrics", {"mse", "flip", "relmse"}},
                   {"masks", {"all", "reflective", "edge", "roughness_0_0.1", "roughness_0.1_0.3", "roughness_0.3_0.6"}},
                   {"targets", {"specular", "image"}},
@@ -125,9 +125,9 @@ std::vector<ViewError> errors_of(const fs::path& out, const PrimaryComparisons& 
     std::map<std::string, std::pair<MetricSummary, MetricSummary>> rows;  // of the frames, and of no reflections
     for (const MetricSummary& r : read_rows<MetricSummary>(out / "summary.csv")) {
         if (r.metric != primary.metric || r.mask != primary.mask || r.target != primary.target) continue;
-        if (r.variant != "none" && r.point != judged_point) continue;
+        if (r.technique != "none" && r.point != judged_point) continue;
         auto& [frames, none] = rows[r.shot];
-        MetricSummary& kept = r.variant == "none" ? none : frames;
+        MetricSummary& kept = r.technique == "none" ? none : frames;
         if (kept.shot.empty() || r.frame == over_frames) kept = r;
     }
     std::vector<ViewError> errors;

@@ -12,8 +12,8 @@
 #include "experiments/study/config/config_schema.h"
 #include "metrics/metric.h"
 #include "metrics/temporal.h"
-#include "variants/registry.h"
 #include "variants/denoisers/denoisers.h"
+#include "variants/registry.h"
 #include "variants/tracers/tracers.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@
 namespace {
 
 struct DescribeOptions {
-    std::string variant;  ///< "": all
+    std::string technique;  ///< "": all
     bool as_schema = false;
     std::filesystem::path document;  ///< whose tables of config keys are made anew; "": none
 };
@@ -63,7 +63,9 @@ void describe_denoisers(const ParameterSet& params) {
             std::cout << "\nParameters of the denoiser " << denoiser.name << ":\n" << help;
 }
 
-bool is_denoiser(const std::string& name) { return std::ranges::count(denoiser_table(), name, &DenoiserEntry::name) > 0; }
+bool is_denoiser(const std::string& name) {
+    return std::ranges::count(denoiser_table(), name, &DenoiserEntry::name) > 0;
+}
 
 bool is_tracer(const std::string& name) {
     return std::ranges::any_of(tracer_table(), [&](const TracerEntry& tracer) { return tracer.name == name; });
@@ -73,39 +75,40 @@ bool is_tracer(const std::string& name) {
 
 static void describe_command(const DescribeOptions& asked) {
     DescribeOptions options = asked;
-    options.variant = technique_name(asked.variant);
+    options.technique = technique_name(asked.technique);
     if (options.as_schema) {
-        std::cout << config_schema(options.variant).dump(2) << '\n';
+        std::cout << config_schema(options.technique).dump(2) << '\n';
         return;
     }
     if (!options.document.empty()) return write_text(options.document, with_key_tables(read_text(options.document)));
-    if (is_tracer(options.variant)) {
+    if (is_tracer(options.technique)) {
         ParameterSet params;
         for (const TracerEntry& tracer : tracer_table())
-            if (tracer.part == find_tracer(options.variant).part)
+            if (tracer.part == find_tracer(options.technique).part)
                 for (const Parameter& parameter : tracer.parameters) params.add(parameter);
-        return describe_tracer(find_tracer(options.variant), params);
+        return describe_tracer(find_tracer(options.technique), params);
     }
-    if (is_denoiser(options.variant)) return describe_denoiser(find_denoiser(options.variant));
-    if (!options.variant.empty() && !std::ranges::count(variant_table(), options.variant, &VariantEntry::name)) {
+    if (is_denoiser(options.technique)) return describe_denoiser(find_denoiser(options.technique));
+    if (!options.technique.empty() &&
+        !std::ranges::count(technique_table(), options.technique, &TechniqueEntry::name)) {
         std::vector<std::string> names;
-        for (const VariantEntry& entry : variant_table()) names.push_back(entry.name);
+        for (const TechniqueEntry& entry : technique_table()) names.push_back(entry.name);
         for (const TracerEntry& tracer : tracer_table()) names.push_back(tracer.name);
         for (const DenoiserEntry& denoiser : denoiser_table()) names.push_back(denoiser.name);
-        fail("unknown variant, tracer or denoiser '", shortened(options.variant), "'",
-             suggestion(options.variant, names));
+        fail("unknown technique, tracer or denoiser '", shortened(options.technique), "'",
+             suggestion(options.technique, names));
     }
-    for (const VariantEntry& entry : variant_table()) {
-        if (!options.variant.empty() && entry.name != options.variant) continue;
+    for (const TechniqueEntry& entry : technique_table()) {
+        if (!options.technique.empty() && entry.name != options.technique) continue;
         std::cout << entry.name << ": " << entry.title << "\n  " << entry.description << "\n  Source: " << entry.source
                   << "\n";
         if (const std::string limits = limits_text(entry.limits); !limits.empty())
             std::cout << "  Enforced limits: " << limits << '\n';
-        const std::unique_ptr<Variant> variant = make_variant(entry.name);
-        const std::string parameters = variant->params.help();
+        const std::unique_ptr<Technique> technique = make_technique(entry.name);
+        const std::string parameters = technique->params.help();
         std::cout << (parameters.empty() ? "\nIt has no parameters.\n" : "\nParameters:\n" + parameters);
-        describe_tracers(variant->params);
-        describe_denoisers(variant->params);
+        describe_tracers(technique->params);
+        describe_denoisers(technique->params);
         if (!entry.presets.empty()) std::cout << "\nPresets:\n";
         for (const Preset& preset : entry.presets)
             std::cout << "  " << preset.name << ": " << preset.meaning << " " << preset.parameters.dump() << '\n';
@@ -118,8 +121,8 @@ void add_describe(Commands& line) {
     CLI::App& command =
         *line.app.add_subcommand("describe", "Print every parameter: default, range, unit, meaning, source");
     command
-        .add_option("variant", describe.variant,
-                    "A variant or its folder, a tracer or a denoiser; default: all variants")
+        .add_option("technique", describe.technique,
+                    "A technique or its folder, a tracer or a denoiser; default: all techniques")
         ->type_name("NAME");
     command.add_flag("--schema", describe.as_schema, "Print a JSON Schema for configs, so that editors complete them");
     command

@@ -20,7 +20,7 @@ void print_techniques(const std::vector<NumberChange>& errors) {
     const char* verdicts[] = {change::equal, change::equivalent, change::undecided, change::changed,
                               change::not_judged};
     std::map<std::string, std::vector<NumberChange>> by_technique;
-    for (const NumberChange& c : errors) by_technique[c.variant].push_back(c);
+    for (const NumberChange& c : errors) by_technique[c.technique].push_back(c);
     std::cout << std::left << std::setw(32) << "" << std::right << std::setw(8) << "numbers";
     for (const char* verdict : verdicts) std::cout << std::setw(int(std::string(verdict).size()) + 3) << verdict;
     std::cout << '\n';
@@ -40,8 +40,8 @@ void print_changes(const std::vector<NumberChange>& all, bool shows_all) {
     const size_t count = shows_all ? changed.size() : std::min(changed.size(), most_named);
     for (size_t i = 0; i < count; ++i) {
         const NumberChange& c = *changed[i];
-        std::string what =
-            c.shot + (c.frame.empty() ? "" : " frame " + c.frame) + ": " + c.variant + " " + c.point + ": " + c.metric;
+        std::string what = c.shot + (c.frame.empty() ? "" : " frame " + c.frame) + ": " + c.technique + " " + c.point +
+                           ": " + c.metric;
         if (!c.target.empty()) what += " of " + c.target + ", " + c.mask + " pixels";
         std::cout << "  " << shown_text(what);
         std::cout << ": " << std::setprecision(4) << *c.before << " -> " << *c.after << " (x" << *c.after / *c.before
@@ -52,9 +52,9 @@ void print_changes(const std::vector<NumberChange>& all, bool shows_all) {
 
 void print_alone(const std::filesystem::path& folder, const std::vector<std::array<std::string, 3>>& points) {
     if (points.empty()) return;
-    const auto& [shot, variant, point] = points.front();
+    const auto& [shot, technique, point] = points.front();
     std::cout << "\nIn " << folder.string() << " alone, and not compared: " << points.size() << " points of shots, as "
-              << shown_text(shot + " " + variant + " " + point) << '\n';
+              << shown_text(shot + " " + technique + " " + point) << '\n';
 }
 
 void print_times(const StudyDiff& diff, const DiffOptions& options) {
@@ -78,7 +78,7 @@ void print_times(const StudyDiff& diff, const DiffOptions& options) {
 }  // namespace
 
 int diff_command(const DiffOptions& options) {
-    const StudyTables before = read_study_tables(options.before), after = read_study_tables(options.after);
+    const StudyResults before = read_study_results(options.before), after = read_study_results(options.after);
     const StudyDiff diff = diff_studies(before, after, options.judges_times,
                                         options.margin > 0 ? options.margin : primary_of(after.manifest).margin);
     if (diff.errors.empty())

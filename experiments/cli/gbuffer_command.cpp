@@ -54,7 +54,7 @@ static void gbuffer_command(const GBufferCommandOptions& options, const CommonOp
         char name[32];
         std::snprintf(name, sizeof name, "frame_%04u", frame);
         const std::filesystem::path folder = options.frames.empty() ? out : out / name;
-        HostGBuffer host = download_gbuffer(rasterizer.graph(), gbuffer, rasterizer.camera(), format);
+        HostGBuffer host = download_gbuffer(rasterizer.pass_list(), gbuffer, rasterizer.camera(), format);
         host.exposure_ev = shot.camera.exposure_ev;
         save_gbuffer(folder, host);
         std::printf("%s\n%s\n", (folder / "gbuffer.exr").c_str(), (folder / "camera.json").c_str());

@@ -12,8 +12,8 @@
 #include "experiments/study/config/config_schema.h"
 #include "metrics/metric.h"
 #include "metrics/temporal.h"
-#include "variants/registry.h"
 #include "variants/denoisers/denoisers.h"
+#include "variants/registry.h"
 #include "variants/tracers/tracers.h"
 
 #include <algorithm>
@@ -83,15 +83,15 @@ void list_scenes_with_tests(const std::vector<std::filesystem::path>& search_pat
     }
 }
 
-void list_variants() {
-    for (const VariantEntry& entry : variant_table())
+void list_techniques() {
+    for (const TechniqueEntry& entry : technique_table())
         std::cout << entry.name << ": " << entry.title << '\n'
                   << indented(entry.description, 4) << indented("Source: " + entry.source, 4);
 }
 
-/// By the names that `--variants` of other commands take.
+/// By the names that `--techniques` of other commands take.
 void list_presets() {
-    for (const VariantEntry& entry : variant_table())
+    for (const TechniqueEntry& entry : technique_table())
         for (const Preset& preset : entry.presets)
             std::cout << entry.name << ':' << preset.name << '\n' << indented(preset.meaning, 4);
 }
@@ -100,7 +100,7 @@ void list_presets() {
 
 static void list_command(const std::string& what, const CommonOptions& common) {
     if (what == "scenes") list_scenes_with_tests(scene_search_path(common.scene_path));
-    if (what == "variants") list_variants();
+    if (what == "techniques") list_techniques();
     if (what == "presets") list_presets();
     if (what == "tracers")
         for (const TracerEntry& tracer : tracer_table())
@@ -131,11 +131,12 @@ void add_list(Commands& line) {
     auto& what = line.keep<std::string>();
     CLI::App& command = *line.app.add_subcommand(
         "list",
-        "List scenes and what each tests, variants, their presets, tracers, denoisers, metrics, devices or chips");
+        "List scenes and what each tests, techniques, their presets, tracers, denoisers, metrics, devices or chips");
     command.add_option("what", what, "What to list")
         ->required()
-        ->check(CLI::IsMember({"scenes", "variants", "presets", "tracers", "denoisers", "metrics", "devices", "chips"}))
-        ->type_name("scenes|variants|presets|tracers|denoisers|metrics|devices|chips");
+        ->check(
+            CLI::IsMember({"scenes", "techniques", "presets", "tracers", "denoisers", "metrics", "devices", "chips"}))
+        ->type_name("scenes|techniques|presets|tracers|denoisers|metrics|devices|chips");
     add_scene_path(command, line.common);
     add_reading(command);
     command.callback([&] { list_command(what, line.common); });

@@ -1,11 +1,13 @@
 // ssrlab: the command line.
 #include "core/error.h"
+#include "core/former_names.h"
 #include "core/gpu/pipelines/shader_error.h"
 #include "core/shown_text.h"
 #include "experiments/bridges/inspect/inspect_hint.h"
 #include "experiments/cli/commands.h"
 #include "experiments/results/cells/host_info.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <new>
 #include <string_view>
@@ -14,6 +16,8 @@ namespace {
 
 /// CLI11 reports its own mistakes; they exit with 2 as all mistakes of the user do.
 int parse_and_run(int argc, char** argv) {
+    std::vector<std::string> words;
+    for (int i = 1; i < argc; ++i) words.push_back(present_word(argv[i], words));
     CLI::App app{
         "ssrlab compares screen-space reflection techniques with path-traced truth.\n"
         "Exit codes: 0 done, 2 an error in the request, 3 a fault of this machine, 130 stopped by Ctrl-C."};
@@ -29,9 +33,10 @@ int parse_and_run(int argc, char** argv) {
           add_capture,   add_inspect, add_needs,    add_shaders, add_rays,    add_record,    add_watch,
           add_stability, add_new,     add_describe, add_list})
         add(line);
-    if (argc > 1 && argv[1][0] != '-') refuse_unknown_command(app, argv[1]);
+    if (!words.empty() && !words.front().starts_with('-')) refuse_unknown_command(app, words.front());
+    std::ranges::reverse(words);  // as CLI11 takes them
     try {
-        app.parse(argc, argv);
+        app.parse(std::move(words));
     } catch (const CLI::ParseError& e) {
         return app.exit(e) == 0 ? 0 : 2;
     }

@@ -4,7 +4,7 @@
 #include "core/scene/load_scene.h"
 #include "core/shown_text.h"
 #include "experiments/cli/commands.h"
-#include "experiments/results/tables/csv.h"
+#include "experiments/results/files/csv.h"
 #include "experiments/study/config/points/all_points.h"
 #include "experiments/study/config/shots/scene_warnings.h"
 #include "experiments/study/needs.h"
@@ -19,8 +19,8 @@ namespace {
 
 struct NeedsOptions {
     ShotOptions shot;
-    unsigned frames = 1;                ///< of the shot, from shot.frame on
-    std::vector<std::string> variants;  ///< empty: all
+    unsigned frames = 1;                  ///< of the shot, from shot.frame on
+    std::vector<std::string> techniques;  ///< empty: all
     bool is_measured = false;
     unsigned timed_frames = 15;
     std::filesystem::path csv;  ///< "": none
@@ -61,10 +61,10 @@ std::string percent(const Estimate& share) {
 
 std::string csv_of(const Shot& shot, const std::vector<MeasuredSaving>& savings) {
     std::string text =
-        "shot,variant,point,complete_ms,saved_share,low,high,keeps_bits,repeats_itself,has_same_bits,largest_"
+        "shot,technique,point,complete_ms,saved_share,low,high,keeps_bits,repeats_itself,has_same_bits,largest_"
         "difference\n";
     for (const MeasuredSaving& s : savings)
-        text += csv_line(shot.name(), s.time.variant, s.time.point, s.time.complete_ms, s.time.share.value,
+        text += csv_line(shot.name(), s.time.technique, s.time.point, s.time.complete_ms, s.time.share.value,
                          s.time.share.low, s.time.share.high, s.keeps_bits, s.repeats_itself, s.has_same_bits,
                          double(s.largest_difference));
     return text;
@@ -78,7 +78,7 @@ void print(const std::vector<MeasuredSaving>& savings, const std::vector<SavedTi
         if (!s.has_same_bits)
             std::snprintf(images, sizeof images, "%s by %.2g", s.is_as_said() ? "rounded, differ" : "DIFFER",
                           s.largest_difference);
-        std::printf("%-44s %12.2f  %-22s %s\n", (s.time.variant + " " + s.time.point).c_str(), s.time.complete_ms,
+        std::printf("%-44s %12.2f  %-22s %s\n", (s.time.technique + " " + s.time.point).c_str(), s.time.complete_ms,
                     percent(s.time.share).c_str(), images);
     }
     std::printf("\nLargest saving of each stage by any preset:\n");
@@ -89,7 +89,7 @@ void print(const std::vector<MeasuredSaving>& savings, const std::vector<SavedTi
 
 static int needs_command(const NeedsOptions& options, const CommonOptions& common) {
     const Shot shot = shot_of(options, common);
-    const std::vector<VariantConfig> points = all_points(options.variants);
+    const std::vector<PointConfig> points = all_points(options.techniques);
     std::printf("%s, camera %s\n\n", shown_text(shot.scene.name).c_str(), shown_text(shot.camera.name).c_str());
     for (const SceneFact& fact : list_facts(shot.scene, shot.facts))
         std::printf("  %-22s %-10s %s\n", fact.name.c_str(), fact.value.c_str(), fact.why.c_str());
@@ -121,7 +121,7 @@ void add_needs(Commands& line) {
         ->check(CLI::Range(1, 10000))
         ->type_name("N");
     command
-        .add_option("--variants", needs.variants,
+        .add_option("--techniques", needs.techniques,
                     "Techniques, or their folders, or single presets as NAME:PRESET; default: all presets of all, and "
                     "all tracers")
         ->delimiter(',')

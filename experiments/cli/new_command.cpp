@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 /// The folder that `from` names: one of ssrlab's, or one of the user's own.
 fs::path folder_of(const std::string& from) {
     if (from.find('/') != std::string::npos) return from;
-    return find_variant(from).folder->path;
+    return find_technique(from).folder->path;
 }
 
 std::string with_names(std::string text, const std::map<std::string, std::string>& new_names) {
@@ -34,7 +34,7 @@ std::string with_names(std::string text, const std::map<std::string, std::string
 }
 
 /// Content by file of the technique, with the shaders that it has of ssrlab's technique of its own name beside it.
-std::map<std::string, std::string> files_of(const VariantEntry& technique) {
+std::map<std::string, std::string> files_of(const TechniqueEntry& technique) {
     std::map<std::string, std::string> files = technique.folder->files, new_names;
     const std::string shared = "variants/", own = shared + technique.name + "/";
     for (const std::string& source : technique.folder->sources) {
@@ -50,13 +50,13 @@ std::map<std::string, std::string> files_of(const VariantEntry& technique) {
 /// A first study of it, beside what it was made from.
 std::string study_of(const std::string& name, const std::string& from) {
     const nlohmann::json of_origin = from.find('/') == std::string::npos
-                                         ? nlohmann::json({{"variant", from}})
-                                         : nlohmann::json({{"variant", fs::absolute(from).lexically_normal()}});
+                                         ? nlohmann::json({{"technique", from}})
+                                         : nlohmann::json({{"technique", fs::absolute(from).lexically_normal()}});
     const nlohmann::json study = {{"title", name},
                                   {"shots", {{{"scene", "fence"}, {"resolution", {240, 135}}, {"warm_up", 4}}}},
                                   {"lit", "direct"},
                                   {"reference", {{"samples", 64}}},
-                                  {"variants", {{{"variant", "none"}}, of_origin, {{"variant", "./"}}}}};
+                                  {"techniques", {{{"technique", "none"}}, of_origin, {{"technique", "./"}}}}};
     return study.dump(2) + "\n";
 }
 
@@ -67,9 +67,9 @@ static void new_command(const NewOptions& options) {
     std::error_code error;
     if (fs::exists(fs::symlink_status(options.folder, error)))
         fail(options.folder.string(), " is there already; choose another name, or remove it");
-    if (std::ranges::count(variant_table(), name, &VariantEntry::name))
+    if (std::ranges::count(technique_table(), name, &TechniqueEntry::name))
         fail("'", name, "' is one of ssrlab's own techniques; give the folder another name");
-    const VariantEntry technique = declared_entry(folder_of(options.from));
+    const TechniqueEntry technique = declared_entry(folder_of(options.from));
     for (const auto& [file, text] : files_of(technique)) write_text(path_inside(options.folder, file), text);
     const fs::path study = path_inside(options.folder, name + ".json");
     write_text(study, study_of(name, options.from));

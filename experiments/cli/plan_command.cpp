@@ -95,9 +95,9 @@ void refuse_absurd(const std::vector<PlannedWork>& work, bool here) {
 static void plan_command(const PlanOptions& options, const CommonOptions& common) {
     const Config config = config_of_study(options.config);
     const CellSelection selection(options.cells);
-    const size_t cells = config.shots.size() * (config.variants.size() + 2);
+    const size_t cells = config.shots.size() * (config.techniques.size() + 2);
     if (cells > most_cells)
-        fail(options.config.string(), ": ", config.shots.size(), " shots x ", config.variants.size(), " points are ",
+        fail(options.config.string(), ": ", config.shots.size(), " shots x ", config.techniques.size(), " points are ",
              cells, " cells; at most ", most_cells,
              " are planned: sweep fewer values, or draw from them (`random`, `sobol`)");
     const RunSettings settings{.out = options.out.empty() ? default_results(options.config) : options.out,
@@ -123,7 +123,7 @@ static void plan_command(const PlanOptions& options, const CommonOptions& common
     if (!options.json.empty()) write_text(options.json, json_of(work).dump(1) + "\n");
     if (options.has_list) return print_list(work);
     std::printf("%s: %s, %s\n\n", options.config.string().c_str(), counted(config.shots.size(), "shot").c_str(),
-                counted(config.variants.size(), "point").c_str());
+                counted(config.techniques.size(), "point").c_str());
     print_kinds(work);
     for (const std::string& warning : ranking_warnings(config, plan))
         std::printf("\nwarning: %s\n", shown_text(warning).c_str());

@@ -29,7 +29,7 @@ std::string title_of(const PrecisionRow& r) {
                              : r.image.empty() ? r.stage
                                                : r.stage + ": " + r.image;
     char line[256];
-    std::snprintf(line, sizeof line, "%-28s %-10s %-46s", (r.variant + ' ' + r.point).c_str(), name_of(r.kind),
+    std::snprintf(line, sizeof line, "%-28s %-10s %-46s", (r.technique + ' ' + r.point).c_str(), name_of(r.kind),
                   what.c_str());
     return line;
 }
@@ -78,11 +78,11 @@ int precision_command(const StabilityOptions& options, const CommonOptions& comm
     const auto done = [&](const std::vector<PrecisionRow>& rows, double share) {
         const PrecisionRow& row = rows.back();
         write_rows(csv, rows);
-        progress.update(share, row.case_name + ": " + row.variant + " " + row.point);
+        progress.update(share, row.case_name + ": " + row.technique + " " + row.point);
     };
     const StabilitySelection selection{.table = options.table.empty() ? precision_case_table() : options.table,
                                        .cases = options.cases,
-                                       .variants = options.variants};
+                                       .techniques = options.techniques};
     const StabilityFolders folders{.search_path = scene_search_path(common.scene_path),
                                    .cache = common.cache.empty() ? default_cache_folder() : common.cache};
     const std::vector<PrecisionRow> rows = run_precision(device, selection, folders, done);

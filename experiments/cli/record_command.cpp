@@ -15,8 +15,8 @@
 namespace {
 
 struct RecordOptions {
-    ShotOptions shot{.size = {192, 108}};         ///< its frame is not looked at
-    std::string variant, preset, frames = "0-7";  ///< a frame, or a range with both ends
+    ShotOptions shot{.size = {192, 108}};           ///< its frame is not looked at
+    std::string technique, preset, frames = "0-7";  ///< a frame, or a range with both ends
     nlohmann::json parameters = nlohmann::json::object();
     unsigned samples = 256;
     bool is_packed = false, has_results = false, has_passes = false;
@@ -28,7 +28,7 @@ std::string names_or_none(const std::vector<std::string>& names) { return names.
 }  // namespace
 
 static void record_command(const RecordOptions& options, const CommonOptions& common) {
-    const VariantConfig point = single_point(options.variant, options.preset, options.parameters);
+    const PointConfig point = single_point(options.technique, options.preset, options.parameters);
     constexpr size_t most_frames = 1000;
     const std::vector<unsigned> frames = frame_numbers({&options.frames, 1}, most_frames, "a page");
     Device device(common.device);
@@ -64,8 +64,8 @@ void add_record(Commands& line) {
     add_scene(command, record.shot.scene);
     command
         .add_option(
-            "--variant", record.variant,
-            "A technique of fragment passes alone (see: ssrlab list variants), or its folder; others are refused")
+            "--technique", record.technique,
+            "A technique of fragment passes alone (see: ssrlab list techniques), or its folder; others are refused")
         ->required()
         ->type_name("NAME");
     add_values(command, record.preset, record.parameters);

@@ -38,7 +38,7 @@ static void run_study_command(const RunOptions& options, const CommonOptions& co
 
 void add_run(Commands& line) {
     RunOptions& run = line.keep<RunOptions>();
-    CLI::App& command = *line.app.add_subcommand("run", "Run a study: shots x variants x parameter points x seeds");
+    CLI::App& command = *line.app.add_subcommand("run", "Run a study: shots x techniques x parameter points x seeds");
     command.add_option("config", run.config, "The study (experiments/README.md explains its keys)")
         ->required()
         ->type_name("CONFIG.json");
@@ -68,7 +68,7 @@ void add_run(Commands& line) {
         .add_option(
             "--cells", run.cells,
             "Do only these cells, of a study that several processes or machines share: references, renders, "
-            "costs, times; shot=NAME, variant=NAME (* stands for any text); shard=I/N; cell=HASH. Terms of different "
+            "costs, times; shot=NAME, technique=NAME (* stands for any text); shard=I/N; cell=HASH. Terms of different "
             "kinds narrow each other. Tables are made by `ssrlab merge`")
         ->delimiter(',')
         ->type_name("TERM");

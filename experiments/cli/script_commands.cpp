@@ -59,7 +59,7 @@ static int tables_command(const std::vector<std::string>& arguments) {
 }
 
 static int tradeoff_command(const TradeoffOptions& options) {
-    const StudyTables tables = read_study_tables(options.results);
+    const StudyResults tables = read_study_results(options.results);
     PrimaryComparisons error = primary_of(tables.manifest);
     if (!options.metric.empty()) error.metric = options.metric;
     if (!options.mask.empty()) error.mask = options.mask;
@@ -94,9 +94,9 @@ static int tradeoff_command(const TradeoffOptions& options) {
 namespace {
 
 /// The name of a technique of ssrlab, or else its folder, wherever the config lies.
-std::string named_in_configs(const VariantConfig& point) {
-    if (point.external) return point.variant;
-    const VariantEntry& entry = find_variant(point.variant);
+std::string named_in_configs(const PointConfig& point) {
+    if (point.external) return point.technique;
+    const TechniqueEntry& entry = find_technique(point.technique);
     return entry.is_ssrlabs() ? entry.name : entry.folder->path.string();
 }
 
@@ -112,8 +112,8 @@ static int tune_command(const TuneOptions& options, const std::vector<std::strin
     const json rules = tuning_of(config);
     if (rules["is_estimated"]) find_chip(rules["time"]);  // or says why it cannot be asked
     json points = json::array();
-    for (const VariantConfig& v : config.variants)
-        points.push_back({{"variant", named_in_configs(v)},
+    for (const PointConfig& v : config.techniques)
+        points.push_back({{"technique", named_in_configs(v)},
                           {"preset", v.preset},
                           {"parameters", v.parameters},
                           {"swept", v.swept},
@@ -125,7 +125,7 @@ static int tune_command(const TuneOptions& options, const std::vector<std::strin
         {"tune", rules},
         {"points", points},
         {"parameters",
-         rules.contains("program") ? json::object() : config_schema(config.variants.front().variant)["properties"]},
+         rules.contains("program") ? json::object() : config_schema(config.techniques.front().technique)["properties"]},
         {"folder", std::filesystem::absolute(options.config).parent_path().string()}};
     create_folder(out);
     write_text(out / "tune.json", asked.dump(1) + "\n");  // without comments, which Python does not read
@@ -163,7 +163,7 @@ void add_tradeoff(Commands& line) {
     command
         .add_option("--baseline", tradeoff.baseline,
                     "Errors are multiples of this point's; default: none, else the study's first baseline")
-        ->type_name("VARIANT:POINT");
+        ->type_name("TECHNIQUE:POINT");
     command.add_option("--times", tradeoff.times, "Time budgets, or budgets of what --cost counts or estimates")
         ->check(positive())
         ->capture_default_str()

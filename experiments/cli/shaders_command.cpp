@@ -19,7 +19,7 @@
 namespace {
 
 struct ShadersOptions {
-    std::string variant, preset;
+    std::string technique, preset;
     nlohmann::json parameters = nlohmann::json::object();
     std::vector<std::string> chips;  ///< names that radv has for them
     std::string against;             ///< another preset, or a results folder; "": nothing
@@ -42,14 +42,14 @@ Shot shot_of(const ShotOptions& options, const CommonOptions& common) {
                      scene_search_path(common.scene_path));
 }
 
-StagePipelines pipelines_of(Device& device, const Shot& shot, const VariantConfig& point, bool leaves_out) {
+StagePipelines pipelines_of(Device& device, const Shot& shot, const PointConfig& point, bool leaves_out) {
     const std::unique_ptr<FrameSource> source = scene_source(device, shot, timed_config({point}, 0), !leaves_out);
     FrameStore store(*source, shot.config, 0);
     const HostImage unused;
     StagePipelines pipelines = stage_pipelines(
         device, shot, store, [&](const FrameStep&) -> const HostImage& { return unused; }, point, !leaves_out);
     if (pipelines.entries().empty())
-        fail(point.variant, " ", point.point, " has no passes of its own that a GPU could run");
+        fail(point.technique, " ", point.point, " has no passes of its own that a GPU could run");
     return pipelines;
 }
 
@@ -106,10 +106,10 @@ void print(const std::vector<CompiledRow>& rows, const std::vector<CompiledRow>&
 }
 
 /// Rows of a study's compiled.csv, of the same point in its first shot that has it.
-std::vector<CompiledRow> rows_of_folder(const fs::path& folder, const VariantConfig& point) {
+std::vector<CompiledRow> rows_of_folder(const fs::path& folder, const PointConfig& point) {
     std::vector<CompiledRow> rows = read_rows<CompiledRow>(folder / "compiled.csv");
-    std::erase_if(rows, [&](const CompiledRow& r) { return r.variant != point.variant || r.point != point.point; });
-    if (rows.empty()) fail((folder / "compiled.csv").string(), " has no ", point.variant, " ", point.point);
+    std::erase_if(rows, [&](const CompiledRow& r) { return r.technique != point.technique || r.point != point.point; });
+    if (rows.empty()) fail((folder / "compiled.csv").string(), " has no ", point.technique, " ", point.point);
     const std::string shot = rows.front().shot;
     std::erase_if(rows, [&](const CompiledRow& r) { return r.shot != shot; });
     return rows;
@@ -130,7 +130,7 @@ void write_assembly(const fs::path& folder, const std::vector<CompiledRow>& rows
 }  // namespace
 
 static void shaders_command(const ShadersOptions& options, const CommonOptions& common) {
-    const VariantConfig point = single_point(options.variant, options.preset, options.parameters);
+    const PointConfig point = single_point(options.technique, options.preset, options.parameters);
     std::vector<Chip> chips;
     for (const std::string& name : options.chips) chips.push_back(find_chip(name));
     const Shot shot = shot_of(options.shot, common);
@@ -138,13 +138,13 @@ static void shaders_command(const ShadersOptions& options, const CommonOptions& 
     const StagePipelines pipelines = pipelines_of(device, shot, point, options.leaves_out);
 
     const bool is_folder = !options.against.empty() && fs::is_directory(options.against);
-    std::optional<VariantConfig> other;
+    std::optional<PointConfig> other;
     std::vector<CompiledRow> others;
     StagePipelines other_pipelines;
     if (is_folder) {
         others = rows_of_folder(options.against, point);
     } else if (!options.against.empty()) {
-        other = single_point(options.variant, options.against);
+        other = single_point(options.technique, options.against);
         other_pipelines = pipelines_of(device, shot, *other, options.leaves_out);
     }
 
@@ -160,7 +160,7 @@ static void shaders_command(const ShadersOptions& options, const CommonOptions& 
         std::vector<std::string> texts;
         const std::vector<CompiledRow> rows = compiled_rows(pipelines, shot.name(), point, chip, how, &texts);
         how.has_assembly = false;
-        std::printf("%s%s %s on %s (%s)\n", all.empty() ? "" : "\n", point.variant.c_str(), point.point.c_str(),
+        std::printf("%s%s %s on %s (%s)\n", all.empty() ? "" : "\n", point.technique.c_str(), point.point.c_str(),
                     chip.name.c_str(), chip.driver.c_str());
         print(rows, others, options.against);
         if (!options.assembly.empty()) write_assembly(options.assembly, rows, texts);
@@ -180,7 +180,9 @@ void add_shaders(Commands& line) {
     shaders.chips.assign(default_chips.begin(), default_chips.end());
     CLI::App& command = *line.app.add_subcommand(
         "shaders", "Show what compilers of GPUs make of a technique's passes: registers, occupancy, instructions");
-    command.add_option("variant", shaders.variant, "A technique (see: ssrlab list variants), or its folder, with a /")
+    command
+        .add_option("technique", shaders.technique,
+                    "A technique (see: ssrlab list techniques), or its folder, with a /")
         ->required()
         ->type_name("NAME");
     add_values(command, shaders.preset, shaders.parameters);

@@ -8,7 +8,7 @@
 #include "experiments/cli/script_commands.h"
 #include "experiments/cli/stability_options.h"
 #include "experiments/report/report.h"
-#include "experiments/results/stability/stability_tables.h"
+#include "experiments/results/stability/stability_results.h"
 #include "experiments/study/progress.h"
 #include "experiments/study/stability/stability.h"
 
@@ -22,7 +22,7 @@ namespace {
 /// One line for what went wrong; "" for what did not.
 std::string complaint(const StabilityRow& row) {
     if (row.verdict <= Verdict::worse) return {};
-    std::string line = row.case_name + ": " + technique_name(row.variant, row.point) + ": " + csv_field(row.verdict);
+    std::string line = row.case_name + ": " + technique_name(row.technique, row.point) + ": " + csv_field(row.verdict);
     if (!row.refusal.empty()) return line + ": " + row.refusal;
     if (row.non_finite) line += ", first in " + row.first_non_finite;
     if (row.spread_pixels) line += ", " + std::to_string(row.spread_pixels) + " pixels";
@@ -71,7 +71,7 @@ static int stability_command(const StabilityOptions& options, const CommonOption
     for (const auto& device : devices) workers.push_back(device.get());
     const StabilitySelection selection{.table = options.table.empty() ? stability_case_table() : options.table,
                                        .cases = options.cases,
-                                       .variants = options.variants};
+                                       .techniques = options.techniques};
     const StabilityFolders folders{.search_path = scene_search_path(common.scene_path),
                                    .cache = common.cache.empty() ? default_cache_folder() : common.cache};
     const std::vector<StabilityCase> cases = read_stability_cases(selection.table);
@@ -93,7 +93,7 @@ static int stability_command(const StabilityOptions& options, const CommonOption
     rows = run_stability(workers, selection, folders, done);
     write(rows);
     print_verdicts(rows);
-    const StabilityTables tables = read_stability_tables(options.out);
+    const StabilityResults tables = read_stability_results(options.out);
     std::printf("\n%s\n%s\n", failures_text(stage_failures(tables)).c_str(),
                 shown_text(stability_lead(tables)).c_str());
     write_report(options.out);
@@ -107,7 +107,7 @@ void add_stability(Commands& line) {
     CLI::App& command = *line.app.add_subcommand(
         "stability", "Test techniques with extreme inputs: non-finite values and amplification");
     command
-        .add_option("--variants", stability.variants,
+        .add_option("--techniques", stability.techniques,
                     "Techniques, or their folders, or single presets as NAME:PRESET; default: all presets of all, and "
                     "all tracers")
         ->delimiter(',')

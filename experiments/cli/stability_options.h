@@ -6,7 +6,7 @@
 struct CommonOptions;
 
 struct StabilityOptions {
-    std::vector<std::string> variants, cases;  ///< empty: all
+    std::vector<std::string> techniques, cases;  ///< empty: all
     bool has_all_stages = false, is_of_precision = false;
     std::filesystem::path table, out, figure;  ///< table "": ssrlab's own; figure "": none
 };

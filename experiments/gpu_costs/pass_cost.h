@@ -41,11 +41,11 @@ inline constexpr std::array cost_quantities = {
     CostQuantity{"atomics", &PassCost::atomics},           CostQuantity{"operations", &PassCost::operations},
 };
 
-/// Lets the passes of a graph count what they do. Costs the compilation of a second pipeline for each shader.
+/// Lets the passes of a pass_list count what they do. Costs the compilation of a second pipeline for each shader.
 class CostCounter : public PassWatcher {
 public:
-    /// Of the stages since the frame began or the graph was watched, in order; those of a stage that ran several times
-    /// are added.
+    /// Of the stages since the frame began or the pass_list was watched, in order; those of a stage that ran several
+    /// times are added.
     const std::vector<PassCost>& costs() const { return costs_; }
 
     void begin_frame() override { costs_.clear(); }

@@ -62,8 +62,8 @@ function verdictTable(counts) {
 }
 
 /// The point's image in both runs; undefined where the page has none.
-const diffImages = ({shot, variant, point}) => [oldShot(shot), newShot(shot)].map(of => {
-    const index = report.images.findIndex(i => i.shot === of && i.variant === variant && i.point === point);
+const diffImages = ({shot, technique, point}) => [oldShot(shot), newShot(shot)].map(of => {
+    const index = report.images.findIndex(i => i.shot === of && i.technique === technique && i.point === point);
     return index < 0 ? undefined : {...report.images[index], index};
 });
 
@@ -135,7 +135,7 @@ function aloneParts(diff) {
     return [["the old run", diff.only_before], ["the new run", diff.only_after]].filter(([, points]) => points.length).map(
         ([where, points]) => folded(
             `${points.length} points of shots in ${where} alone, which are not compared`,
-            scroller(table(columns, points.map(([shot, variant, point]) => [shot, pointLabel({variant, point})])))));
+            scroller(table(columns, points.map(([shot, technique, point]) => [shot, pointLabel({technique, point})])))));
 }
 
 startPage(showDiff);

@@ -4,7 +4,7 @@
 #include "experiments/report/report.h"
 #include "experiments/report/report_data.h"
 #include "experiments/report/report_images.h"
-#include "experiments/results/tables/targets.h"
+#include "experiments/results/files/targets.h"
 
 #include <algorithm>
 #include <array>
@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-/// The entries of a manifest for result images, by the point that they are of, and for references (variant and point
+/// The entries of a manifest for result images, by the point that they are of, and for references (technique and point
 /// "").
 std::map<PointOfShot, std::vector<const json*>> images_of(const json& manifest) {
     std::map<PointOfShot, std::vector<const json*>> images;
@@ -24,7 +24,7 @@ std::map<PointOfShot, std::vector<const json*>> images_of(const json& manifest) 
     for (const json& image : manifest["images"]) {
         const std::string kind = image.value("kind", ""), shot = image.value("shot", "");
         if (kind == "reference") images[{shot, "", ""}].push_back(&image);
-        if (kind == "result") images[{shot, image.value("variant", ""), image.value("point", "")}].push_back(&image);
+        if (kind == "result") images[{shot, image.value("technique", ""), image.value("point", "")}].push_back(&image);
     }
     return images;
 }
@@ -61,7 +61,7 @@ public:
 
     /// Adds both results of the point, and what they were measured against; false: there is no room.
     bool add(const PointOfShot& point) {
-        const auto& [shot, variant, name] = point;
+        const auto& [shot, technique, name] = point;
         const bool has_truth = !shots_.insert(shot).second, is_same_truth = truth_of(0, shot) == truth_of(1, shot);
         std::array<ReportImages, 2> found;
         size_t size = 0;
@@ -128,7 +128,7 @@ std::vector<DiffPoint> points_of(const StudyDiff& diff, const DiffImages& images
     std::map<PointOfShot, size_t> places;
     for (const auto* changes : {&diff.errors, &diff.times})
         for (const NumberChange& c : *changes) {
-            const auto [at, is_new] = places.try_emplace({c.shot, c.variant, c.point}, points.size());
+            const auto [at, is_new] = places.try_emplace({c.shot, c.technique, c.point}, points.size());
             if (is_new) points.push_back({.name = at->first, .numbers = {}, .images = images.compared(at->first)});
             DiffPoint& point = points[at->second];
             point.numbers.push_back(&c);
@@ -143,7 +143,7 @@ std::vector<DiffPoint> points_of(const StudyDiff& diff, const DiffImages& images
 /// How often each verdict was given to a technique's numbers.
 json verdict_counts(const std::vector<NumberChange>& errors) {
     std::map<std::string, std::vector<NumberChange>> by_technique;
-    for (const NumberChange& c : errors) by_technique[c.variant].push_back(c);
+    for (const NumberChange& c : errors) by_technique[c.technique].push_back(c);
     json counts = json::array();
     for (const auto& [technique, own] : by_technique) {
         json row = {{"technique", technique}, {"numbers", own.size()}};
@@ -157,7 +157,7 @@ json verdict_counts(const std::vector<NumberChange>& errors) {
 
 /// What the viewer asks of a manifest: how shots are exposed, and how points are named.
 json merged_manifest(const json& before, const json& after) {
-    json shots = json::array(), variants = after.value("variants", json::array());
+    json shots = json::array(), techniques = after.value("techniques", json::array());
     for (const auto& [manifest, run] : {std::pair(&before, "old"), std::pair(&after, "new")})
         for (const json& shot : manifest->value("shots", json::array())) {
             json own = {{"shot", shot_in(shot.value("shot", ""), run)},
@@ -165,7 +165,7 @@ json merged_manifest(const json& before, const json& after) {
             if (shot.contains("label")) own["label"] = shot_in(shot["label"].get<std::string>(), run);
             shots.push_back(own);
         }
-    return {{"shots", shots}, {"variants", variants}};
+    return {{"shots", shots}, {"techniques", techniques}};
 }
 
 }  // namespace
@@ -186,7 +186,7 @@ void write_diff_page(const std::filesystem::path& page, const StudyDiff& diff, c
             if (c->verdict != change::equal) numbers.push_back(row_json(*c));
         const size_t equal = point.numbers.size() - numbers.size();
         points.push_back({{"shot", point.name[0]},
-                          {"variant", point.name[1]},
+                          {"technique", point.name[1]},
                           {"point", point.name[2]},
                           {"images", point.images},
                           {"numbers", std::move(numbers)},

@@ -12,7 +12,7 @@
 #include "experiments/results/answers/answers.h"
 #include "experiments/results/answers/scenes_answer.h"
 #include "experiments/results/results_schema.h"
-#include "experiments/results/verdicts/study_tables.h"
+#include "experiments/results/verdicts/study_results.h"
 #include "experiments/results/verdicts/summary.h"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ std::vector<const MetricSummary*> headline_rows(std::span<const MetricSummary> e
                                                 const Headline& headline, const std::string& metric) {
     std::vector<const MetricSummary*> rows;
     for (const MetricSummary& e : errors)
-        if (e.represents_shot && !singles.contains({e.variant, e.point})) rows.push_back(&e);
+        if (e.represents_shot && !singles.contains({e.technique, e.point})) rows.push_back(&e);
     const auto narrow = [&](const std::string MetricSummary::*column, const std::string& wanted) {
         const bool has_wanted = std::ranges::any_of(rows, [&](const MetricSummary* e) { return e->*column == wanted; });
         const std::string chosen = has_wanted || rows.empty() ? wanted : rows.front()->*column;
@@ -54,7 +54,7 @@ json error_table(const std::vector<const MetricSummary*>& rows, const json& metr
                   {"rows", json::array()}};
     for (const MetricSummary* e : rows)
         table["rows"].push_back({{"shot", e->shot},
-                                 {"variant", e->variant},
+                                 {"technique", e->technique},
                                  {"point", e->point},
                                  {"value", number(e->value)},
                                  {"interval", e->low && e->high ? number(e->low) + " to " + number(e->high) : "–"},
@@ -107,7 +107,7 @@ void add_images(json& values, const std::vector<std::string>& texts) {
 StudyAnswers write_report(const std::filesystem::path& folder, bool links_images) {
     const std::filesystem::path file = path_inside(folder, "manifest.json");
     if (!std::filesystem::exists(file)) {
-        if (const StabilityTables stability = read_stability_tables(folder); !stability.rows.empty()) {
+        if (const StabilityResults stability = read_stability_results(folder); !stability.rows.empty()) {
             // No study: the page has this one section.
             json data = report_data({.stability = stability}, {});
             for (const char* key : {"warnings", "notes", "images"}) data[key] = json::array();

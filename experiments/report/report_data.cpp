@@ -2,8 +2,8 @@
 
 #include "experiments/gpu_costs/chips/model_range.h"
 #include "experiments/gpu_costs/pass_cost.h"
-#include "experiments/results/tables/counts_spread.h"
-#include "experiments/results/tables/manifest.h"
+#include "experiments/results/files/counts_spread.h"
+#include "experiments/results/files/manifest.h"
 #include "metrics/direction.h"
 #include "metrics/temporal.h"
 
@@ -92,12 +92,12 @@ json described_metrics() {
 
 /// As table(), with one row for each stage and a column for each quantity; one that a stage lacks is 0.
 json cost_table(const std::vector<CostRow>& costs, Texts& code) {
-    const json texts = {"shot", "variant", "point", "stage"};
+    const json texts = {"shot", "technique", "point", "stage"};
     json columns = texts, values = json::array();
     for (const CostQuantity& quantity : cost_quantities) columns.push_back(quantity.name);
     std::map<std::vector<size_t>, size_t> place;
     for (const CostRow& row : costs) {
-        const std::vector<size_t> key = {code(row.shot), code(row.variant), code(row.point), code(row.stage)};
+        const std::vector<size_t> key = {code(row.shot), code(row.technique), code(row.point), code(row.stage)};
         const auto [at, is_new] = place.try_emplace(key, values.size());
         if (is_new) {
             values.push_back(key);
@@ -109,14 +109,14 @@ json cost_table(const std::vector<CostRow>& costs, Texts& code) {
     return {{"columns", columns}, {"texts", texts}, {"rows", std::move(values)}};
 }
 
-json stability_data(const StabilityTables& tables, Texts& code) {
+json stability_data(const StabilityResults& tables, Texts& code) {
     json verdicts = json::array(), failures = json::array();
     for (const VerdictName& v : verdict_names()) verdicts.push_back({{"name", v.name}, {"meaning", v.meaning}});
     for (const StageFailure& f : stage_failures(tables)) {
         json explanations = json::array();
         for (const KnownFailure& known : f.known)
             explanations.push_back({{"operation", known.operation}, {"fix", known.fix}});
-        failures.push_back({{"variant", f.variant},
+        failures.push_back({{"technique", f.technique},
                             {"place", f.place},
                             {"points", f.points},
                             {"cases", f.cases},
@@ -149,7 +149,7 @@ json report_data(const ResultTables& tables, const PointSet& single_changes) {
     for (const MetricSummary& e : tables.errors) {
         if (e.represents_shot)
             errors.push_back(e);
-        else if (known_over_frames.contains(quantity_of(e)) && !single_changes.contains({e.variant, e.point}))
+        else if (known_over_frames.contains(quantity_of(e)) && !single_changes.contains({e.technique, e.point}))
             frames.push_back(e);
     }
     json data = {{"errors", error_table(errors, code)},

@@ -5,7 +5,7 @@
 #include "core/files.h"
 #include "core/json.h"
 #include "core/path_inside.h"
-#include "experiments/results/tables/verdict_map.h"
+#include "experiments/results/files/verdict_map.h"
 
 #include <half.h>
 #include <zlib.h>
@@ -27,7 +27,7 @@ constexpr unsigned played_significand_bits = 5;
 
 /// What the manifest says of one image that is shown.
 struct Entry {
-    std::string shot, variant, point, kind, target;
+    std::string shot, technique, point, kind, target;
     int frame = 0, seed = 0;
     std::string exr;
 };
@@ -43,7 +43,7 @@ std::vector<Entry> read_entries(const fs::path& folder, const json& manifest) {
     JsonObject all(manifest, (folder / "manifest.json").string());
     for (JsonObject& image : all.objects("images")) {
         Entry e{.shot = image.text("shot"),
-                .variant = image.text("variant"),
+                .technique = image.text("technique"),
                 .point = image.text("point", ""),
                 .kind = image.text("kind"),
                 .target = image.text("target", ""),
@@ -57,9 +57,9 @@ std::vector<Entry> read_entries(const fs::path& folder, const json& manifest) {
     return entries;
 }
 
-/// Of each variant point's images only those of its first seed, which is how a reader meets it.
+/// Of each technique point's images only those of its first seed, which is how a reader meets it.
 std::vector<Entry> first_seeds(std::vector<Entry> entries) {
-    const auto key = [](const Entry& e) { return std::tuple(e.shot, e.frame, e.variant, e.point, e.kind, e.target); };
+    const auto key = [](const Entry& e) { return std::tuple(e.shot, e.frame, e.technique, e.point, e.kind, e.target); };
     std::map<decltype(key(entries[0])), int> first;
     for (const Entry& e : entries) {
         const auto at = first.emplace(key(e), e.seed).first;
@@ -90,7 +90,7 @@ public:
     void add(const Entry& entry, ReportImages& report) {
         const HostImage rgb = read_exr_rgb(path_inside(folder_, entry.exr, manifest_ + ": images: 'exr'"));
         check_extent(entry, rgb.extent);
-        json description = {{"shot", entry.shot},        {"frame", entry.frame},  {"variant", entry.variant},
+        json description = {{"shot", entry.shot},        {"frame", entry.frame},  {"technique", entry.technique},
                             {"point", entry.point},      {"kind", entry.kind},    {"target", entry.target},
                             {"seed", entry.seed},        {"width", rgb.extent.x}, {"height", rgb.extent.y},
                             {"format", format_of(entry)}};
@@ -139,7 +139,7 @@ private:
         if (bits < 10) description["significand_bits"] = bits;
         std::vector<unsigned char> bytes = encode_halves(rgb, clamped, bits);
         if (clamped > 0)
-            notes.push_back(entry.shot + ", " + entry.variant + " " + entry.point + ": " + std::to_string(clamped) +
+            notes.push_back(entry.shot + ", " + entry.technique + " " + entry.point + ": " + std::to_string(clamped) +
                             " pixels are brighter than 65504, the largest half float, and are shown as that.");
         return bytes;
     }

@@ -8,7 +8,7 @@
 
 /// The pictures of a report: what its page's viewer reads (page/images/packed.js).
 struct ReportImages {
-    /// One per image: shot, frame, variant, point, kind, target, seed, width, height, `format` and, of palettes,
+    /// One per image: shot, frame, technique, point, kind, target, seed, width, height, `format` and, of palettes,
     /// `palette`; `file`, relative to the folder, where the image lies beside the page.
     nlohmann::json descriptions = nlohmann::json::array();
     std::vector<std::string> data;   ///< the encoded images in base64, where they are a part of the page; else empty
@@ -17,11 +17,11 @@ struct ReportImages {
 
 inline constexpr const char* report_image_folder = "report_images";
 
-/// The images that manifest.json lists, the first seed of each variant point: results, references, confidence, verdicts
-/// of rays, the surface's roughness, and frames that are only played, whose values are rounded. Those of `folder` that
-/// fit into `budget` bytes of text all together are returned; if they do not fit, each is written as a script into
-/// report_images/ (made anew), which a page can load from a file, too. None is reduced in size or left out. Fails with
-/// Error if a file that the manifest lists is missing or broken, or if images of a shot differ in size.
+/// The images that manifest.json lists, the first seed of each technique point: results, references, confidence,
+/// verdicts of rays, the surface's roughness, and frames that are only played, whose values are rounded. Those of
+/// `folder` that fit into `budget` bytes of text all together are returned; if they do not fit, each is written as a
+/// script into report_images/ (made anew), which a page can load from a file, too. None is reduced in size or left out.
+/// Fails with Error if a file that the manifest lists is missing or broken, or if images of a shot differ in size.
 ReportImages report_images(const std::filesystem::path& folder, const nlohmann::json& manifest, size_t budget);
 
 /// Those that `manifest` lists, all as texts. Fails as report_images().

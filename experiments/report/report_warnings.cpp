@@ -37,7 +37,7 @@ void warn_of_study(std::vector<std::string>& warnings, const json& manifest) {
     for (const json& warning : member(manifest, "warnings"))
         if (warning.is_string()) warnings.push_back("This study: " + ended(warning.get<std::string>()));
     if (!is_true(member(manifest, "is_complete")))
-        warnings.push_back("This study is not finished: some variants or shots may be missing.");
+        warnings.push_back("This study is not finished: some techniques or shots may be missing.");
     if (member(member(member(manifest, "config"), "reference"), "lit_noise") == false)
         warnings.push_back(
             "This study did not measure what the noise of the lit colour adds to errors: intervals lack it "
@@ -101,12 +101,12 @@ void warn_of_provenance(std::vector<std::string>& warnings, const json& provenan
 }
 
 /// One warning for each reason, with all points that have it.
-void warn_of_variation(std::vector<std::string>& warnings, const json& variants) {
-    std::map<std::pair<std::string, std::string>, std::string> points;  // by variant and reason
-    for (const json& v : variants) {
+void warn_of_variation(std::vector<std::string>& warnings, const json& techniques) {
+    std::map<std::pair<std::string, std::string>, std::string> points;  // by technique and reason
+    for (const json& v : techniques) {
         const json& why = member(v, "not_repeatable");
         if (!why.is_string()) continue;
-        std::string& names = points[{text(member(v, "variant")), why.get<std::string>()}];
+        std::string& names = points[{text(member(v, "technique")), why.get<std::string>()}];
         names += (names.empty() ? "" : ", ") + text(member(v, "point"));
     }
     for (const auto& [what, names] : points)
@@ -186,7 +186,7 @@ void warn_of_light(std::vector<std::string>& warnings, std::span<const MetricSum
     for (const auto& [shot, found] : worst)
         if (const MetricSummary* e = found.second)
             warnings.push_back(shot + ": the noise of the path-traced light that techniques read makes up to " +
-                               percent_text(found.first) + " of an error (" + e->variant + " " + e->point + ", " +
+                               percent_text(found.first) + " of an error (" + e->technique + " " + e->point + ", " +
                                e->metric + " of " + e->target +
                                "): intervals allow for it, more samples of the reference lower it.");
 }
@@ -196,7 +196,7 @@ constexpr size_t most_pixel_warnings = 12;  ///< the rest is counted: nobody rea
 std::vector<std::string> pixel_warnings(std::span<const MetricSummary> errors) {
     std::map<std::string, std::pair<size_t, size_t>> worst;
     for (const MetricSummary& e : errors) {
-        auto& [non_finite, negative] = worst[e.shot + ", " + e.variant + " (" + e.point + "), " + e.target + ": "];
+        auto& [non_finite, negative] = worst[e.shot + ", " + e.technique + " (" + e.point + "), " + e.target + ": "];
         non_finite = std::max(non_finite, e.non_finite);
         negative = std::max(negative, e.negative);
     }
@@ -230,7 +230,7 @@ std::vector<std::string> report_warnings(const json& manifest, std::span<const M
                                          std::span<const TimeSummary> times) {
     std::vector<std::string> warnings;
     warn_of_study(warnings, manifest);
-    warn_of_variation(warnings, member(manifest, "variants"));
+    warn_of_variation(warnings, member(manifest, "techniques"));
     warn_of_provenance(warnings, member(manifest, "provenance"), member(manifest, "clock"));
     warn_of_hosts(warnings, member(manifest, "clock"));
     warn_of_clock(warnings, member(manifest, "clock"), !times.empty());

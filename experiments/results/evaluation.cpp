@@ -3,8 +3,8 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/path_inside.h"
-#include "experiments/results/tables/columns.h"
-#include "experiments/results/tables/manifest.h"
+#include "experiments/results/files/columns.h"
+#include "experiments/results/files/manifest.h"
 #include "experiments/results/tradeoff/pairs.h"
 #include "experiments/results/verdicts/effects/over_scenes.h"
 #include "experiments/results/verdicts/effects/time_effects.h"
@@ -45,7 +45,7 @@ void write_evaluation(const std::filesystem::path& folder, const StudyRows& rows
     std::vector<MetricSummary> errors = summarise(rows.results, points_without_seeds(manifest), rows.reference_noise);
     // No interval holds how they scatter from run to run.
     for (MetricSummary& e : errors)
-        if (not_repeatable.contains({e.variant, e.point})) e.holds_all_noise = false;
+        if (not_repeatable.contains({e.technique, e.point})) e.holds_all_noise = false;
     set_standings(errors, paired_errors(rows.results, compared, not_repeatable, rows.reference_noise),
                   points_using_scene_data(manifest), primary.margin);
     std::map<std::string, double> floors;
@@ -65,15 +65,15 @@ void write_evaluation(const std::filesystem::path& folder, const StudyRows& rows
     set_time_verdicts(of_times, manifest);
     write_rows(folder / "time_effects.csv", of_times);
 
-    StudyTables tables{.manifest = manifest,
-                       .errors = std::move(errors),
-                       .seeds = {},
-                       .times = times,
-                       .rounds = rows.times,
-                       .effects = std::move(effects),
-                       .time_effects = std::move(of_times),
-                       .costs = {},
-                       .estimates = {}};
+    StudyResults tables{.manifest = manifest,
+                        .errors = std::move(errors),
+                        .seeds = {},
+                        .times = times,
+                        .rounds = rows.times,
+                        .effects = std::move(effects),
+                        .time_effects = std::move(of_times),
+                        .costs = {},
+                        .estimates = {}};
     set_dominated(tables, primary);
     write_rows(folder / "summary.csv", tables.errors);
 }

@@ -1,6 +1,6 @@
 #pragma once
 #include "experiments/results/cells/study_rows.h"
-#include "experiments/results/tables/comparisons.h"
+#include "experiments/results/files/comparisons.h"
 
 #include <filesystem>
 #include <nlohmann/json.hpp>

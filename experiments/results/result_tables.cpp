@@ -16,7 +16,7 @@ ResultTables read_result_tables(const std::filesystem::path& folder, const nlohm
                         .time_effects = {},
                         .times = read_rows<TimeSummary>(file("time_summary.csv")),
                         .over_scenes = read_rows<OverScenesRow>(file("over_scenes.csv")),
-                        .stability = read_stability_tables(folder)};
+                        .stability = read_stability_results(folder)};
     const auto has = [&](const char* name) { return std::filesystem::exists(file(name)); };
     if (has("splits.csv")) tables.splits = read_rows<SplitRow>(file("splits.csv"));
     if (has("hits.csv")) tables.hits = read_rows<HitRow>(file("hits.csv"));

@@ -1,5 +1,5 @@
 #pragma once
-#include "experiments/results/stability/stability_tables.h"
+#include "experiments/results/stability/stability_results.h"
 #include "experiments/results/verdicts/effects/effects.h"
 #include "experiments/results/verdicts/effects/over_scenes.h"
 #include "experiments/results/verdicts/effects/time_effects.h"
@@ -20,7 +20,7 @@ struct ResultTables {
     std::vector<TimeEffectRow> time_effects;
     std::vector<TimeSummary> times;
     std::vector<OverScenesRow> over_scenes = {};
-    StabilityTables stability;  ///< empty where `ssrlab stability` did not write into the folder
+    StabilityResults stability;  ///< empty where `ssrlab stability` did not write into the folder
 };
 
 /// summary.csv, over_scenes.csv and time_summary.csv must be there, as this version writes them (require_evaluation());

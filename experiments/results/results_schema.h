@@ -4,7 +4,7 @@
 #include <vector>
 
 /// The columns of parameters.csv before those of the parameters.
-inline constexpr const char* names_of_points[] = {"variant", "point", "label", "group", "preset"};
+inline constexpr const char* names_of_points[] = {"technique", "point", "label", "group", "preset"};
 
 /// A parameter that some techniques of a study have, as a column of parameters.csv.
 struct ParameterColumn {

@@ -1,9 +1,9 @@
 #include "experiments/study/manifest_entries.h"
 
-#include "experiments/results/tables/manifest.h"
+#include "experiments/results/files/manifest.h"
 #include "experiments/study/config/comparisons.h"
 #include "experiments/study/config/points/external_images.h"
-#include "experiments/study/config/points/variant_of.h"
+#include "experiments/study/config/points/technique_of.h"
 #include "experiments/study/config/shots/read_shots.h"
 #include "experiments/study/measuring/left_out_by.h"
 #include "experiments/study/shots/shot_facts.h"
@@ -23,28 +23,29 @@ nlohmann::json external_entry(const ExternalImages& images) {
     return entry;
 }
 
-nlohmann::json variant_entries(const Config& config) {
+nlohmann::json technique_entries(const Config& config) {
     nlohmann::json entries = nlohmann::json::array();
-    const std::vector<SingleChange> changes = single_changes(config.variants);
-    for (const VariantConfig& v : config.variants) {
-        const auto variant = variant_of(v);
-        entries.push_back({{"variant", v.variant},
-                           {"point", v.point},
-                           {"title", v.external ? v.external->engine : find_variant(v.variant).title},
-                           {"source", v.external ? "version " + v.external->version : find_variant(v.variant).source},
-                           {"parameters", v.external ? v.external->settings : variant->params.values()},
-                           {"depends_on_seed", variant->depends_on_seed()}});
+    const std::vector<SingleChange> changes = single_changes(config.techniques);
+    for (const PointConfig& v : config.techniques) {
+        const auto technique = technique_of(v);
+        entries.push_back(
+            {{"technique", v.technique},
+             {"point", v.point},
+             {"title", v.external ? v.external->engine : find_technique(v.technique).title},
+             {"source", v.external ? "version " + v.external->version : find_technique(v.technique).source},
+             {"parameters", v.external ? v.external->settings : technique->params.values()},
+             {"depends_on_seed", technique->depends_on_seed()}});
         if (v.external) entries.back()["external"] = external_entry(*v.external);
         if (!v.label.empty()) entries.back()["label"] = v.label;
         if (!v.group.empty()) entries.back()["group"] = v.group;
         if (!v.swept.empty()) entries.back()["swept"] = v.swept;
-        if (variant->uses_scene_data()) entries.back()["uses_scene_data"] = true;
+        if (technique->uses_scene_data()) entries.back()["uses_scene_data"] = true;
         if (v.is_baseline) entries.back()["baseline"] = true;
         for (const SingleChange& c : changes)
-            if (c.variant == v.variant && c.point == v.point)
+            if (c.technique == v.technique && c.point == v.point)
                 entries.back()["single_change"] = {{"parameter", c.parameter}, {"value", c.value}};
-        if (variant->limits != Limits::none) entries.back()["limits"] = name_of(variant->limits);
-        if (const std::string why = variant->not_repeatable(); !why.empty()) entries.back()["not_repeatable"] = why;
+        if (technique->limits != Limits::none) entries.back()["limits"] = name_of(technique->limits);
+        if (const std::string why = technique->not_repeatable(); !why.empty()) entries.back()["not_repeatable"] = why;
     }
     return entries;
 }
@@ -55,12 +56,12 @@ std::string shown_path(const std::filesystem::path& file) {
     return (inside.empty() || inside.begin()->string() == ".." ? file : inside).string();
 }
 
-/// What the parameters of the study's variants mean: {variant: {parameter: meaning}}.
+/// What the parameters of the study's techniques mean: {technique: {parameter: meaning}}.
 nlohmann::json parameter_docs(const Config& config) {
     nlohmann::json docs = nlohmann::json::object();
-    for (const VariantConfig& v : config.variants)
-        for (const auto variant = plain_variant_of(v); const Parameter& p : variant->params)
-            docs[v.variant][p.name] = p.doc;
+    for (const PointConfig& v : config.techniques)
+        for (const auto technique = plain_technique_of(v); const Parameter& p : technique->params)
+            docs[v.technique][p.name] = p.doc;
     return docs;
 }
 
@@ -74,10 +75,10 @@ nlohmann::json left_out_entry(const LeftOut& part) {
             {"saved_ms", nullptr}};
 }
 
-/// What path tracer, rasteriser and variants leave out, each once.
+/// What path tracer, rasteriser and techniques leave out, each once.
 nlohmann::json left_out_entries(const Shot& shot, const Config& config) {
     nlohmann::json entries = nlohmann::json::array();
-    for (const auto& [who, part] : left_out_of(shot, config.variants)) {
+    for (const auto& [who, part] : left_out_of(shot, config.techniques)) {
         nlohmann::json entry = left_out_entry(part);
         const bool says_whose = part.what.find('/') != std::string::npos || !part.stage.empty();
         if (!says_whose) entry["what"] = who + ": " + part.what;
@@ -120,7 +121,7 @@ nlohmann::json study_entry(const Config& config) {
             {"clock", nlohmann::json::object()},
             {"warnings", warnings},
             {"shots", nlohmann::json::array()},
-            {"variants", variant_entries(config)},
+            {"techniques", technique_entries(config)},
             {"primary",
              {{"metric", config.primary.metric},
               {"mask", config.primary.mask},

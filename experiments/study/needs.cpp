@@ -1,7 +1,7 @@
 #include "experiments/study/needs.h"
 
 #include "core/gbuffer/rasterizer.h"
-#include "experiments/study/measuring/render_variant.h"
+#include "experiments/study/measuring/render_technique.h"
 #include "groundtruth/paths/path_tracer.h"
 #include "variants/registry.h"
 
@@ -13,20 +13,21 @@
 
 namespace {
 
-std::unique_ptr<Variant> make(const VariantConfig& v) { return make_variant(v.variant, v.parameters, v.preset); }
+std::unique_ptr<Technique> make(const PointConfig& v) { return make_technique(v.technique, v.parameters, v.preset); }
 
 /// A point with images of its own.
 struct Copy {
-    PassGraph graph;
-    std::unique_ptr<Variant> variant;
+    PassList pass_list;
+    std::unique_ptr<Technique> technique;
 
-    Copy(PassGraph& like, const VariantConfig& config) : graph(like.device(), like.extent()), variant(make(config)) {}
+    Copy(PassList& like, const PointConfig& config)
+        : pass_list(like.device(), like.extent()), technique(make(config)) {}
 
     /// Radiance times confidence, confidence.
     HostImage render(const CameraData& camera, const GBuffer& gbuffer) {
-        const Reflections reflections = render_variant(graph, *variant, camera, 1, gbuffer);
-        const HostImage radiance = graph.download(reflections.radiance),
-                        confidence = graph.download(reflections.confidence);
+        const Reflections reflections = render_technique(pass_list, *technique, camera, 1, gbuffer);
+        const HostImage radiance = pass_list.download(reflections.radiance),
+                        confidence = pass_list.download(reflections.confidence);
         HostImage weighed(radiance.extent, 4);
         for (size_t i = 0; i < weighed.pixel_count(); ++i) {
             const float share = confidence.values[i * confidence.channels + reflections.confidence_channel];
@@ -61,8 +62,10 @@ HostImage mean_of(const HostImage& image) {
 Saving saving_of(const std::string& who, const std::vector<double>& lean, const std::vector<double>& complete) {
     std::vector<double> shares;
     for (size_t i = 0; i < lean.size(); ++i) shares.push_back(1 - lean[i] / complete[i]);
-    return {
-        .variant = who, .point = "", .complete_ms = median_interval(complete).value, .share = median_interval(shares)};
+    return {.technique = who,
+            .point = "",
+            .complete_ms = median_interval(complete).value,
+            .share = median_interval(shares)};
 }
 
 MeasuredSaving measure_rasterizer(Device& device, const Shot& shot, unsigned frames) {
@@ -82,8 +85,9 @@ MeasuredSaving measure_rasterizer(Device& device, const Shot& shot, unsigned fra
         Rasterizer* const rasterizers[2] = {&lean, &complete};
         for (const unsigned i : {step.index % 2, 1 - step.index % 2}) {
             const GBuffer gbuffer = rasterizers[i]->render(shot.camera, view);
-            if (step.index >= warm_up) milliseconds[i].push_back(rasterizers[i]->graph().frame_milliseconds());
-            for (const Image& image : gbuffer.images()) images[i].push_back(rasterizers[i]->graph().download(image));
+            if (step.index >= warm_up) milliseconds[i].push_back(rasterizers[i]->pass_list().frame_milliseconds());
+            for (const Image& image : gbuffer.images())
+                images[i].push_back(rasterizers[i]->pass_list().download(image));
         }
         for (size_t i = 0; i < images[0].size(); ++i) compare(images[0][i], images[1][i], saving);
     }
@@ -131,20 +135,20 @@ bool MeasuredSaving::is_as_said() const {
     return has_same_bits || (!keeps_bits && largest_difference <= rounding_difference);
 }
 
-Config timed_config(const std::vector<VariantConfig>& points, unsigned frames) {
+Config timed_config(const std::vector<PointConfig>& points, unsigned frames) {
     Config config;
-    config.variants = points;
+    config.techniques = points;
     config.has_reference = false;
     config.timing.frames = frames;
     return config;
 }
 
-MeasuredSaving compare_with_all_kept(FrameSource& source, const Shot& shot, const VariantConfig& point) {
+MeasuredSaving compare_with_all_kept(FrameSource& source, const Shot& shot, const PointConfig& point) {
     constexpr unsigned frames = 4;
-    Copy lean(source.graph(), point), complete(source.graph(), point);
+    Copy lean(source.pass_list(), point), complete(source.pass_list(), point);
     MeasuredSaving saving;
-    saving.keeps_bits = std::ranges::all_of(lean.variant->leave_out(shot.facts), &LeftOut::keeps_bits);
-    saving.repeats_itself = lean.variant->not_repeatable().empty();
+    saving.keeps_bits = std::ranges::all_of(lean.technique->leave_out(shot.facts), &LeftOut::keeps_bits);
+    saving.repeats_itself = lean.technique->not_repeatable().empty();
     if (!saving.repeats_itself) return saving;
     for (const FrameStep& step : timed_steps(shot.config.frames, frames)) {
         const GBuffer gbuffer = source.render(step, 0, {});
@@ -153,7 +157,7 @@ MeasuredSaving compare_with_all_kept(FrameSource& source, const Shot& shot, cons
     return saving;
 }
 
-MeasuredSavings measure_savings(Device& device, const Shot& shot, const std::vector<VariantConfig>& points,
+MeasuredSavings measure_savings(Device& device, const Shot& shot, const std::vector<PointConfig>& points,
                                 unsigned frames, const std::function<void(double)>& report) {
     std::vector<MeasuredSaving> all;
     const std::vector<LeftOutBy> left_out = left_out_of(shot, points);
@@ -167,12 +171,12 @@ MeasuredSavings measure_savings(Device& device, const Shot& shot, const std::vec
     const Config config = timed_config(points, frames);
     const std::unique_ptr<FrameSource> source = scene_source(device, shot, config, false);
     const HostImage unused;
-    const ShotTimes times = time_variants(
+    const ShotTimes times = time_techniques(
         *source, shot, config, [&](unsigned) -> const HostImage& { return unused; }, false,
         std::numeric_limits<double>::infinity(), [&](double share) { report(0.1 + 0.8 * share); });
     for (const Saving& time : times.savings) {
         const auto point = std::ranges::find_if(
-            points, [&](const VariantConfig& v) { return v.variant == time.variant && v.point == time.point; });
+            points, [&](const PointConfig& v) { return v.technique == time.technique && v.point == time.point; });
         all.push_back(compare_with_all_kept(*source, shot, *point));
         all.back().time = time;
     }

@@ -1,9 +1,9 @@
 #include "experiments/study/parameters_table.h"
 
 #include "core/files.h"
+#include "experiments/results/files/csv.h"
 #include "experiments/results/results_schema.h"
-#include "experiments/results/tables/csv.h"
-#include "experiments/study/config/points/variant_of.h"
+#include "experiments/study/config/points/technique_of.h"
 
 #include <map>
 
@@ -12,17 +12,17 @@ namespace {
 using nlohmann::json;
 
 /// By name. Two techniques may have a parameter of one name.
-std::vector<ParameterColumn> parameter_columns(const std::vector<VariantConfig>& variants) {
+std::vector<ParameterColumn> parameter_columns(const std::vector<PointConfig>& techniques) {
     std::map<std::string, ParameterColumn> columns;
-    for (const VariantConfig& v : variants)
-        for (const auto made = plain_variant_of(v); const Parameter& p : made->params) {
+    for (const PointConfig& v : techniques)
+        for (const auto made = plain_technique_of(v); const Parameter& p : made->params) {
             const std::string type = !p.choices.empty()       ? "string"
                                      : p.glsl_type == "bool"  ? "boolean"
                                      : p.glsl_type == "float" ? "number"
                                                               : "integer";
             const auto [at, is_new] = columns.try_emplace(p.name, ParameterColumn{p.name, type, p.unit, p.doc});
             if (!is_new && at->second.type != type)
-                at->second = {p.name, "string", "", "differs from variant to variant"};
+                at->second = {p.name, "string", "", "differs from technique to technique"};
         }
     std::vector<ParameterColumn> list;
     for (const auto& [name, column] : columns) list.push_back(column);
@@ -36,15 +36,16 @@ std::string csv_value(const json& value) {
 
 }  // namespace
 
-void write_parameters(const std::filesystem::path& folder, const std::vector<VariantConfig>& variants) {
-    const std::vector<ParameterColumn> columns = parameter_columns(variants);
+void write_parameters(const std::filesystem::path& folder, const std::vector<PointConfig>& techniques) {
+    const std::vector<ParameterColumn> columns = parameter_columns(techniques);
     std::string text;
     for (const char* name : names_of_points) text += std::string(name) + ",";
     for (const ParameterColumn& column : columns) text += csv_field(column.name) + ",";
     text.back() = '\n';
-    for (const VariantConfig& v : variants) {
-        const json values = variant_of(v)->params.values();
-        for (const std::string& name : {v.variant, v.point, v.label, v.group, v.preset}) text += csv_field(name) + ",";
+    for (const PointConfig& v : techniques) {
+        const json values = technique_of(v)->params.values();
+        for (const std::string& name : {v.technique, v.point, v.label, v.group, v.preset})
+            text += csv_field(name) + ",";
         for (const ParameterColumn& column : columns)
             text += (values.contains(column.name) ? csv_value(values[column.name]) : "") + ",";
         text.back() = '\n';

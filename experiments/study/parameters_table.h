@@ -5,4 +5,4 @@
 
 /// Writes parameters.csv, a row for each point with its label, group, preset and the values of all its parameters, and
 /// schema.json (results_schema.h).
-void write_parameters(const std::filesystem::path& folder, const std::vector<VariantConfig>& variants);
+void write_parameters(const std::filesystem::path& folder, const std::vector<PointConfig>& techniques);

@@ -87,9 +87,9 @@ StudyAnswers write_results(StudySession& study, bool is_complete, const nlohmann
         write_text(file, manifest.dump(1) + "\n");
         const StudyRows rows = rows_of(study.finished);
         write_tables(study.settings.out, rows);
-        write_parameters(study.settings.out, study.config.variants);
-        write_technique_copies(study.settings.out, study.config.variants);
-        write_evaluation(study.settings.out, rows, manifest, compared_points(study.config.variants),
+        write_parameters(study.settings.out, study.config.techniques);
+        write_technique_copies(study.settings.out, study.config.techniques);
+        write_evaluation(study.settings.out, rows, manifest, compared_points(study.config.techniques),
                          study.config.primary);
     }
     StudyAnswers answers;

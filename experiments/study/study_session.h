@@ -15,7 +15,7 @@ inline constexpr const char* compiling = "compiling";
 /// As Workload knows kinds of cells: of one point and size all shots are alike.
 inline std::string kind_of_work(const PlannedCell& cell) {
     const std::string size = std::to_string(cell.pixels);
-    return cell.variant ? cell.variant->variant + " " + cell.variant->point + " " + size : size;
+    return cell.technique ? cell.technique->technique + " " + cell.technique->point + " " + size : size;
 }
 
 /// A study on its way: all that it needs. `config` and `settings` must outlive it.

@@ -9,7 +9,7 @@
 #include "experiments/results/verdicts/effects/time_effects.h"
 #include "experiments/results/verdicts/summary.h"
 #include "experiments/study/config/extends.h"
-#include "experiments/study/config/points/variant_of.h"
+#include "experiments/study/config/points/technique_of.h"
 #include "metrics/metric.h"
 #include "metrics/temporal.h"
 #include "variants/registry.h"
@@ -70,7 +70,7 @@ std::map<std::string, Names> values_of(const Config& config) {
     for (const Metric& metric : all_metrics()) values["metric"].push_back(metric.name);
     for (const TemporalMetric& metric : temporal_metrics()) values["metric"].push_back(metric.name);
     for (const char* of_splits : {"bias_squared", "variance"}) values["metric"].push_back(of_splits);
-    for (const VariantConfig& v : config.variants) values["variant"].push_back(v.variant);
+    for (const PointConfig& v : config.techniques) values["technique"].push_back(v.technique);
     values["mask"].push_back("all");  // of sequences, whatever the study's masks are
     return values;
 }
@@ -128,10 +128,10 @@ private:
 
 void check_table_columns(const Config& config) {
     Names others = {"group", "shot_group"};
-    std::set<std::string> variants;
-    for (const VariantConfig& v : config.variants)
-        if (variants.insert(v.variant).second)
-            for (const auto made = plain_variant_of(v); const Parameter& p : made->params) others.push_back(p.name);
+    std::set<std::string> techniques;
+    for (const PointConfig& v : config.techniques)
+        if (techniques.insert(v.technique).second)
+            for (const auto made = plain_technique_of(v); const Parameter& p : made->params) others.push_back(p.name);
     const JsonDocument document = read_extended(config.file);
     for (JsonObject& table : JsonObject(document, config.file.string()).objects("tables"))
         TableCheck(config, others, table).run();

@@ -6,12 +6,12 @@
 
 #include <set>
 
-void write_technique_copies(const std::filesystem::path& results, const std::vector<VariantConfig>& variants) {
+void write_technique_copies(const std::filesystem::path& results, const std::vector<PointConfig>& techniques) {
     std::set<std::string> names;
-    for (const VariantConfig& variant : variants)
-        if (!variant.external) names.insert(variant.variant);
+    for (const PointConfig& technique : techniques)
+        if (!technique.external) names.insert(technique.technique);
     for (const std::string& name : names) {
-        const VariantEntry& entry = find_variant(name);
+        const TechniqueEntry& entry = find_technique(name);
         if (entry.is_ssrlabs()) continue;
         for (const auto& [file, text] : entry.folder->files)
             write_text(path_inside(results, "techniques/" + name + "/" + file), text);

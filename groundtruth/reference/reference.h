@@ -59,7 +59,7 @@ struct Reference {
     ReferenceOutput diffuse;   ///< the lit colour: what the first hit emits and reflects diffusely; the environment
                                ///< where nothing is hit
     ReferenceOutput specular;  ///< specular reflection of the first hit, of all but the punctual lights
-    /// Incident radiance averaged over the visible-normal lobe, weight 1: what a variant estimates.
+    /// Incident radiance averaged over the visible-normal lobe, weight 1: what a technique estimates.
     ReferenceOutput incident;
     /// RGB, without noise: the punctual lights that the first hit reflects specularly. No part of `specular`, since no
     /// ray meets them and engines shade them in closed form.

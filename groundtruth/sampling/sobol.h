@@ -43,7 +43,7 @@ inline uint32_t hash_bits(uint32_t x) {
     return x ^ x >> 16;
 }
 
-/// The same for 64 bits (finaliser of MurmurHash3, variant 13 of Stafford).
+/// The same for 64 bits (finaliser of MurmurHash3, technique 13 of Stafford).
 inline uint64_t hash_bits_64(uint64_t x) {
     x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9ull;
     x = (x ^ x >> 27) * 0x94d049bb133111ebull;

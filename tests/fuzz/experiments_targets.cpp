@@ -3,8 +3,8 @@
 #include "core/json.h"
 #include "experiments/bridges/inspect/page.h"
 #include "experiments/results/cells/cell.h"
-#include "experiments/results/tables/columns.h"
-#include "experiments/results/verdicts/study_tables.h"
+#include "experiments/results/files/columns.h"
+#include "experiments/results/verdicts/study_results.h"
 #include "experiments/study/config/config.h"
 #include "experiments/study/stability/stability_case.h"
 #include "tests/fuzz/targets.h"
@@ -31,7 +31,7 @@ const FuzzTarget targets[] = {
     {"config", "study.json", [](const fs::path& file) { read_config(file); }},
     {"cases", "cases.json", [](const fs::path& file) { read_stability_cases(file); }},
     {"cell", "cell.json", [](const fs::path& file) { read_cell(read_json(file), file.string()); }},
-    {"manifest", "manifest.json", [](const fs::path& file) { read_study_tables(file.parent_path()); }, copy_tables},
+    {"manifest", "manifest.json", [](const fs::path& file) { read_study_results(file.parent_path()); }, copy_tables},
     {"inspect", "input.glb",  // its bytes say what it is
      [](const fs::path& file) { page_of(inspect(file.string(), {}).description, true); }},
     {"results", "results.csv", [](const fs::path& file) { read_rows<ResultRow>(file); }},

@@ -55,7 +55,7 @@ Agreement compare_with_rays(const Scene& scene, const SceneCamera& camera, const
     sized.extent = view.extent;
     Rasterizer rasterizer(test_device(), scene, sized);
     const GBuffer gbuffer = rasterizer.render(camera, view);
-    const HostGBuffer g = download_gbuffer(rasterizer.graph(), gbuffer, rasterizer.camera(), options.depth_format);
+    const HostGBuffer g = download_gbuffer(rasterizer.pass_list(), gbuffer, rasterizer.camera(), options.depth_format);
 
     const ScenePose pose = pose_scene(scene, float(view.frame));
     const PathTracer tracer(scene, pose, pose_camera(camera, pose, float(view.frame)), view.extent, {});

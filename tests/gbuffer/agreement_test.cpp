@@ -70,7 +70,7 @@ TEST(agreement, roughness_of_16_bits_is_kept) {
     const FrameView view = view_of({16, 9});
     Rasterizer rasterizer(test_device(), scene, {.extent = view.extent});
     const GBuffer gbuffer = rasterizer.render(scene.camera("main"), view);
-    const HostGBuffer g = download_gbuffer(rasterizer.graph(), gbuffer, rasterizer.camera(), DepthFormat::d32f);
+    const HostGBuffer g = download_gbuffer(rasterizer.pass_list(), gbuffer, rasterizer.camera(), DepthFormat::d32f);
     size_t seen = 0;
     for (size_t i = 0; i < g.depth.pixel_count(); ++i) {
         if (g.material_id.values[i] == 0) continue;
@@ -118,8 +118,9 @@ TEST(agreement, flattened_nodes_have_the_normals_of_what_they_are_flattened_to) 
     expect_agreement(compare_with_rays(scene, scene.camera("main"), view), "flattened");
     Rasterizer rasterizer(test_device(), scene, {.extent = view.extent});
     const GBuffer gbuffer = rasterizer.render(scene.camera("main"), view);
-    EXPECT_TRUE(count_non_finite(download_gbuffer(rasterizer.graph(), gbuffer, rasterizer.camera(), DepthFormat::d32f))
-                    .empty());
+    EXPECT_TRUE(
+        count_non_finite(download_gbuffer(rasterizer.pass_list(), gbuffer, rasterizer.camera(), DepthFormat::d32f))
+            .empty());
 }
 
 TEST(agreement, a_quarter_of_a_pixel_is_noticed) {

@@ -1,5 +1,5 @@
 #include "core/shared/brdf.h"
-#include "core/gpu/passes/pass_graph.h"
+#include "core/gpu/passes/pass_list.h"
 #include "tests/gbuffer/test_scenes.h"
 
 #include <gtest/gtest.h>
@@ -42,14 +42,17 @@ TEST(brdf, is_the_same_on_the_device) {
     for (glm::vec4& in : inputs)
         in = {uniform(random), uniform(random), 0.02f + 0.98f * uniform(random), uniform(random)};
 
-    PassGraph graph(test_device(), {1, 1});
+    PassList pass_list(test_device(), {1, 1});
     const ParameterSet none;
-    graph.begin_frame({}, none, {});
-    const Buffer in = graph.buffer("Inputs", inputs.size() * sizeof(glm::vec4)),
-                 out = graph.buffer("Values", inputs.size() * 16 * sizeof(float));
-    graph.upload(in, std::as_bytes(std::span(inputs)));
-    graph.compute("tests/gbuffer/brdf_values.comp").use(in).use(out).dispatch_groups({(inputs.size() + 63) / 64, 1, 1});
-    const std::vector<std::byte> bytes = graph.download(out);
+    pass_list.begin_frame({}, none, {});
+    const Buffer in = pass_list.buffer("Inputs", inputs.size() * sizeof(glm::vec4)),
+                 out = pass_list.buffer("Values", inputs.size() * 16 * sizeof(float));
+    pass_list.upload(in, std::as_bytes(std::span(inputs)));
+    pass_list.compute("tests/gbuffer/brdf_values.comp")
+        .use(in)
+        .use(out)
+        .dispatch_groups({(inputs.size() + 63) / 64, 1, 1});
+    const std::vector<std::byte> bytes = pass_list.download(out);
     std::vector<float> values(inputs.size() * 16);
     std::memcpy(values.data(), bytes.data(), bytes.size());
 

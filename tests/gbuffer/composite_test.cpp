@@ -38,21 +38,21 @@ HostComposite composite(const HostGBuffer& g, const HostImage& radiance, const H
 /// would do for a confidence.
 void expect_composite_of_the_cpu(Rasterizer& rasterizer, const GBuffer& gbuffer, bool is_in_alpha,
                                  CompositeFormula formula) {
-    PassGraph& graph = rasterizer.graph();
-    HostImage radiance(graph.extent(), 4), confidence(graph.extent(), 1);
+    PassList& pass_list = rasterizer.pass_list();
+    HostImage radiance(pass_list.extent(), 4), confidence(pass_list.extent(), 1);
     for (size_t i = 0; i < radiance.pixel_count(); ++i) {
         radiance.set_rgb(i, glm::vec3(i % 7, i % 5, i % 3));
         radiance.values[4 * i + 3] = confidence.values[i] = (i % 11) / 10.0f;
     }
-    Reflections reflections{graph.image("some_radiance", Format::rgba32f),
-                            graph.image("some_confidence", Format::r32f)};
-    graph.upload(reflections.radiance, radiance);
-    graph.upload(reflections.confidence, confidence);
+    Reflections reflections{pass_list.image("some_radiance", Format::rgba32f),
+                            pass_list.image("some_confidence", Format::r32f)};
+    pass_list.upload(reflections.radiance, radiance);
+    pass_list.upload(reflections.confidence, confidence);
     if (is_in_alpha) reflections = {reflections.radiance, reflections.radiance, 3};
-    Compositor compositor(graph, formula);
+    Compositor compositor(pass_list, formula);
     const Composite result = compositor.render(gbuffer, reflections);
-    const HostImage specular = graph.download(result.specular), image = graph.download(result.image);
-    const HostGBuffer g = download_gbuffer(graph, gbuffer, rasterizer.camera(), DepthFormat::d32f);
+    const HostImage specular = pass_list.download(result.specular), image = pass_list.download(result.image);
+    const HostGBuffer g = download_gbuffer(pass_list, gbuffer, rasterizer.camera(), DepthFormat::d32f);
     const HostComposite expected = composite(g, radiance, confidence, formula);
     double largest = 0;
     for (size_t i = 0; i < specular.pixel_count(); ++i)
@@ -98,7 +98,7 @@ TEST(composite, reflectance_is_that_of_the_path_tracer) {
     const FrameView view = view_of({64, 40});
     Rasterizer rasterizer(test_device(), scene, {.extent = view.extent});
     const GBuffer gbuffer = rasterizer.render(scene.camera("main"), view);
-    const HostGBuffer g = download_gbuffer(rasterizer.graph(), gbuffer, rasterizer.camera(), DepthFormat::d32f);
+    const HostGBuffer g = download_gbuffer(rasterizer.pass_list(), gbuffer, rasterizer.camera(), DepthFormat::d32f);
     const HostImage reflectance = specular_reflectance(g);
     const ScenePose pose = pose_scene(scene, 0);
     const PathTracer tracer(scene, pose, pose_camera(scene.camera("main"), pose, 0), view.extent, {.ladder = true});
@@ -139,7 +139,7 @@ TEST(composite, added_reflections_leave_the_environment_in_place) {
     Rasterizer rasterizer(test_device(), scene, {.extent = extent});
     const GBuffer gbuffer = rasterizer.render(scene.camera("main"), view_of(extent));
     rasterizer.light_directly(gbuffer);
-    const HostGBuffer g = download_gbuffer(rasterizer.graph(), gbuffer, rasterizer.camera(), DepthFormat::d32f);
+    const HostGBuffer g = download_gbuffer(rasterizer.pass_list(), gbuffer, rasterizer.camera(), DepthFormat::d32f);
     HostImage radiance(extent, 3), none(extent, 1), all(extent, 1, 1.0f);
     for (size_t i = 0; i < radiance.pixel_count(); ++i) radiance.set_rgb(i, glm::vec3(2));
     const auto by = [&](const HostImage& confidence) {
@@ -159,15 +159,15 @@ TEST(composite, the_environment_in_lit_is_seen_by_rays_but_not_composited_twice)
     const Scene scene = varied_scene();
     const glm::uvec2 extent(50, 40);
     Rasterizer rasterizer(test_device(), scene, {.extent = extent});
-    PassGraph& graph = rasterizer.graph();
-    Compositor compositor(graph);
+    PassList& pass_list = rasterizer.pass_list();
+    Compositor compositor(pass_list);
     const GBuffer without = rasterizer.render(scene.camera("main"), view_of(extent));
     rasterizer.light_directly(without);
-    const HostGBuffer g = download_gbuffer(graph, without, rasterizer.camera(), DepthFormat::d32f);
+    const HostGBuffer g = download_gbuffer(pass_list, without, rasterizer.camera(), DepthFormat::d32f);
     GBuffer with = without;
     compositor.add_environment(with);
 
-    const HostImage lit = graph.download(with.lit), reflectance = specular_reflectance(g);
+    const HostImage lit = pass_list.download(with.lit), reflectance = specular_reflectance(g);
     size_t brighter = 0;
     for (size_t i = 0; i < lit.pixel_count(); ++i)
         for (int c = 0; c < 3; ++c) {
@@ -178,7 +178,7 @@ TEST(composite, the_environment_in_lit_is_seen_by_rays_but_not_composited_twice)
     EXPECT_GT(brighter, 1000u);
 
     const auto image = [&](const GBuffer& gbuffer) {
-        return graph.download(compositor.render(gbuffer, {gbuffer.normal, gbuffer.normal, 3}).image);
+        return pass_list.download(compositor.render(gbuffer, {gbuffer.normal, gbuffer.normal, 3}).image);
     };
     EXPECT_EQ(differing_bits(image(with), image(without)), 0u);
 }
@@ -193,7 +193,7 @@ TEST(composite, reflectance_is_the_split_sum_of_the_brdf) {
         scene.materials[0].roughness = roughness;
         scene.materials[0].metalness = 0.5f;
         Rasterizer rasterizer(test_device(), scene, {.extent = extent});
-        const HostGBuffer g = download_gbuffer(rasterizer.graph(), rasterizer.render(camera, view_of(extent)),
+        const HostGBuffer g = download_gbuffer(rasterizer.pass_list(), rasterizer.render(camera, view_of(extent)),
                                                rasterizer.camera(), DepthFormat::d32f);
         const HostImage reflectance = specular_reflectance(g);
         const CameraPose pose = pose_camera(camera, pose_scene(scene, 0), 0);
@@ -218,12 +218,13 @@ TEST(composite, of_what_reflects_nothing_does_not_need_the_fallback) {
         Rasterizer rasterizer(test_device(), scene, {.extent = extent, .keep_all = keep_all});
         const GBuffer gbuffer = rasterizer.render(scene.camera("main"), view_of(extent));
         rasterizer.light_directly(gbuffer);
-        PassGraph& graph = rasterizer.graph();
-        const Reflections none{graph.image("radiance", Format::rgba32f), graph.image("confidence", Format::r32f)};
-        graph.clear(none.radiance, glm::vec4(0));
-        graph.clear(none.confidence, glm::vec4(0));
-        Compositor compositor(graph);
-        images[keep_all] = graph.download(compositor.render(gbuffer, none).image);
+        PassList& pass_list = rasterizer.pass_list();
+        const Reflections none{pass_list.image("radiance", Format::rgba32f),
+                               pass_list.image("confidence", Format::r32f)};
+        pass_list.clear(none.radiance, glm::vec4(0));
+        pass_list.clear(none.confidence, glm::vec4(0));
+        Compositor compositor(pass_list);
+        images[keep_all] = pass_list.download(compositor.render(gbuffer, none).image);
     }
     EXPECT_EQ(differing_bits(images[0], images[1]), 0u);
     EXPECT_TRUE(std::ranges::any_of(left_out_of_rasterizer(material_facts(scene)),

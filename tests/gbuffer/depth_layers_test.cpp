@@ -109,7 +109,7 @@ HostGBuffer render(const Scene& scene, const Setting& setting, bool has_layers =
     view.jitter = setting.jitter;
     Rasterizer rasterizer(test_device(), scene, options);
     const GBuffer gbuffer = rasterizer.render(scene.camera(setting.camera), view);
-    return download_gbuffer(rasterizer.graph(), gbuffer, rasterizer.camera(), options.depth_format);
+    return download_gbuffer(rasterizer.pass_list(), gbuffer, rasterizer.camera(), options.depth_format);
 }
 
 /// Fails where a pixel's layers are not those of its ray.
@@ -256,10 +256,10 @@ TEST(DepthLayers, AreThereOnlyWhereTheyAreAskedForAndTravelWithTheOthers) {
     EXPECT_EQ(differing_bits(with.depth, without.depth), 0u);
     EXPECT_NE(differing_bits(with.back_depth, with.second_depth), 0u);
 
-    PassGraph graph(test_device(), with.extent());
-    const GBuffer uploaded = upload_gbuffer(graph, with);
-    const HostGBuffer again = download_gbuffer(graph, uploaded, with.camera, with.depth_format);
+    PassList pass_list(test_device(), with.extent());
+    const GBuffer uploaded = upload_gbuffer(pass_list, with);
+    const HostGBuffer again = download_gbuffer(pass_list, uploaded, with.camera, with.depth_format);
     EXPECT_EQ(differing_bits(again.second_depth, with.second_depth), 0u);
     EXPECT_EQ(differing_bits(again.back_depth, with.back_depth), 0u);
-    EXPECT_FALSE(upload_gbuffer(graph, without).second_depth.storage);
+    EXPECT_FALSE(upload_gbuffer(pass_list, without).second_depth.storage);
 }

@@ -41,7 +41,7 @@ HostGBuffer rendered(unsigned frame) {
     view.previous_jitter = {-0.1f, 0.3f};
     const GBuffer gbuffer = rasterizer.render(scene.camera("main"), view);
     rasterizer.light_directly(gbuffer);
-    return download_gbuffer(rasterizer.graph(), gbuffer, rasterizer.camera(), DepthFormat::d16);
+    return download_gbuffer(rasterizer.pass_list(), gbuffer, rasterizer.camera(), DepthFormat::d16);
 }
 
 void expect_same_bits(const HostGBuffer& a, const HostGBuffer& b) {
@@ -64,9 +64,10 @@ TEST_F(gbuffer_file, comes_back_bit_by_bit) {
         const LoadedGBuffer loaded = load_gbuffer(folder_);
         EXPECT_EQ(loaded.notes, std::vector<std::string>{});
         EXPECT_TRUE(loaded.absent.empty());
-        PassGraph graph(test_device(), loaded.gbuffer.extent());
-        const GBuffer uploaded = upload_gbuffer(graph, loaded.gbuffer);
-        expect_same_bits(download_gbuffer(graph, uploaded, loaded.gbuffer.camera, loaded.gbuffer.depth_format), before);
+        PassList pass_list(test_device(), loaded.gbuffer.extent());
+        const GBuffer uploaded = upload_gbuffer(pass_list, loaded.gbuffer);
+        expect_same_bits(download_gbuffer(pass_list, uploaded, loaded.gbuffer.camera, loaded.gbuffer.depth_format),
+                         before);
     }
 }
 

@@ -15,7 +15,7 @@ struct Row {
         FrameView view = view_of({91, 77}, pose);
         view.index = index, view.previous_frame = previous;
         const GBuffer g = rasterizer.render(scene.camera("main"), view);
-        return download_gbuffer(rasterizer.graph(), g, rasterizer.camera(), DepthFormat::d32f);
+        return download_gbuffer(rasterizer.pass_list(), g, rasterizer.camera(), DepthFormat::d32f);
     }
 };
 

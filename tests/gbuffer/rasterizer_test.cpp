@@ -16,7 +16,7 @@ HostGBuffer render(const Scene& scene, const SceneCamera& camera, const FrameVie
     Rasterizer rasterizer(test_device(), scene, options);
     const GBuffer gbuffer = rasterizer.render(camera, view);
     if (is_lit) rasterizer.light_directly(gbuffer);
-    return download_gbuffer(rasterizer.graph(), gbuffer, rasterizer.camera(), options.depth_format);
+    return download_gbuffer(rasterizer.pass_list(), gbuffer, rasterizer.camera(), options.depth_format);
 }
 
 size_t differing_bits(const HostGBuffer& a, const HostGBuffer& b) {
@@ -111,7 +111,7 @@ TEST(rasterizer, deformed_frames_in_a_row_are_those_drawn_alone) {
         view.index = step.frame, view.previous_frame = step.previous;
         const GBuffer gbuffer = rasterizer.render(camera, view);
         const HostGBuffer in_a_row =
-            download_gbuffer(rasterizer.graph(), gbuffer, rasterizer.camera(), DepthFormat::d32f);
+            download_gbuffer(rasterizer.pass_list(), gbuffer, rasterizer.camera(), DepthFormat::d32f);
         EXPECT_EQ(differing_bits(in_a_row, render(scene, camera, view)), 0u) << step.frame;
     }
 }
@@ -150,8 +150,9 @@ TEST(rasterizer, previous_images_are_those_of_the_frame_before) {
     Rasterizer rasterizer(test_device(), scene, {.extent = {91, 77}});
     rasterizer.render(camera, before);
     const GBuffer g = rasterizer.render(camera, now);
-    EXPECT_EQ(differing_bits(download_gbuffer(rasterizer.graph(), g, rasterizer.camera(), DepthFormat::d32f), jumped),
-              0u);
+    EXPECT_EQ(
+        differing_bits(download_gbuffer(rasterizer.pass_list(), g, rasterizer.camera(), DepthFormat::d32f), jumped),
+        0u);
 
     const HostGBuffer first = render(scene, camera, view_of({91, 77}, 0));
     EXPECT_EQ(::differing_bits(first.previous_depth, first.depth), 0u);
@@ -284,8 +285,8 @@ TEST(rasterizer, stores_normals_in_as_many_bits_as_asked) {
     const auto normals = [&](unsigned bits) {
         Rasterizer rasterizer(test_device(), scene, {.extent = extent, .normal_bits = bits});
         const GBuffer gbuffer = rasterizer.render(scene.camera("main"), view_of(extent));
-        return std::pair(rasterizer.graph().download(gbuffer.normal),
-                         rasterizer.graph().download(gbuffer.geometric_normal));
+        return std::pair(rasterizer.pass_list().download(gbuffer.normal),
+                         rasterizer.pass_list().download(gbuffer.geometric_normal));
     };
     const auto [exact, exact_geometric] = normals(0);
     for (const auto& [bits, largest] : {std::pair(8u, 0.951), {16u, 0.00372}}) {

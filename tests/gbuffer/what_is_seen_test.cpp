@@ -27,7 +27,7 @@ Seen seen(const Scene& scene, const SceneCamera& camera, const RasterizerOptions
     sized.extent = extent;
     Rasterizer rasterizer(test_device(), scene, sized);
     const GBuffer gbuffer = rasterizer.render(camera, view_of(extent));
-    const HostGBuffer host = download_gbuffer(rasterizer.graph(), gbuffer, rasterizer.camera(), DepthFormat::d32f);
+    const HostGBuffer host = download_gbuffer(rasterizer.pass_list(), gbuffer, rasterizer.camera(), DepthFormat::d32f);
     const ScenePose pose = pose_scene(scene, 0);
     const PathTracer tracer(scene, pose, pose_camera(camera, pose, 0), extent, {});
     Seen result;
@@ -143,7 +143,7 @@ TEST(what_is_seen, has_no_hidden_backs_in_its_layers) {
         const GBuffer g = rasterizer.render(looking_ahead(0.5f, 10), view_of(extent));
         const CameraData& camera = rasterizer.camera();
         const auto depth = [&](const Image& image) {
-            return view_distance(camera, *rasterizer.graph().download(image).pixel(extent.x / 2, extent.y / 2));
+            return view_distance(camera, *rasterizer.pass_list().download(image).pixel(extent.x / 2, extent.y / 2));
         };
         EXPECT_NEAR(depth(g.second_depth), draws_backs ? 2 : 3, 1e-4);
         EXPECT_NEAR(depth(g.back_depth), draws_backs ? 2 : 1, 1e-4);

@@ -1,7 +1,7 @@
 #include "core/gpu/device.h"
 #include "core/error.h"
 #include "core/gpu/device_impl.h"
-#include "core/gpu/passes/pass_graph.h"
+#include "core/gpu/passes/pass_list.h"
 
 #include <gtest/gtest.h>
 #include <cstdlib>

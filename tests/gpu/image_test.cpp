@@ -1,7 +1,7 @@
 #include "core/error.h"
 #include "core/gpu/device.h"
 #include "core/gpu/device_impl.h"
-#include "core/gpu/passes/pass_graph.h"
+#include "core/gpu/passes/pass_list.h"
 
 #include <gtest/gtest.h>
 #include <cstring>
@@ -10,16 +10,16 @@ namespace {
 
 struct Images : testing::Test {
     Device device;
-    PassGraph graph{device, {24, 16}};
+    PassList pass_list{device, {24, 16}};
     ParameterSet no_parameters;
 
-    void SetUp() override { graph.begin_frame({}, no_parameters, {}); }
+    void SetUp() override { pass_list.begin_frame({}, no_parameters, {}); }
     void TearDown() override { EXPECT_EQ(device.validation_messages(), std::vector<std::string>()); }
 
     glm::vec4 stored(Format format, glm::vec4 value) {
-        const Image target = graph.image("target", format);
-        graph.compute("store_value.comp").write(target).set("value", value).run();
-        const HostImage pixels = graph.download(target);
+        const Image target = pass_list.image("target", format);
+        pass_list.compute("store_value.comp").write(target).set("value", value).run();
+        const HostImage pixels = pass_list.download(target);
         glm::vec4 result(0);
         for (unsigned c = 0; c < pixels.channels; ++c) result[int(c)] = pixels.pixel(23, 15)[c];
         return result;
@@ -30,9 +30,9 @@ struct Images : testing::Test {
 
 TEST_F(Images, ClearsToExactTexels) {
     const auto cleared = [&](Format format, glm::vec4 value) {
-        const Image image = graph.image("cleared", format, 2);
-        graph.clear(image, value);
-        const HostImage first = graph.download(image), last = graph.download(image.mip(1));
+        const Image image = pass_list.image("cleared", format, 2);
+        pass_list.clear(image, value);
+        const HostImage first = pass_list.download(image), last = pass_list.download(image.mip(1));
         EXPECT_EQ(first.values.back(), last.values.back());
         return first.values.front();
     };
@@ -41,9 +41,9 @@ TEST_F(Images, ClearsToExactTexels) {
     EXPECT_EQ(cleared(Format::r16f, glm::vec4(-2.5f)), -2.5f);
     EXPECT_EQ(cleared(Format::rg8, glm::vec4(1.0f)), 1.0f);
     EXPECT_EQ(cleared(Format::r11g11b10f, glm::vec4(0.5f)), 0.5f);
-    const Image depth = graph.image("depth_buffer", Format::d32f);
-    graph.clear(depth, glm::vec4(0.25f));
-    EXPECT_EQ(graph.download(depth).values.back(), 0.25f);
+    const Image depth = pass_list.image("depth_buffer", Format::d32f);
+    pass_list.clear(depth, glm::vec4(0.25f));
+    EXPECT_EQ(pass_list.download(depth).values.back(), 0.25f);
 }
 
 TEST_F(Images, StoresFromComputeInEveryColorFormat) {
@@ -67,58 +67,58 @@ TEST_F(Images, StoresHalvesWithinOneStep) {
     EXPECT_TRUE(result == below || result == above) << result;
     RecordProperty("half_store", result == below ? "truncates" : "rounds");
     HostImage host({24, 16}, 1, value);  // the way up rounds to the nearest on every device
-    const Image image = graph.image("uploaded", Format::r16f);
-    graph.upload(image, host);
-    EXPECT_EQ(graph.download(image).values.front(), above);
+    const Image image = pass_list.image("uploaded", Format::r16f);
+    pass_list.upload(image, host);
+    EXPECT_EQ(pass_list.download(image).values.front(), above);
 }
 
 TEST_F(Images, CountsAtomically) {
-    const Image counters = graph.image_of("counters", Format::r32ui, {3, 2});
-    graph.clear(counters, glm::vec4(5.0f));
-    graph.compute("count_pixels.comp").write(counters).run(glm::uvec2(24, 16));
-    EXPECT_EQ(graph.download(counters).values, std::vector<float>(6, 69.0f));
+    const Image counters = pass_list.image_of("counters", Format::r32ui, {3, 2});
+    pass_list.clear(counters, glm::vec4(5.0f));
+    pass_list.compute("count_pixels.comp").write(counters).run(glm::uvec2(24, 16));
+    EXPECT_EQ(pass_list.download(counters).values, std::vector<float>(6, 69.0f));
 }
 
 TEST_F(Images, FiltersOnlyWhenAsked) {
-    const Image source = graph.image_of("source", Format::r32f, {2, 2}),
-                target = graph.image_of("target", Format::r32f, {1, 1});
+    const Image source = pass_list.image_of("source", Format::r32f, {2, 2}),
+                target = pass_list.image_of("target", Format::r32f, {1, 1});
     HostImage corners({2, 2}, 1);
     corners.values = {0, 1, 2, 5};
-    graph.upload(source, corners);
-    graph.compute("sample_linear.comp").read_linear(source).write(target).run();
-    EXPECT_NEAR(graph.download(target).values[0], 2.0f,
+    pass_list.upload(source, corners);
+    pass_list.compute("sample_linear.comp").read_linear(source).write(target).run();
+    EXPECT_NEAR(pass_list.download(target).values[0], 2.0f,
                 0.02f);  // filters have 8 fractional bits (Vulkan 1.3, table 53)
-    graph.compute("sample_linear.comp").read(source).write(target).run();
-    const float nearest = graph.download(target).values[0];
+    pass_list.compute("sample_linear.comp").read(source).write(target).run();
+    const float nearest = pass_list.download(target).values[0];
     EXPECT_TRUE(nearest == 0 || nearest == 1 || nearest == 2 || nearest == 5);
 }
 
 TEST_F(Images, RoundTripBuffers) {
-    const Buffer buffer = graph.buffer("bytes", 4096);
+    const Buffer buffer = pass_list.buffer("bytes", 4096);
     std::vector<uint32_t> values(1024);
     for (size_t i = 0; i < values.size(); ++i) values[i] = uint32_t(i * 2654435761u);
-    EXPECT_EQ(graph.download(buffer), std::vector<std::byte>(4096));  // zeros at first
-    graph.upload(buffer, std::as_bytes(std::span(values)));
+    EXPECT_EQ(pass_list.download(buffer), std::vector<std::byte>(4096));  // zeros at first
+    pass_list.upload(buffer, std::as_bytes(std::span(values)));
     std::vector<uint32_t> read(1024);
-    std::memcpy(read.data(), graph.download(buffer).data(), 4096);
+    std::memcpy(read.data(), pass_list.download(buffer).data(), 4096);
     EXPECT_EQ(read, values);
-    EXPECT_THROW(graph.buffer("odd", 3), Error);
-    EXPECT_THROW(graph.upload(buffer, std::vector<std::byte>(5000)), Error);
+    EXPECT_THROW(pass_list.buffer("odd", 3), Error);
+    EXPECT_THROW(pass_list.upload(buffer, std::vector<std::byte>(5000)), Error);
 }
 
 TEST_F(Images, OutliveAGraphThatHasOnlyRecordedThem) {
     Image result;
     {
-        PassGraph recording(device, {24, 16}, Clock::gpu_timestamp);
+        PassList recording(device, {24, 16}, Clock::gpu_timestamp);
         recording.begin_frame({}, no_parameters, {});
         result = recording.image("target", Format::r32f);
         recording.compute("store_value.comp").write(result).set("value", glm::vec4(3.0f)).run();
     }
-    EXPECT_EQ(graph.download(result).values.front(), 3.0f);
+    EXPECT_EQ(pass_list.download(result).values.front(), 3.0f);
 }
 
 TEST_F(Images, MayBeReplacedWhileRecorded) {
-    PassGraph recording(device, {24, 16}, Clock::gpu_timestamp);
+    PassList recording(device, {24, 16}, Clock::gpu_timestamp);
     recording.begin_frame({}, no_parameters, {});
     recording.compute("store_value.comp")
         .write(recording.image("target", Format::r32f))
@@ -136,7 +136,7 @@ TEST_F(Images, AllowNoMoreThanTheirPassesAskFor) {
     using Use = vk::ImageUsageFlagBits;
     const vk::ImageUsageFlags always = Use::eTransferSrc | Use::eTransferDst | Use::eSampled;
     for (const Clock clock : {Clock::host_fence, Clock::gpu_timestamp}) {
-        PassGraph passes(device, {24, 16}, clock);
+        PassList passes(device, {24, 16}, clock);
         passes.begin_frame({}, no_parameters, {});
         const auto uses = [](const Image& image) { return image.storage->info.usage; };
         const Image both = passes.image("both", Format::r32f, 2), drawn = passes.image("drawn", Format::r32f),

@@ -1,7 +1,7 @@
 #include "core/gpu/passes/limits.h"
 #include "core/error.h"
 #include "core/gpu/device.h"
-#include "core/gpu/passes/pass_graph.h"
+#include "core/gpu/passes/pass_list.h"
 #include "tests/error_message.h"
 
 #include <gtest/gtest.h>
@@ -11,19 +11,19 @@ namespace {
 
 struct Webgl2Limits : testing::Test {
     Device device;
-    PassGraph graph{device, {8, 8}};
+    PassList pass_list{device, {8, 8}};
     const ParameterSet no_parameters;
-    const Image color = graph.image("color", Format::rgba16f), source = graph.image("source", Format::rgba16f);
+    const Image color = pass_list.image("color", Format::rgba16f), source = pass_list.image("source", Format::rgba16f);
 
     void SetUp() override {
-        graph.begin_frame({}, no_parameters, {});
-        graph.clear(source, {});
+        pass_list.begin_frame({}, no_parameters, {});
+        pass_list.clear(source, {});
     }
     /// What is refused reaches no command buffer, and so not the validation layer either.
     void TearDown() override { EXPECT_EQ(device.validation_messages(), std::vector<std::string>()); }
 
     std::string message(const std::function<void()>& action) {
-        const LimitScope limits(graph, Limits::webgl2);
+        const LimitScope limits(pass_list, Limits::webgl2);
         return error_message(action);
     }
 };
@@ -36,50 +36,52 @@ constexpr Format all_formats[] = {Format::r8,    Format::rg8,     Format::rgba8,
 }  // namespace
 
 TEST_F(Webgl2Limits, RefuseComputeShadersWhileTheScopeLasts) {
-    const Image sum = graph.image("sum", Format::rgba32f), before = graph.image("previous_sum", Format::rgba32f);
-    graph.clear(before, {});
-    const auto add = [&] { graph.compute("add_one.comp").read(before).write(sum).run(); };
+    const Image sum = pass_list.image("sum", Format::rgba32f),
+                before = pass_list.image("previous_sum", Format::rgba32f);
+    pass_list.clear(before, {});
+    const auto add = [&] { pass_list.compute("add_one.comp").read(before).write(sum).run(); };
     EXPECT_EQ(message(add),
               "pass add_one is a compute shader, outside the limits of WebGL 2, which has vertex and fragment shaders "
               "only");
-    const Buffer groups = graph.buffer("groups", 12);
-    EXPECT_EQ(message([&] { graph.compute("add_one.comp").read(before).write(sum).dispatch(groups); }), message(add));
+    const Buffer groups = pass_list.buffer("groups", 12);
+    EXPECT_EQ(message([&] { pass_list.compute("add_one.comp").read(before).write(sum).dispatch(groups); }),
+              message(add));
     add();
-    EXPECT_EQ(graph.download(sum).values.front(), 1.0f);
-    const LimitScope outer(graph, Limits::webgl2);
-    { const LimitScope inner(graph, Limits::none); }
+    EXPECT_EQ(pass_list.download(sum).values.front(), 1.0f);
+    const LimitScope outer(pass_list, Limits::webgl2);
+    { const LimitScope inner(pass_list, Limits::none); }
     EXPECT_THROW(add(), Error);
 }
 
 TEST_F(Webgl2Limits, RefuseStorageImages) {
-    const Image target = graph.image("target", Format::rgba16f);
-    EXPECT_EQ(message([&] { graph.fragment("image_store.frag").write(target).run(); }),
+    const Image target = pass_list.image("target", Format::rgba16f);
+    EXPECT_EQ(message([&] { pass_list.fragment("image_store.frag").write(target).run(); }),
               "pass image_store uses the storage image 'target', outside the limits of WebGL 2, which writes to colour "
               "targets only");
 }
 
 TEST_F(Webgl2Limits, RefuseStorageBuffers) {
-    const Buffer counts = graph.buffer("counts", 4);
-    EXPECT_EQ(message([&] { graph.fragment("storage_buffer.frag").use(counts).write(color).run(); }),
+    const Buffer counts = pass_list.buffer("counts", 4);
+    EXPECT_EQ(message([&] { pass_list.fragment("storage_buffer.frag").use(counts).write(color).run(); }),
               "pass storage_buffer uses the storage buffer 'counts', outside the limits of WebGL 2, which has no such "
               "buffers");
     const std::string of_buffer =
         "the storage buffer 'counts' lies outside the limits of WebGL 2, which has no such buffers";
-    EXPECT_EQ(message([&] { graph.clear(counts, 0); }), of_buffer);
-    EXPECT_EQ(message([&] { graph.upload(counts, std::vector<std::byte>(4)); }), of_buffer);
+    EXPECT_EQ(message([&] { pass_list.clear(counts, 0); }), of_buffer);
+    EXPECT_EQ(message([&] { pass_list.upload(counts, std::vector<std::byte>(4)); }), of_buffer);
 }
 
 TEST_F(Webgl2Limits, RefuseMeshesFromBuffers) {
-    const std::vector<Draw> draws = {{.indices = graph.buffer("indices", 12), .index_count = 3}};
-    EXPECT_EQ(message([&] { graph.draw("triangle.vert", "instance_color.frag", draws).write(color).run(); }),
+    const std::vector<Draw> draws = {{.indices = pass_list.buffer("indices", 12), .index_count = 3}};
+    EXPECT_EQ(message([&] { pass_list.draw("triangle.vert", "instance_color.frag", draws).write(color).run(); }),
               "pass instance_color draws meshes, whose vertices lie in storage buffers, outside the limits of WebGL 2, "
               "which has no such buffers");
 }
 
 TEST_F(Webgl2Limits, RefuseAFifthColorTarget) {
     const auto write = [&](const std::string& shader, const std::string& names) {
-        auto pass = graph.fragment(shader);
-        for (const char name : names) pass.write(graph.image(std::string(1, name), Format::rgba16f));
+        auto pass = pass_list.fragment(shader);
+        for (const char name : names) pass.write(pass_list.image(std::string(1, name), Format::rgba16f));
         pass.run();
     };
     EXPECT_EQ(message([&] { write("four_targets.frag", "abcd"); }), "no error");
@@ -90,7 +92,7 @@ TEST_F(Webgl2Limits, RefuseAFifthColorTarget) {
 
 TEST_F(Webgl2Limits, RefuseTheSeventeenthTexture) {
     const auto read = [&](const std::string& shader, unsigned count) {
-        auto pass = graph.fragment(shader);
+        auto pass = pass_list.fragment(shader);
         for (unsigned i = 0; i < count; ++i) pass.read(source.as("t" + std::to_string(i)));
         pass.write(color).run();
     };
@@ -103,9 +105,9 @@ TEST_F(Webgl2Limits, RefuseTheSeventeenthTexture) {
 TEST_F(Webgl2Limits, RefuseColorTargetsOfOtherFormats) {
     for (const Format format : all_formats) {
         if (format == Format::r32ui || !device.supports(format)) continue;
-        const Image target = graph.image("target", format).as("color");
-        const std::string result =
-            message([&] { graph.fragment("constant_color.frag").set("value", glm::vec4(1.0f)).write(target).run(); });
+        const Image target = pass_list.image("target", format).as("color");
+        const std::string result = message(
+            [&] { pass_list.fragment("constant_color.frag").set("value", glm::vec4(1.0f)).write(target).run(); });
         const bool is_depth = format >= Format::d32f;
         EXPECT_EQ(result == "no error", !is_depth) << int(format) << result;
         if (format == Format::d16) {
@@ -134,33 +136,33 @@ TEST_F(Webgl2Limits, RefuseToFilterFloatsOf32Bits) {
                                        {Format::rgba32f, "RGBA32F"},
                                        {Format::d32f, "DEPTH_COMPONENT32F"},
                                        {Format::d16, "DEPTH_COMPONENT16"}}) {
-        const Image image = graph.image("image", format).as("source");
-        graph.clear(image, {});
-        EXPECT_EQ(message([&] { graph.fragment("plain_webgl2.frag").read(image).write(color).run(); }), "no error");
+        const Image image = pass_list.image("image", format).as("source");
+        pass_list.clear(image, {});
+        EXPECT_EQ(message([&] { pass_list.fragment("plain_webgl2.frag").read(image).write(color).run(); }), "no error");
         const std::string expected =
             *name ? "pass plain_webgl2 filters 'source' of format " + std::string(name) + " linearly" + filtered
                   : "no error";
-        EXPECT_EQ(message([&] { graph.fragment("plain_webgl2.frag").read_linear(image).write(color).run(); }),
+        EXPECT_EQ(message([&] { pass_list.fragment("plain_webgl2.frag").read_linear(image).write(color).run(); }),
                   expected);
     }
 }
 
 TEST_F(Webgl2Limits, RefuseToReadWhatIsDrawnTo) {
     const std::string only_others = ", outside the limits of WebGL 2, which reads no image while it is drawn to";
-    const Image pyramid = graph.image_of("pyramid", Format::rgba16f, {8, 8}, 3);
-    graph.clear(pyramid, {});
+    const Image pyramid = pass_list.image_of("pyramid", Format::rgba16f, {8, 8}, 3);
+    pass_list.clear(pyramid, {});
     const auto draw = [&](const Image& read, const Image& write) {
-        return message([&] { graph.fragment("plain_webgl2.frag").read(read).write(write).run(); });
+        return message([&] { pass_list.fragment("plain_webgl2.frag").read(read).write(write).run(); });
     };
     const std::string color_too = "pass plain_webgl2 reads 'source' and draws to it as 'color'" + only_others;
     EXPECT_EQ(draw(pyramid.as("source"), pyramid.mip(1).as("color")), color_too);
     EXPECT_EQ(draw(pyramid.mip(2).as("source"), pyramid.mip(1).as("color")), color_too);
     EXPECT_EQ(draw(source, pyramid.mip(1).as("color")), "no error");
 
-    const Image depth = graph.image("depth_buffer", Format::d32f), mask = graph.image("mask", Format::d32f_s8);
-    graph.clear(depth, {}), graph.clear(mask, {});
+    const Image depth = pass_list.image("depth_buffer", Format::d32f), mask = pass_list.image("mask", Format::d32f_s8);
+    pass_list.clear(depth, {}), pass_list.clear(mask, {});
     EXPECT_EQ(message([&] {
-                  graph.fragment("plain_webgl2.frag")
+                  pass_list.fragment("plain_webgl2.frag")
                       .read(depth.as("source"))
                       .depth({.is_written = false, .image = depth})
                       .write(color)
@@ -168,7 +170,7 @@ TEST_F(Webgl2Limits, RefuseToReadWhatIsDrawnTo) {
               }),
               "pass plain_webgl2 reads 'source' and draws to it as 'depth_buffer'" + only_others);
     EXPECT_EQ(message([&] {
-                  graph.fragment("plain_webgl2.frag")
+                  pass_list.fragment("plain_webgl2.frag")
                       .read(mask.as("source"))
                       .stencil({Stencil::Mode::keep_equal, 0, mask})
                       .write(color)
@@ -180,17 +182,18 @@ TEST_F(Webgl2Limits, RefuseToReadWhatIsDrawnTo) {
 /// What a G-buffer or another input offers by name counts like what the pass itself names.
 TEST_F(Webgl2Limits, HoldForInputsToo) {
     const Image inputs[] = {color.as("source")};
-    graph.clear(color, {});
-    graph.begin_frame({}, no_parameters, inputs);
-    EXPECT_NE(message([&] { graph.fragment("plain_webgl2.frag").write(color).run(); }).find("reads 'source' and draws"),
-              std::string::npos);
+    pass_list.clear(color, {});
+    pass_list.begin_frame({}, no_parameters, inputs);
+    EXPECT_NE(
+        message([&] { pass_list.fragment("plain_webgl2.frag").write(color).run(); }).find("reads 'source' and draws"),
+        std::string::npos);
 }
 
 TEST_F(Webgl2Limits, RefuseViewsOfSomeMips) {
-    const Image pyramid = graph.image_of("pyramid", Format::rgba16f, {8, 8}, 3).as("source");
-    graph.clear(pyramid, {});
+    const Image pyramid = pass_list.image_of("pyramid", Format::rgba16f, {8, 8}, 3).as("source");
+    pass_list.clear(pyramid, {});
     const auto read = [&](const Image& image) {
-        return message([&] { graph.fragment("plain_webgl2.frag").read(image).write(color).run(); });
+        return message([&] { pass_list.fragment("plain_webgl2.frag").read(image).write(color).run(); });
     };
     EXPECT_EQ(read(pyramid), "no error");
     EXPECT_EQ(read(pyramid.mip(0)),
@@ -199,10 +202,10 @@ TEST_F(Webgl2Limits, RefuseViewsOfSomeMips) {
 }
 
 TEST_F(Webgl2Limits, RefuseDepthAndStencilInTwoImages) {
-    const Image depth = graph.image("depth_buffer", Format::d16), mask = graph.image("mask", Format::d32f_s8);
+    const Image depth = pass_list.image("depth_buffer", Format::d16), mask = pass_list.image("mask", Format::d32f_s8);
     const auto test = [&](const Image& depth_image) {
         return message([&] {
-            graph.fragment("constant_color.frag")
+            pass_list.fragment("constant_color.frag")
                 .set("value", glm::vec4(1.0f))
                 .depth({.image = depth_image})
                 .stencil({Stencil::Mode::keep_equal, 0, mask})
@@ -210,7 +213,7 @@ TEST_F(Webgl2Limits, RefuseDepthAndStencilInTwoImages) {
                 .run();
         });
     };
-    graph.clear(mask, {});
+    pass_list.clear(mask, {});
     EXPECT_EQ(test(mask), "no error");
     EXPECT_EQ(test(depth),
               "pass constant_color tests depth in 'depth_buffer' and stencil in 'mask', outside the limits of WebGL 2, "
@@ -219,15 +222,15 @@ TEST_F(Webgl2Limits, RefuseDepthAndStencilInTwoImages) {
 
 TEST_F(Webgl2Limits, RefuseUploadsToDepthWithStencil) {
     const HostImage pixels({8, 8}, 1);
-    EXPECT_EQ(message([&] { graph.upload(graph.image("depth_buffer", Format::d32f), pixels); }), "no error");
+    EXPECT_EQ(message([&] { pass_list.upload(pass_list.image("depth_buffer", Format::d32f), pixels); }), "no error");
     EXPECT_EQ(
-        message([&] { graph.upload(graph.image("mask", Format::d32f_s8), pixels); }),
+        message([&] { pass_list.upload(pass_list.image("mask", Format::d32f_s8), pixels); }),
         "the upload to 'mask' of format DEPTH32F_STENCIL8 lies outside the limits of WebGL 2, which only draws and "
         "clears such images");
 }
 
 TEST_F(Webgl2Limits, RefuseShadersThatAreNoGlslEs) {
-    const auto draw = [&] { graph.fragment("implicit_conversion.frag").write(color).run(); };
+    const auto draw = [&] { pass_list.fragment("implicit_conversion.frag").write(color).run(); };
     for (int i = 0; i < 2; ++i) {  // what was refused once is refused again
         const std::string result = message(draw);
         EXPECT_EQ(result.rfind("pass implicit_conversion has a shader of another language, outside the limits of WebGL "

@@ -1,4 +1,4 @@
-#include "core/gpu/passes/pass_graph.h"
+#include "core/gpu/passes/pass_list.h"
 
 #include "core/gpu/device.h"
 
@@ -15,14 +15,14 @@ struct PassChangesTest : testing::Test {
     }
     ParameterSet no_parameters;
     CameraData camera{};
-    PassGraph graph{device(), {64, 1}};
+    PassList pass_list{device(), {64, 1}};
 
-    void SetUp() override { graph.begin_frame(camera, no_parameters, {}); }
+    void SetUp() override { pass_list.begin_frame(camera, no_parameters, {}); }
     void TearDown() override { EXPECT_EQ(device().validation_messages(), std::vector<std::string>()); }
 
     Image stored(const std::string& name, Format format, glm::vec4 value) {
-        const Image image = graph.image(name, format);
-        graph.compute("store_value.comp").write(image.as("target")).set("value", value).run();
+        const Image image = pass_list.image(name, format);
+        pass_list.compute("store_value.comp").write(image.as("target")).set("value", value).run();
         return image;
     }
 };
@@ -32,14 +32,14 @@ struct PassChangesTest : testing::Test {
 /// The known error of known values: 1 + 2^-12 is 1 in half, 0.3 lies between two halves. Vulkan leaves it to the device
 /// whether it rounds or, as lavapipe, cuts off.
 TEST_F(PassChangesTest, ImagesAreMadeInTheFormatsThatThePolicyNames) {
-    graph.set_changes({.format_of = [](const std::string& image,
-                                       Format asked) { return image == "kept" ? asked : as_float16(asked); },
-                       .glsl_of = {}});
+    pass_list.set_changes({.format_of = [](const std::string& image,
+                                           Format asked) { return image == "kept" ? asked : as_float16(asked); },
+                           .glsl_of = {}});
     const glm::vec4 value(1.0f + 1.0f / 4096.0f, 0.3f, 1e5f, 1e-8f);
     const Image kept = stored("kept", Format::rgba32f, value), rounded = stored("rounded", Format::rgba32f, value);
     EXPECT_EQ(kept.format, Format::rgba32f);
     EXPECT_EQ(rounded.format, Format::rgba16f);
-    const HostImage a = graph.download(kept), b = graph.download(rounded);
+    const HostImage a = pass_list.download(kept), b = pass_list.download(rounded);
     EXPECT_EQ(std::vector(a.values.begin(), a.values.begin() + 4), (std::vector{value.x, value.y, value.z, value.w}));
     EXPECT_EQ(b.values[0], 1.0f);
     const float nearest = half(0.3f), below = nearest - std::exp2(-12.0f);  // halves are 2^-12 apart there
@@ -47,24 +47,24 @@ TEST_F(PassChangesTest, ImagesAreMadeInTheFormatsThatThePolicyNames) {
     EXPECT_GE(b.values[2], 65504.0f);  // devices store the largest half, or infinity
     EXPECT_EQ(b.values[3], 0.0f);
 
-    graph.set_changes({});
-    EXPECT_EQ(graph.image("rounded", Format::rgba32f).format, Format::rgba32f);
+    pass_list.set_changes({});
+    EXPECT_EQ(pass_list.image("rounded", Format::rgba32f).format, Format::rgba32f);
 }
 
 TEST_F(PassChangesTest, HistoriesHaveOneNameAndTwoSides) {
     std::vector<std::string> asked;
-    graph.set_changes({.format_of =
-                           [&](const std::string& image, Format format) {
-                               asked.push_back(image);
-                               return as_float32(format);
-                           },
-                       .glsl_of = {}});
-    const PassGraph::History history = graph.history("kept", Format::r8);
+    pass_list.set_changes({.format_of =
+                               [&](const std::string& image, Format format) {
+                                   asked.push_back(image);
+                                   return as_float32(format);
+                               },
+                           .glsl_of = {}});
+    const PassList::History history = pass_list.history("kept", Format::r8);
     EXPECT_EQ(asked, (std::vector<std::string>{"kept", "kept"}));
     EXPECT_EQ(history.previous.format, Format::r32f);
-    EXPECT_EQ(graph.asked_name(history.previous), "kept");
-    EXPECT_EQ(graph.asked_name(graph.image("other", Format::r8).as("kept")), "other");
-    EXPECT_EQ(graph.asked_name(Image{}), "");
+    EXPECT_EQ(pass_list.asked_name(history.previous), "kept");
+    EXPECT_EQ(pass_list.asked_name(pass_list.image("other", Format::r8).as("kept")), "other");
+    EXPECT_EQ(pass_list.asked_name(Image{}), "");
 }
 
 TEST_F(PassChangesTest, EveryFormatHasItsNameAndItsKin) {

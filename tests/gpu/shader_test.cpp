@@ -103,7 +103,7 @@ TEST(Shader, KnowsWhetherItIsAComputeShader) {
     EXPECT_THROW(compile("empty.frag", "", only_compute), Error);
 }
 
-/// The formulas that the path tracer, the rasteriser and the variants share compile in every language they are meant
+/// The formulas that the path tracer, the rasteriser and the techniques share compile in every language they are meant
 /// for.
 TEST(Shader, SharedHeadersCompileInBothLanguages) {
     size_t count = 0;

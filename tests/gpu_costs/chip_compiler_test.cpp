@@ -23,7 +23,7 @@ struct ChipCompiler : testing::Test {
     }
     ParameterSet no_parameters;
     CameraData camera{};
-    PassGraph graph{device(), {16, 16}};
+    PassList pass_list{device(), {16, 16}};
     std::vector<PipelineRecipe> recipes;
     struct Watcher : PassWatcher {
         std::vector<PipelineRecipe>& recipes;
@@ -43,10 +43,12 @@ struct ChipCompiler : testing::Test {
             GTEST_SKIP() << e.what();
         }
         fs::remove_all(cache);
-        graph.watch(&watcher);
-        graph.begin_frame(camera, no_parameters, {});
+        pass_list.watch(&watcher);
+        pass_list.begin_frame(camera, no_parameters, {});
     }
-    void store(const std::string& shader) { graph.compute(shader).write(graph.image("target", Format::rgba32f)).run(); }
+    void store(const std::string& shader) {
+        pass_list.compute(shader).write(pass_list.image("target", Format::rgba32f)).run();
+    }
     std::vector<CompiledPipeline> compile(const std::string& chip, const fs::path& folder = {}) {
         return compile_for_chip(known_chip(chip), recipes,
                                 {.cache = folder, .notice = [this](const std::string& n) { notices.push_back(n); }});

@@ -1,6 +1,6 @@
 #include "experiments/gpu_costs/pass_cost.h"
 #include "core/gpu/device.h"
-#include "core/gpu/passes/pass_graph.h"
+#include "core/gpu/passes/pass_list.h"
 
 #include <gtest/gtest.h>
 
@@ -13,31 +13,31 @@ struct PassCosts : testing::TestWithParam<Clock> {
     }
     ParameterSet no_parameters;
     CameraData camera{};
-    PassGraph graph{device(), {10, 9}, GetParam()};
+    PassList pass_list{device(), {10, 9}, GetParam()};
     CostCounter counter;
 
     void SetUp() override { begin(); }
     void TearDown() override { EXPECT_EQ(device().validation_messages(), std::vector<std::string>()); }
-    void begin() { graph.begin_frame(camera, no_parameters, {}); }
+    void begin() { pass_list.begin_frame(camera, no_parameters, {}); }
 
     Image cleared(const std::string& name, Format format, unsigned mips = 1) {
-        const Image image = graph.image(name, format, mips);
-        graph.clear(image, glm::vec4(1.0f));
+        const Image image = pass_list.image(name, format, mips);
+        pass_list.clear(image, glm::vec4(1.0f));
         return image;
     }
     HostImage run_counted_shader() {
         const Image source = cleared("source", Format::rgba16f), filtered = cleared("filtered", Format::r32f),
-                    mipped = cleared("mipped", Format::rgba8, 3), target = graph.image("target", Format::rgba32f);
+                    mipped = cleared("mipped", Format::rgba8, 3), target = pass_list.image("target", Format::rgba32f);
         begin();
-        graph.compute("counted.comp")
+        pass_list.compute("counted.comp")
             .read(source)
             .read_linear(filtered)
             .read_linear(mipped)
             .write(target)
-            .use(graph.buffer("entries", 64))
-            .use(graph.buffer("sums", 4))
+            .use(pass_list.buffer("entries", 64))
+            .use(pass_list.buffer("sums", 4))
             .run();
-        return graph.download(target);
+        return pass_list.download(target);
     }
     PassCost only_cost() {
         EXPECT_EQ(counter.costs().size(), 1u);
@@ -57,7 +57,7 @@ INSTANTIATE_TEST_SUITE_P(Clocks, PassCosts, testing::Values(Clock::host_fence, C
 TEST_P(PassCosts, AreThoseOfTheShaderByHand) {
     const HostImage uncounted = run_counted_shader();
     EXPECT_TRUE(counter.costs().empty());
-    graph.watch(&counter);
+    pass_list.watch(&counter);
     const HostImage counted = run_counted_shader();
     EXPECT_EQ(counted.values, uncounted.values);
 
@@ -82,31 +82,31 @@ TEST_P(PassCosts, AreThoseOfTheShaderByHand) {
 }
 
 TEST_P(PassCosts, OperationsAreThoseThatTheShaderStates) {
-    graph.watch(&counter);
-    const Image target = graph.image_of("target", Format::rgba32f, {8, 8});
-    graph.compute("counted_operations.comp").write(target).run();
+    pass_list.watch(&counter);
+    const Image target = pass_list.image_of("target", Format::rgba32f, {8, 8});
+    pass_list.compute("counted_operations.comp").write(target).run();
     // And conversions: 3 of the index to floats, 2 of the index to ints.
     EXPECT_EQ(only_cost().operations, 64u * (3 + 3 + 5 + 28 + 4 + 3 + 2 + 2));
 }
 
 /// 64 x 64 x 1100 KiB, more than 2^32 bytes.
 TEST_P(PassCosts, AreNumbersOf64Bits) {
-    graph.watch(&counter);
-    graph.compute("counted_blocks.comp")
-        .use(graph.buffer("blocks", 2048))
-        .write(graph.image_of("target", Format::r32f, {64, 64}))
+    pass_list.watch(&counter);
+    pass_list.compute("counted_blocks.comp")
+        .use(pass_list.buffer("blocks", 2048))
+        .write(pass_list.image_of("target", Format::r32f, {64, 64}))
         .run();
     EXPECT_EQ(only_cost().bytes_read, uint64_t(64 * 64) * 1100 * 1024);
 }
 
 TEST_P(PassCosts, DiscardedFragmentsAreIdleAndRejectedOnesNone) {
     const Image source = cleared("source", Format::rgba8), color = cleared("color", Format::rgba16f),
-                mask = graph.image("mask", Format::d32f_s8);
-    graph.clear(mask, glm::vec4(0.0f));
-    graph.watch(&counter);
-    camera.extent = glm::vec4(graph.extent(), 0.1f, 0.1f);
+                mask = pass_list.image("mask", Format::d32f_s8);
+    pass_list.clear(mask, glm::vec4(0.0f));
+    pass_list.watch(&counter);
+    camera.extent = glm::vec4(pass_list.extent(), 0.1f, 0.1f);
     begin();
-    graph.fragment("counted.frag").read(source).write(color).run();
+    pass_list.fragment("counted.frag").read(source).write(color).run();
     PassCost cost = only_cost();
     EXPECT_EQ(cost.invocations, 90u);
     EXPECT_EQ(cost.idle, 40u);
@@ -114,9 +114,9 @@ TEST_P(PassCosts, DiscardedFragmentsAreIdleAndRejectedOnesNone) {
     EXPECT_EQ(cost.bytes_written, 50u * 8);
 
     begin();
-    graph.fragment("left_half.frag").stencil({Stencil::Mode::write, 1, mask}).label("halves").run();
+    pass_list.fragment("left_half.frag").stencil({Stencil::Mode::write, 1, mask}).label("halves").run();
     EXPECT_EQ(only_cost().idle, 45u);
-    graph.fragment("constant_color.frag")
+    pass_list.fragment("constant_color.frag")
         .stencil({Stencil::Mode::keep_equal, 1, mask})
         .set("value", glm::vec4(5.0f))
         .write(color)
@@ -126,7 +126,7 @@ TEST_P(PassCosts, DiscardedFragmentsAreIdleAndRejectedOnesNone) {
     EXPECT_EQ(cost.invocations, 90u + 45u);
     EXPECT_EQ(cost.bytes_written, 45u * 8);
 
-    graph.clear(color, glm::vec4(0.0f));
+    pass_list.clear(color, glm::vec4(0.0f));
     EXPECT_EQ(counter.costs().back().stage, "clear");
     EXPECT_EQ(counter.costs().back().bytes_written, 90u * 8);
 }

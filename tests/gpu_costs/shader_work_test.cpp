@@ -2,7 +2,7 @@
 #include "experiments/gpu_costs/chips/shader_work.h"
 #include "core/error.h"
 #include "core/gpu/device.h"
-#include "core/gpu/passes/pass_graph.h"
+#include "core/gpu/passes/pass_list.h"
 #include "experiments/gpu_costs/chips/chip_time.h"
 #include "experiments/gpu_costs/waves/pass_tracer.h"
 #include "tests/gpu_costs/known_chip.h"
@@ -29,16 +29,16 @@ struct ShaderWorkTest : testing::Test {
 
     /// Of repeated_lines.comp over one workgroup, so one wave of 64 lanes.
     ChipWork work(const std::string& chip, const std::string& lines, int turns, int per_lane = 0) {
-        PassGraph graph(device(), {64, 1});
+        PassList pass_list(device(), {64, 1});
         std::optional<PassTrace> trace;
         PassTracer tracer([&](const PassTrace& t) { trace = t; });
-        graph.watch(&tracer);
-        graph.begin_frame(camera, no_parameters, {});
-        const Image source = graph.image_of("source", Format::rgba32f, {64, 64});
-        graph.clear(source, glm::vec4(0.5f));
-        graph.compute("repeated_lines.comp")
+        pass_list.watch(&tracer);
+        pass_list.begin_frame(camera, no_parameters, {});
+        const Image source = pass_list.image_of("source", Format::rgba32f, {64, 64});
+        pass_list.clear(source, glm::vec4(0.5f));
+        pass_list.compute("repeated_lines.comp")
             .read(source)
-            .write(graph.image("target", Format::rgba32f))
+            .write(pass_list.image("target", Format::rgba32f))
             .set("turns", turns)
             .set("per_lane", per_lane)
             .include("lines", lines)

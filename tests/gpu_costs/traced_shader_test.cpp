@@ -1,5 +1,5 @@
 #include "core/gpu/device.h"
-#include "core/gpu/passes/pass_graph.h"
+#include "core/gpu/passes/pass_list.h"
 #include "experiments/gpu_costs/waves/pass_tracer.h"
 
 #include <gtest/gtest.h>
@@ -22,16 +22,16 @@ struct TracedShader : testing::TestWithParam<Clock> {
 
     void TearDown() override { EXPECT_EQ(device().validation_messages(), std::vector<std::string>()); }
 
-    HostImage run(PassGraph& graph, bool is_traced) {
-        graph.begin_frame(camera, no_parameters, {});
+    HostImage run(PassList& pass_list, bool is_traced) {
+        pass_list.begin_frame(camera, no_parameters, {});
         PassTracer tracer([this](const PassTrace& trace) { traces.push_back(trace); });
-        graph.watch(is_traced ? &tracer : nullptr);
-        const Image source = graph.image_of("source", Format::rgba32f, {4, 4}),
-                    target = graph.image("target", Format::rgba32f);
-        graph.clear(source, glm::vec4(1, 2, 3, 4));
-        graph.compute("wave_paths.comp").read(source).write(target).run();
-        graph.watch(nullptr);
-        return graph.download(target);
+        pass_list.watch(is_traced ? &tracer : nullptr);
+        const Image source = pass_list.image_of("source", Format::rgba32f, {4, 4}),
+                    target = pass_list.image("target", Format::rgba32f);
+        pass_list.clear(source, glm::vec4(1, 2, 3, 4));
+        pass_list.compute("wave_paths.comp").read(source).write(target).run();
+        pass_list.watch(nullptr);
+        return pass_list.download(target);
     }
 };
 
@@ -65,10 +65,10 @@ INSTANTIATE_TEST_SUITE_P(Clocks, TracedShader, testing::Values(Clock::host_fence
 /// Turns of both loops by hand, in waves of 32 and 64 of workgroups of 8 x 8; 20 x 13 pixels have lanes beyond the
 /// edge.
 TEST_P(TracedShader, WavesTakeTheTurnsOfTheirBusiestLanes) {
-    PassGraph graph(device(), {20, 13}, GetParam());
-    const HostImage plain = run(graph, false);
+    PassList pass_list(device(), {20, 13}, GetParam());
+    const HostImage plain = run(pass_list, false);
     EXPECT_TRUE(traces.empty());
-    const HostImage traced = run(graph, true);
+    const HostImage traced = run(pass_list, true);
     EXPECT_EQ(traced.values, plain.values);
     ASSERT_EQ(traces.size(), 1u);
     const PassTrace& trace = traces.front();
@@ -114,8 +114,8 @@ TEST_P(TracedShader, WavesTakeTheTurnsOfTheirBusiestLanes) {
 
 /// What all groups did is known here: it lies within five standard errors of what the chosen ones say.
 TEST_P(TracedShader, ChosenGroupsStandForAll) {
-    PassGraph graph(device(), {1024, 512}, GetParam());
-    run(graph, true);
+    PassList pass_list(device(), {1024, 512}, GetParam());
+    run(pass_list, true);
     const PassTrace& trace = traces.at(0);
     const ShaderFlow flow = flow_of(trace.recipe);
     const std::vector<unsigned> depth = loop_depths(graph_of(flow));

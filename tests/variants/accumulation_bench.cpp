@@ -1,14 +1,14 @@
 #include "tests/variants/accumulation_bench.h"
 
 AccumulationBench::AccumulationBench(Device& device, glm::uvec2 extent, const nlohmann::json& overrides)
-    : graph(device, extent) {
+    : pass_list(device, extent) {
     parameters.params.assign(overrides);
     parameters.params.assign({{"mask", "depth"}});  // as upload_mask() makes it
 }
 
 Image AccumulationBench::upload(const std::string& name, Format format, const HostImage& pixels) {
-    const Image image = graph.image_of(name, format, pixels.extent);
-    graph.upload(image, pixels);
+    const Image image = pass_list.image_of(name, format, pixels.extent);
+    pass_list.upload(image, pixels);
     return image;
 }
 
@@ -28,13 +28,13 @@ Filtered AccumulationBench::accumulate(const AccumulationInputs& inputs) {
         .hit_depth =
             upload("hit_depth", parameters.filter.linear_hit_depth ? Format::r32f : Format::r16f, inputs.hit_depth)};
     const DiligentMask mask = upload_mask(inputs.mask, HostImage(inputs.mask.extent, 1));
-    graph.begin_frame(inputs.camera, parameters.params, std::array{gbuffer.motion, gbuffer.previous_depth});
-    const DiligentHistories histories = diligent_histories(graph, parameters.filter);
-    graph.upload(histories.radiance.previous, inputs.history.radiance);
-    graph.upload(histories.variance.previous, inputs.history.variance);
-    diligent_accumulate(graph, gbuffer, reprojected_depth, resolved, histories, mask, parameters.filter);
-    return {.radiance = graph.download(histories.radiance.current),
-            .variance = graph.download(histories.variance.current)};
+    pass_list.begin_frame(inputs.camera, parameters.params, std::array{gbuffer.motion, gbuffer.previous_depth});
+    const DiligentHistories histories = diligent_histories(pass_list, parameters.filter);
+    pass_list.upload(histories.radiance.previous, inputs.history.radiance);
+    pass_list.upload(histories.variance.previous, inputs.history.variance);
+    diligent_accumulate(pass_list, gbuffer, reprojected_depth, resolved, histories, mask, parameters.filter);
+    return {.radiance = pass_list.download(histories.radiance.current),
+            .variance = pass_list.download(histories.variance.current)};
 }
 
 HostImage AccumulationBench::clean_up(const CleanupInputs& inputs) {
@@ -44,6 +44,6 @@ HostImage AccumulationBench::clean_up(const CleanupInputs& inputs) {
     const Image radiance = upload("radiance", colors(), inputs.accumulated.radiance);
     const Image variance = upload("variance", numbers(), inputs.accumulated.variance);
     const DiligentMask mask = upload_mask(inputs.mask, inputs.roughness);
-    graph.begin_frame(inputs.camera, parameters.params, std::array{gbuffer.depth, gbuffer.normal});
-    return graph.download(diligent_cleanup(graph, gbuffer, radiance, variance, mask, parameters.filter));
+    pass_list.begin_frame(inputs.camera, parameters.params, std::array{gbuffer.depth, gbuffer.normal});
+    return pass_list.download(diligent_cleanup(pass_list, gbuffer, radiance, variance, mask, parameters.filter));
 }

@@ -27,7 +27,7 @@ struct CleanupInputs {
 
 /// Runs these passes on given inputs; what accumulation leaves out keeps the values of the run before the last one.
 struct AccumulationBench {
-    PassGraph graph;
+    PassList pass_list;
     DiligentParameters parameters;
 
     AccumulationBench(Device& device, glm::uvec2 extent, const nlohmann::json& overrides);

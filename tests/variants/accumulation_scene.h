@@ -1,7 +1,7 @@
 #pragma once
 #include "core/scene/camera.h"
 #include "tests/variants/accumulation_bench.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <cmath>
 #include <functional>
@@ -58,7 +58,7 @@ struct StillScene {
     }
 };
 
-struct DiligentAccumulation : VariantTest {
+struct DiligentAccumulation : TechniqueTest {
     StillScene scene;
 
     Filtered run(Overrides overrides) {

@@ -1,5 +1,5 @@
 #include "tests/variants/amd_golden.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <cmath>
 #include <random>
@@ -9,7 +9,7 @@ namespace {
 /// Both forms have the same rules.
 const std::vector<std::string> forms = {"faithful", "fast"};
 
-struct AmdClassification : VariantTest {};
+struct AmdClassification : TechniqueTest {};
 
 /// A G-buffer whose pixels have each their own kind: background, no specular term, mirror, below and above the
 /// threshold, in patches small enough that quads are mixed.
@@ -155,7 +155,7 @@ TEST_F(AmdClassification, ListsNothingWhereNothingIsGlossy) {
     EXPECT_TRUE(found.rays.empty() && found.tiles.empty());
 }
 
-struct AmdClassificationOf : VariantTest, testing::WithParamInterface<std::string> {
+struct AmdClassificationOf : TechniqueTest, testing::WithParamInterface<std::string> {
     const HostGBuffer gbuffer = amd_golden_gbuffer(GetParam());
 
     void expect_equal(unsigned rays_per_quad, const std::string& file) {

@@ -2,7 +2,7 @@
 #include "tests/variants/amd_golden.h"
 #include "tests/variants/brute_force_hierarchy.h"
 #include "tests/variants/mirror_scenes.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
@@ -10,7 +10,7 @@
 
 namespace {
 
-struct AmdCorrections : VariantTest {
+struct AmdCorrections : TechniqueTest {
     CameraPose pose{.vertical_fov = 1.2f, .near = 0.1f, .far = 100.0f};
     FrameView view{.extent = {96, 120}};
     HostImage noise{{128, 128}, 2, 0.5f};

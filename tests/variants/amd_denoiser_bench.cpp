@@ -27,33 +27,33 @@ HostImage resized_channels(const HostImage& image, unsigned channels) {
 }
 
 AmdDenoiserBench::AmdDenoiserBench(Device& device, glm::uvec2 extent, const nlohmann::json& parameters)
-    : graph(device, extent) {
+    : pass_list(device, extent) {
     params.assign(parameters);
     const size_t tiles = size_t((extent.x + 7) / 8) * ((extent.y + 7) / 8);
     work = {.ray_list = {},
-            .tile_list = graph.buffer("tiles", 4 * tiles),
-            .counters = graph.buffer("counters", 16),
-            .indirect_arguments = graph.buffer("arguments", 36)};
+            .tile_list = pass_list.buffer("tiles", 4 * tiles),
+            .counters = pass_list.buffer("counters", 16),
+            .indirect_arguments = pass_list.buffer("arguments", 36)};
 }
 
 void AmdDenoiserBench::begin_frame(const DenoiserInputs& frame, const DenoiserInputs* before) {
     const auto input = [&](const char* name, Format format, const HostImage& pixels) {
-        const Image image = graph.image(name, format);
-        graph.upload(image, pixels);
+        const Image image = pass_list.image(name, format);
+        pass_list.upload(image, pixels);
         return image;
     };
     gbuffer.depth = input("depth", Format::r32f, frame.depth);
     gbuffer.normal = input("normal", Format::rgba32f, frame.normal);
     gbuffer.motion = input("motion", Format::rg32f, frame.motion);
     gbuffer.previous_depth =
-        input("previous_depth", Format::r32f, before ? before->depth : HostImage(graph.extent(), 1));
+        input("previous_depth", Format::r32f, before ? before->depth : HostImage(pass_list.extent(), 1));
     gbuffer.previous_normal =
-        input("previous_normal", Format::rgba32f, before ? before->normal : HostImage(graph.extent(), 4));
-    graph.begin_frame(frame.camera, params, std::vector{gbuffer.depth, gbuffer.normal, gbuffer.motion});
-    histories = amd_histories(graph, denoiser.float_histories, false);
+        input("previous_normal", Format::rgba32f, before ? before->normal : HostImage(pass_list.extent(), 4));
+    pass_list.begin_frame(frame.camera, params, std::vector{gbuffer.depth, gbuffer.normal, gbuffer.motion});
+    histories = amd_histories(pass_list, denoiser.float_histories, false);
     upload(histories.radiance.current, frame.radiance);
-    graph.upload(histories.roughness.current, frame.roughness);
-    graph.upload(histories.roughness.previous, before ? before->roughness : HostImage(graph.extent(), 1));
+    pass_list.upload(histories.roughness.current, frame.roughness);
+    pass_list.upload(histories.roughness.previous, before ? before->roughness : HostImage(pass_list.extent(), 1));
 
     std::vector<uint32_t> list;
     for (uint32_t y = 0; y < frame.tiles.extent.y; ++y)
@@ -61,13 +61,13 @@ void AmdDenoiserBench::begin_frame(const DenoiserInputs& frame, const DenoiserIn
             if (*frame.tiles.pixel(x, y) > 0) list.push_back(8 * y << 16 | 8 * x);
     const uint32_t count = uint32_t(list.size());
     const uint32_t arguments[9] = {0, 0, 1, count, 1, 1, (count + 7) / 8, 1, 1}, counters[4] = {0, 0, 0, count};
-    graph.upload(work.counters, std::as_bytes(std::span(counters)));
-    graph.upload(work.tile_list, std::as_bytes(std::span(list)));
-    graph.upload(work.indirect_arguments, std::as_bytes(std::span(arguments)));
+    pass_list.upload(work.counters, std::as_bytes(std::span(counters)));
+    pass_list.upload(work.tile_list, std::as_bytes(std::span(list)));
+    pass_list.upload(work.indirect_arguments, std::as_bytes(std::span(arguments)));
 }
 
 void AmdDenoiserBench::upload(const Image& image, const HostImage& pixels) {
-    graph.upload(image, resized_channels(pixels, channels_of(image.format)));
+    pass_list.upload(image, resized_channels(pixels, channels_of(image.format)));
 }
 
-void AmdDenoiserBench::fill(const Image& image, glm::vec4 value) { graph.clear(image, value); }
+void AmdDenoiserBench::fill(const Image& image, glm::vec4 value) { pass_list.clear(image, value); }

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/gpu/passes/pass_graph.h"
+#include "core/gpu/passes/pass_list.h"
 #include "tests/variants/amd_passes.h"
 
 /// What the denoiser gets for one frame.
@@ -12,7 +12,7 @@ struct DenoiserInputs {
 
 /// Runs the denoiser's passes on given inputs.
 struct AmdDenoiserBench {
-    PassGraph graph;
+    PassList pass_list;
     ParameterSet params;
     AmdTracingParameters tracing{params};
     AmdDenoiserParameters denoiser{params};
@@ -25,7 +25,7 @@ struct AmdDenoiserBench {
     /// Uploads the frame's inputs. `before`: the frame before, or nullptr, which makes its depth, normals and alpha 0.
     void begin_frame(const DenoiserInputs& frame, const DenoiserInputs* before);
 
-    Image reprojected() { return graph.image("reprojected_radiance", histories.radiance.current.format); }
+    Image reprojected() { return pass_list.image("reprojected_radiance", histories.radiance.current.format); }
 
     /// Uploads what the image's format holds of the channels of `pixels`.
     void upload(const Image& image, const HostImage& pixels);

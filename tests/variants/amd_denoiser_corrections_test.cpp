@@ -1,5 +1,5 @@
 #include "tests/variants/denoiser_scene.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <cmath>
 #include <limits>
@@ -9,24 +9,26 @@
 namespace {
 
 /// In the faithful form, which compiles faster; amd_denoiser_forms_test.cpp holds the fast one to it.
-struct AmdDenoiserCorrections : VariantTest {};
+struct AmdDenoiserCorrections : TechniqueTest {};
 
 nlohmann::json with(const char* correction, bool is_on, const char* form = "faithful") {
     return {{"denoiser_form", form}, {"barrier_before_average", true}, {correction, is_on}};
 }
 
-void resolve(AmdDenoiserBench& bench) { amd_resolve_temporal(bench.graph, bench.work, bench.histories, bench.denoiser); }
+void resolve(AmdDenoiserBench& bench) {
+    amd_resolve_temporal(bench.pass_list, bench.work, bench.histories, bench.denoiser);
+}
 void reproject(AmdDenoiserBench& bench) {
-    amd_reproject(bench.graph, bench.gbuffer, bench.work, bench.histories, bench.denoiser);
+    amd_reproject(bench.pass_list, bench.gbuffer, bench.work, bench.histories, bench.denoiser);
 }
 void denoise(AmdDenoiserBench& bench) {
-    amd_denoise(bench.graph, bench.gbuffer, bench.work, bench.histories, bench.denoiser);
+    amd_denoise(bench.pass_list, bench.gbuffer, bench.work, bench.histories, bench.denoiser);
 }
 
 /// Fills what the temporal resolve reads: a checkered signal around its average, and history.
 void fill_resolve_inputs(AmdDenoiserBench& bench, float history, float samples_before, float samples_now) {
     const AmdHistories& h = bench.histories;
-    HostImage pixels(bench.graph.extent(), 4);
+    HostImage pixels(bench.pass_list.extent(), 4);
     for (unsigned y = 0; y < pixels.extent.y; ++y)
         for (unsigned x = 0; x < pixels.extent.x; ++x) pixels.pixel(x, y)[0] = checkered(x, y).x;
     for (size_t i = 0; i < pixels.pixel_count(); ++i) pixels.set_rgb(i, glm::vec3(pixels.values[4 * i]));
@@ -41,7 +43,7 @@ void fill_resolve_inputs(AmdDenoiserBench& bench, float history, float samples_b
 
 /// The red value at the centre of an image.
 float at_center(AmdDenoiserBench& bench, const Image& image) {
-    return bench.graph.download(image).pixel(image.extent.x / 2, image.extent.y / 2)[0];
+    return bench.pass_list.download(image).pixel(image.extent.x / 2, image.extent.y / 2)[0];
 }
 
 constexpr float half_error = 1e-3f;  // of values up to 1, truncated to halves a few times over
@@ -69,7 +71,7 @@ TEST_F(AmdDenoiserCorrections, NoDarkExit) {
         AmdDenoiserBench bench(device(), inputs.depth.extent, with("no_dark_exit", is_on));
         bench.begin_frame(inputs, nullptr);
         fill_resolve_inputs(bench, 0.6f, 4.0f, 4.0f);
-        HostImage pixels = bench.graph.download(bench.histories.radiance.previous);
+        HostImage pixels = bench.pass_list.download(bench.histories.radiance.previous);
         pixels.set_rgb(32 * 64 + 32, glm::vec3(1e-5f));
         bench.upload(bench.histories.radiance.previous, pixels);
         resolve(bench);
@@ -107,7 +109,7 @@ TEST_F(AmdDenoiserCorrections, RoundUpTiles) {
         for (size_t i = 0; i < averages.pixel_count(); ++i) averages.set_rgb(i, glm::vec3(float(i % 12 + 1) / 16));
         bench.upload(bench.histories.average_radiance.current, averages);
         resolve(bench);
-        const HostImage found = bench.graph.download(bench.histories.radiance.current);
+        const HostImage found = bench.pass_list.download(bench.histories.radiance.current);
         for (const unsigned x : {20u, 44u, 68u}) {
             const double right = (x + 0.5) / 8, wrong = (x + 0.5) / (92 + 8) * 12;  // tiles
             EXPECT_NEAR(found.pixel(x, 32)[0], ((is_on ? right : wrong) + 0.5) / 16, half_error) << x;
@@ -135,7 +137,7 @@ TEST_F(AmdDenoiserCorrections, RelativeDepthWeight) {
             bench.begin_frame(inputs, nullptr);
             bench.fill(bench.histories.variance.current, glm::vec4(1.0f));
             bench.fill(bench.histories.average_radiance.current, glm::vec4(0.5f));
-            amd_prefilter(bench.graph, bench.work, bench.histories, bench.denoiser);
+            amd_prefilter(bench.pass_list, bench.work, bench.histories, bench.denoiser);
             found[scale < 1] = at_center(bench, bench.histories.radiance.previous);
         }
         if (is_on) {
@@ -194,7 +196,7 @@ TEST_F(AmdDenoiserCorrections, FiniteNeighborhood) {
         AmdDenoiserBench bench(device(), inputs.depth.extent, with("finite_neighborhood", is_on));
         bench.begin_frame(inputs, nullptr);
         denoise(bench);
-        const HostImage found = bench.graph.download(bench.histories.radiance.current);
+        const HostImage found = bench.pass_list.download(bench.histories.radiance.current);
         unsigned black = 0;
         for (size_t i = 0; i < found.pixel_count(); ++i) {
             ASSERT_TRUE(std::isfinite(found.rgb(i).x));
@@ -220,11 +222,11 @@ TEST_F(AmdDenoiserCorrections, FiniteNeighborhoodTakesNothingForMoreThanTheLarge
             const float brightest[] = {65504, 1e6f, 1e30f};
             bench.begin_frame(inputs, nullptr);
             fill_resolve_inputs(bench, 0.6f, 4.0f, 4.0f);
-            HostImage pixels = bench.graph.download(bench.histories.radiance.previous);
+            HostImage pixels = bench.pass_list.download(bench.histories.radiance.previous);
             pixels.set_rgb(32 * 64 + 32, glm::vec3(brightest[i]));
             bench.upload(bench.histories.radiance.previous, pixels);
             resolve(bench);
-            found[i] = bench.graph.download(bench.histories.radiance.current);
+            found[i] = bench.pass_list.download(bench.histories.radiance.current);
         }
         EXPECT_GT(found[0].pixel(34, 32)[0], 0.1f);
         for (int i = 1; i < 3; ++i) EXPECT_TRUE(found[i].values == found[0].values) << form;
@@ -243,7 +245,7 @@ TEST_F(AmdDenoiserCorrections, FiniteNeighborhoodClampsAverages) {
             AmdDenoiserBench bench(device(), inputs.depth.extent, parameters);
             bench.begin_frame(inputs, nullptr);
             reproject(bench);
-            found[i] = bench.graph.download(bench.histories.average_radiance.current);
+            found[i] = bench.pass_list.download(bench.histories.average_radiance.current);
         }
         EXPECT_GT(found[0].pixel(4, 4)[0], 1.0f);
         EXPECT_TRUE(found[1].values == found[0].values) << form;
@@ -265,7 +267,7 @@ TEST_F(AmdDenoiserCorrections, FreshNeighborhood) {
             for (const Image& image : {h.radiance.previous, h.variance.current, h.average_radiance.current})
                 bench.fill(image, glm::vec4(stale));
             denoise(bench);
-            found[stale > 0] = bench.graph.download(h.radiance.current);
+            found[stale > 0] = bench.pass_list.download(h.radiance.current);
         }
         double greatest = 0;
         for (unsigned y = 0; y < 64; ++y)
@@ -304,7 +306,7 @@ TEST_F(AmdDenoiserCorrections, FloatHistoriesFilterWhatHalvesTakeForNothing) {
         bench.begin_frame(inputs, nullptr);
         bench.fill(bench.histories.variance.current, glm::vec4(1e-9f));
         bench.fill(bench.histories.average_radiance.current, glm::vec4(0.5f));
-        amd_prefilter(bench.graph, bench.work, bench.histories, bench.denoiser);
+        amd_prefilter(bench.pass_list, bench.work, bench.histories, bench.denoiser);
         const float change = std::abs(at_center(bench, bench.histories.radiance.previous) -
                                       at_center(bench, bench.histories.radiance.current));
         if (is_on) {

@@ -1,6 +1,6 @@
 #include "tests/variants/denoiser_scene.h"
 #include "tests/variants/denoiser_tolerance.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <cmath>
 
@@ -22,23 +22,23 @@ nlohmann::json with_form(nlohmann::json parameters, const char* form) {
     return parameters;
 }
 
-struct AmdDenoiserForms : VariantTest, testing::WithParamInterface<Case> {
+struct AmdDenoiserForms : TechniqueTest, testing::WithParamInterface<Case> {
     AmdDenoiserBench faithful{device(), GetParam().extent, with_form(GetParam().parameters, "faithful")};
     AmdDenoiserBench fast{device(), GetParam().extent, with_form(GetParam().parameters, "fast")};
 
     /// Holds the fast form's image to the faithful one's and replaces it by that, so that each pass is fed alike.
     void compare(const std::string& what, const DenoiserInputs& inputs, const Image& expected, const Image& found,
                  const Tolerance& tolerance) {
-        const HostImage golden = faithful.graph.download(expected);
+        const HostImage golden = faithful.pass_list.download(expected);
         const bool is_of_tiles = golden.extent == inputs.tiles.extent;
         expect_near(
-            what, fast.graph.download(found), golden,
+            what, fast.pass_list.download(found), golden,
             [&](unsigned x, unsigned y) {
                 if (is_of_tiles) return *inputs.tiles.pixel(x, y) > 0;
                 return *inputs.tiles.pixel(x / 8, y / 8) > 0 && *inputs.roughness.pixel(x, y) < 0.2f;
             },
             tolerance);
-        fast.graph.upload(found, golden);
+        fast.pass_list.upload(found, golden);
     }
 };
 
@@ -61,17 +61,17 @@ TEST_P(AmdDenoiserForms, GiveTheSame) {
         for (AmdDenoiserBench* bench : {&faithful, &fast}) bench->begin_frame(now, before);
         const AmdHistories &a = faithful.histories, &b = fast.histories;
         for (AmdDenoiserBench* bench : {&faithful, &fast})
-            amd_reproject(bench->graph, bench->gbuffer, bench->work, bench->histories, bench->denoiser);
+            amd_reproject(bench->pass_list, bench->gbuffer, bench->work, bench->histories, bench->denoiser);
         compare("reprojected" + frame, now, faithful.reprojected(), fast.reprojected(), interpolated);
         compare("variance" + frame, now, a.variance.current, b.variance.current, squared_change);
         compare("count" + frame, now, a.sample_count.current, b.sample_count.current, one_half);
         compare("average" + frame, now, a.average_radiance.current, b.average_radiance.current, one_small_float);
         for (AmdDenoiserBench* bench : {&faithful, &fast})
-            amd_prefilter(bench->graph, bench->work, bench->histories, bench->denoiser);
+            amd_prefilter(bench->pass_list, bench->work, bench->histories, bench->denoiser);
         compare("prefiltered" + frame, now, a.radiance.previous, b.radiance.previous, one_half);
         compare("prefiltered variance" + frame, now, a.variance.previous, b.variance.previous, squared_change);
         for (AmdDenoiserBench* bench : {&faithful, &fast})
-            amd_resolve_temporal(bench->graph, bench->work, bench->histories, bench->denoiser);
+            amd_resolve_temporal(bench->pass_list, bench->work, bench->histories, bench->denoiser);
         compare("resolved" + frame, now, a.radiance.current, b.radiance.current, one_half);
         compare("resolved variance" + frame, now, a.variance.current, b.variance.current, squared_change);
     }
@@ -85,15 +85,15 @@ INSTANTIATE_TEST_SUITE_P(amd_denoiser, AmdDenoiserForms,
 
 namespace {
 
-struct AmdDenoiserFloat16 : VariantTest {
+struct AmdDenoiserFloat16 : TechniqueTest {
     /// What the denoiser shows of the last of some frames, each fed by the form's own.
     HostImage resolved(const char* form, const std::vector<DenoiserInputs>& frames) {
         AmdDenoiserBench bench(device(), frames.front().depth.extent, with_form({}, form));
         HostImage image;
         for (size_t i = 0; i < frames.size(); ++i) {
             bench.begin_frame(frames[i], i > 0 ? &frames[i - 1] : nullptr);
-            amd_denoise(bench.graph, bench.gbuffer, bench.work, bench.histories, bench.denoiser);
-            image = bench.graph.download(bench.histories.radiance.current);
+            amd_denoise(bench.pass_list, bench.gbuffer, bench.work, bench.histories, bench.denoiser);
+            image = bench.pass_list.download(bench.histories.radiance.current);
         }
         return image;
     }

@@ -1,6 +1,6 @@
 #include "tests/variants/denoiser_tolerance.h"
 #include "tests/variants/golden_denoiser.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <cmath>
 
@@ -22,19 +22,19 @@ protected:
         return read[set];
     }
     void SetUp() override { ASSERT_GE(frames.size(), 2u); }
-    void TearDown() override { EXPECT_EQ(VariantTest::device().validation_messages(), std::vector<std::string>()); }
+    void TearDown() override { EXPECT_EQ(TechniqueTest::device().validation_messages(), std::vector<std::string>()); }
 
     const std::vector<GoldenDenoiserFrame>& frames = frames_of(GetParam().set);
     const nlohmann::json meta = golden_meta(GetParam().set);
     const unsigned border = meta.value("compare_border", 0u);
-    AmdDenoiserBench bench{VariantTest::device(),
-                        frames.front().resolved.extent,
-                        {{"denoiser_form", GetParam().form},
-                         {"stale_average", true},
-                         {"barrier_before_average", true},
-                         {"roughness_threshold_alpha", meta["parameters"]["roughnessThreshold (alpha)"]},
-                         {"temporal_stability_factor", meta["parameters"]["temporalStabilityFactor"]},
-                         {"max_samples", meta["parameters"]["max_samples"]}}};
+    AmdDenoiserBench bench{TechniqueTest::device(),
+                           frames.front().resolved.extent,
+                           {{"denoiser_form", GetParam().form},
+                            {"stale_average", true},
+                            {"barrier_before_average", true},
+                            {"roughness_threshold_alpha", meta["parameters"]["roughnessThreshold (alpha)"]},
+                            {"temporal_stability_factor", meta["parameters"]["temporalStabilityFactor"]},
+                            {"max_samples", meta["parameters"]["max_samples"]}}};
 
     IsCompared is_compared(size_t frame) const {
         return [&, frame](unsigned x, unsigned y) { return frames[frame].is_compared(x, y, border); };
@@ -53,8 +53,8 @@ protected:
     }
     void expect(const std::string& what, size_t frame, const Image& ours, const HostImage& theirs,
                 const Tolerance& tolerance) {
-        expect_near(what + " of frame " + std::to_string(frame), bench.graph.download(ours), theirs, is_compared(frame),
-                    tolerance);
+        expect_near(what + " of frame " + std::to_string(frame), bench.pass_list.download(ours), theirs,
+                    is_compared(frame), tolerance);
     }
 };
 
@@ -77,22 +77,23 @@ TEST_P(AmdDenoiserOf, EachPassFedTheRecordedInputs) {
         upload(h.sample_count.previous, before ? &before->sample_count : nullptr);
         upload(h.average_radiance.previous, before ? &before->average : nullptr);
 
-        amd_reproject(bench.graph, bench.gbuffer, bench.work, h, bench.denoiser);
+        amd_reproject(bench.pass_list, bench.gbuffer, bench.work, h, bench.denoiser);
         expect("reprojected radiance", k, bench.reprojected(), now.reprojected, interpolated);
         expect("reprojected variance", k, h.variance.current, now.reprojected_variance, squared_change);
         expect("sample count", k, h.sample_count.current, now.sample_count, one_half);
-        expect_near("average radiance of frame " + std::to_string(k), bench.graph.download(h.average_radiance.current),
-                    now.average, is_tile_compared(k), one_small_float);
+        expect_near("average radiance of frame " + std::to_string(k),
+                    bench.pass_list.download(h.average_radiance.current), now.average, is_tile_compared(k),
+                    one_small_float);
 
         upload(h.variance.current, &now.reprojected_variance);
-        amd_prefilter(bench.graph, bench.work, h, bench.denoiser);
+        amd_prefilter(bench.pass_list, bench.work, h, bench.denoiser);
         expect("prefiltered radiance", k, h.radiance.previous, now.prefiltered, one_half);
         expect("prefiltered variance", k, h.variance.previous, now.prefiltered_variance, squared_change);
 
         upload(h.radiance.previous, &now.prefiltered);
         upload(h.variance.previous, &now.prefiltered_variance);
         upload(bench.reprojected(), &now.reprojected);
-        amd_resolve_temporal(bench.graph, bench.work, h, bench.denoiser);
+        amd_resolve_temporal(bench.pass_list, bench.work, h, bench.denoiser);
         expect("resolved radiance", k, h.radiance.current, now.resolved, one_half);
         expect("resolved variance", k, h.variance.current, now.resolved_variance, squared_change);
     }
@@ -103,8 +104,8 @@ TEST_P(AmdDenoiserOf, EachPassFedTheRecordedInputs) {
 TEST_P(AmdDenoiserOf, WholeChainRunFreely) {
     for (size_t k = 0; k < frames.size(); ++k) {
         bench.begin_frame(frames[k].inputs, k > 0 ? &frames[k - 1].inputs : nullptr);
-        amd_denoise(bench.graph, bench.gbuffer, bench.work, bench.histories, bench.denoiser);
-        const HostImage ours = bench.graph.download(bench.histories.radiance.current);
+        amd_denoise(bench.pass_list, bench.gbuffer, bench.work, bench.histories, bench.denoiser);
+        const HostImage ours = bench.pass_list.download(bench.histories.radiance.current);
         double sum = 0;
         size_t count = 0;
         for (unsigned y = 0; y < ours.extent.y; ++y)

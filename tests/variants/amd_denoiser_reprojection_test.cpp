@@ -1,5 +1,5 @@
 #include "tests/variants/denoiser_scene.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <optional>
@@ -55,7 +55,7 @@ HostImage ramp() {
 }
 float place_on_ramp(float value, int axis) { return (value - ramp_start) / ramp_rise * float(extent[axis]); }
 
-struct AmdDenoiserReprojection : VariantTest {
+struct AmdDenoiserReprojection : TechniqueTest {
     CameraPose before{.world_from_view = glm::translate(glm::mat4(1), {0, 0, 4}), .orthographic_height = 3};
     FrameView view{.extent = extent, .frame = 1};
 
@@ -74,8 +74,8 @@ struct AmdDenoiserReprojection : VariantTest {
         AmdDenoiserBench bench(device(), extent, parameters);
         bench.begin_frame(now, &last);
         bench.upload(bench.histories.radiance.previous, ramp());
-        amd_reproject(bench.graph, bench.gbuffer, bench.work, bench.histories, bench.denoiser);
-        const HostImage found = bench.graph.download(bench.reprojected());
+        amd_reproject(bench.pass_list, bench.gbuffer, bench.work, bench.histories, bench.denoiser);
+        const HostImage found = bench.pass_list.download(bench.reprojected());
         unsigned compared = 0;
         // The 9x9 pixels that history must resemble lie inside of the image.
         for (unsigned y = 4; y < extent.y - 4; ++y)

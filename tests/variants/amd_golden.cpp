@@ -30,16 +30,16 @@ HostGBuffer amd_golden_hit_gbuffer(const std::string& set) {
 namespace {
 
 /// The first `count` words of the buffer.
-std::vector<uint32_t> words(PassGraph& graph, const Buffer& buffer, size_t count) {
-    const std::vector<std::byte> bytes = graph.download(buffer);
+std::vector<uint32_t> words(PassList& pass_list, const Buffer& buffer, size_t count) {
+    const std::vector<std::byte> bytes = pass_list.download(buffer);
     std::vector<uint32_t> values(count);
     if (count > 0) std::memcpy(values.data(), bytes.data(), count * 4);
     return values;
 }
 
-/// The passes of one frame on a graph of their own.
+/// The passes of one frame on a pass_list of their own.
 struct TracedFrame {
-    PassGraph graph;
+    PassList pass_list;
     AmdParameters parameters;
     GBuffer gbuffer;
     AmdHistories histories;
@@ -48,35 +48,35 @@ struct TracedFrame {
     AmdWork work;
 
     TracedFrame(Device& device, const HostGBuffer& host, const nlohmann::json& overrides)
-        : graph(device, host.extent()), gbuffer(upload_gbuffer(graph, host)) {
+        : pass_list(device, host.extent()), gbuffer(upload_gbuffer(pass_list, host)) {
         parameters.params.assign(overrides);
-        graph.begin_frame(host.camera, parameters.params, gbuffer.images());
-        histories = amd_histories(graph, true, parameters.tracing.float_roughness);
-        confidence = graph.image("confidence", Format::r8);
-        images = parameters.tracing.tracers.images(graph, gbuffer.depth);
+        pass_list.begin_frame(host.camera, parameters.params, gbuffer.images());
+        histories = amd_histories(pass_list, true, parameters.tracing.float_roughness);
+        confidence = pass_list.image("confidence", Format::r8);
+        images = parameters.tracing.tracers.images(pass_list, gbuffer.depth);
     }
 
-    void classify() { work = amd_classify(graph, gbuffer, histories, confidence, parameters.denoiser); }
+    void classify() { work = amd_classify(pass_list, gbuffer, histories, confidence, parameters.denoiser); }
 
     /// Puts the listed rays into the order in which one thread lists them, tile after tile. Several threads interleave
     /// tiles, so that rays of others share a subgroup.
     void sort_rays_by_tile() {
-        std::vector<uint32_t> rays = words(graph, work.ray_list, work.ray_list.size / 4);
+        std::vector<uint32_t> rays = words(pass_list, work.ray_list, work.ray_list.size / 4);
         const auto tile_of = [](uint32_t ray) { return std::pair((ray >> 15 & 0x3fff) / 8, (ray & 0x7fff) / 8); };
-        std::stable_sort(rays.begin(), rays.begin() + words(graph, work.counters, 1)[0],
+        std::stable_sort(rays.begin(), rays.begin() + words(pass_list, work.counters, 1)[0],
                          [&](uint32_t a, uint32_t b) { return tile_of(a) < tile_of(b); });
-        graph.upload(work.ray_list, std::as_bytes(std::span(rays)));
+        pass_list.upload(work.ray_list, std::as_bytes(std::span(rays)));
     }
 
     /// `counters`: where those of rays and tiles are, before or after the arguments are prepared.
     AmdTraced result(unsigned rays, unsigned tiles) {
-        const std::vector<uint32_t> counters = words(graph, work.counters, 4);
-        return {.rays = words(graph, work.ray_list, counters[rays]),
-                .tiles = words(graph, work.tile_list, counters[tiles]),
-                .radiance = graph.download(histories.radiance.current),
-                .roughness = graph.download(histories.roughness.current),
-                .confidence = graph.download(confidence),
-                .arguments = words(graph, work.indirect_arguments, 6)};
+        const std::vector<uint32_t> counters = words(pass_list, work.counters, 4);
+        return {.rays = words(pass_list, work.ray_list, counters[rays]),
+                .tiles = words(pass_list, work.tile_list, counters[tiles]),
+                .radiance = pass_list.download(histories.radiance.current),
+                .roughness = pass_list.download(histories.roughness.current),
+                .confidence = pass_list.download(confidence),
+                .arguments = words(pass_list, work.indirect_arguments, 6)};
     }
 };
 
@@ -85,7 +85,7 @@ struct TracedFrame {
 AmdTraced amd_classify_frame(Device& device, const HostGBuffer& gbuffer, const nlohmann::json& parameters,
                              const HostImage* variance) {
     TracedFrame frame(device, gbuffer, parameters);
-    if (variance) frame.graph.upload(frame.histories.variance.previous, *variance);
+    if (variance) frame.pass_list.upload(frame.histories.variance.previous, *variance);
     frame.classify();
     return frame.result(0, 2);
 }
@@ -93,12 +93,12 @@ AmdTraced amd_classify_frame(Device& device, const HostGBuffer& gbuffer, const n
 AmdTraced amd_trace_frame(Device& device, const HostGBuffer& gbuffer, const nlohmann::json& parameters,
                           const HostImage& noise, RayProbe* probe) {
     TracedFrame frame(device, gbuffer, parameters);
-    const Image numbers = frame.graph.image_of("blue_noise", Format::rg32f, noise.extent);
-    frame.graph.upload(numbers, noise);
+    const Image numbers = frame.pass_list.image_of("blue_noise", Format::rg32f, noise.extent);
+    frame.pass_list.upload(numbers, noise);
     frame.classify();
     frame.sort_rays_by_tile();
-    amd_prepare_arguments(frame.graph, frame.work, frame.parameters.denoiser);
-    amd_intersect(frame.graph, frame.gbuffer, frame.images, numbers, frame.work, frame.histories,
+    amd_prepare_arguments(frame.pass_list, frame.work, frame.parameters.denoiser);
+    amd_intersect(frame.pass_list, frame.gbuffer, frame.images, numbers, frame.work, frame.histories,
                   frame.parameters.tracing, probe);
     return frame.result(1, 3);
 }

@@ -1,5 +1,5 @@
 #include "tests/variants/amd_golden.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <cmath>
 
@@ -10,7 +10,7 @@ struct Agreement {
     size_t rays = 0, same_pixel = 0, same_confidence = 0, same_length = 0;
 };
 
-struct AmdIntersectionOf : VariantTest, testing::WithParamInterface<std::string> {
+struct AmdIntersectionOf : TechniqueTest, testing::WithParamInterface<std::string> {
     const HostGBuffer gbuffer = amd_golden_gbuffer(GetParam()), hit_gbuffer = amd_golden_hit_gbuffer(GetParam());
 
     std::string file(const std::string& kind, const std::string& parameters) const {

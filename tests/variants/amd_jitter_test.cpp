@@ -1,6 +1,6 @@
 // What AMD's technique draws at random: normals or rays.
 #include "tests/variants/synthetic_gbuffer.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <array>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace {
 
-struct AmdJitter : VariantTest {
+struct AmdJitter : TechniqueTest {
     static constexpr float roughness = 0.4f;
     FrameView view{.extent = {128, 128}};
     CameraPose pose{.is_orthographic = true, .orthographic_height = 2};
@@ -23,21 +23,21 @@ struct AmdJitter : VariantTest {
                                 .metalness = 1,
                                 .specular = 1};
         };
-        const auto variant = make_variant("amd_sssr", {{"jitter", jitter},
-                                                       {"samples_per_quad", 4},
-                                                       {"noise", "white"},
-                                                       {"denoise", false},
-                                                       {"float_roughness", true}});
+        const auto technique = make_technique("amd_sssr", {{"jitter", jitter},
+                                                           {"samples_per_quad", 4},
+                                                           {"noise", "white"},
+                                                           {"denoise", false},
+                                                           {"float_roughness", true}});
         RayProbe probe;
         probe.is_recording = true;
-        variant->ray_probe = &probe;
-        PassGraph graph(device(), view.extent);
+        technique->ray_probe = &probe;
+        PassList pass_list(device(), view.extent);
         std::vector<glm::dvec3> directions;
         for (view.frame = 0; view.frame < 4; ++view.frame) {
             const CameraData camera = camera_data(pose, view.frame > 0 ? &pose : nullptr, view);
-            const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, plane);
-            graph.begin_frame(camera, variant->params, gbuffer.images());
-            variant->render(graph, gbuffer);
+            const GBuffer gbuffer = upload_gbuffer(pass_list, pose, camera, plane);
+            pass_list.begin_frame(camera, technique->params, gbuffer.images());
+            technique->render(pass_list, gbuffer);
             for (const RayRecord& ray : probe.recorded.at(0).rays)
                 if (ray.is_traced > 0) directions.push_back(ray.direction);
             probe.recorded.clear();

@@ -1,7 +1,7 @@
 #include "core/gbuffer/environment_images.h"
 #include "tests/variants/amd_golden.h"
 #include "tests/variants/amd_scenes.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -9,7 +9,7 @@
 
 namespace {
 
-struct AmdMisses : VariantTest {
+struct AmdMisses : TechniqueTest {
     /// Turned about all axes, so that no row or column of the matrix stands in for another.
     CameraPose pose{.world_from_view = glm::rotate(glm::mat4(1), 0.6f, glm::vec3(0.5f, 1, 0.3f)),
                     .vertical_fov = 1.2f,
@@ -19,17 +19,17 @@ struct AmdMisses : VariantTest {
 
     /// `misses`: the parameter; with "weight" rays see the pixel's fallback, here of 0.25.
     void expect_environment(const Environment& environment, float ibl_factor, const std::string& misses = "fallback") {
-        PassGraph graph(device(), view.extent);
+        PassList pass_list(device(), view.extent);
         const CameraData camera = camera_data(pose, nullptr, view);
-        const EnvironmentImages images(graph, environment, false);
-        GBuffer gbuffer = upload_gbuffer(graph, pose, camera, floor_below_nothing);
+        const EnvironmentImages images(pass_list, environment, false);
+        GBuffer gbuffer = upload_gbuffer(pass_list, pose, camera, floor_below_nothing);
         gbuffer.environment = &images;
-        graph.upload(gbuffer.fallback, HostImage(view.extent, 4, 0.25f));
-        const auto variant = make_variant(
+        pass_list.upload(gbuffer.fallback, HostImage(view.extent, 4, 0.25f));
+        const auto technique = make_technique(
             "amd_sssr",
             {{"denoise", false}, {"float_histories", true}, {"ibl_factor", ibl_factor}, {"misses", misses}});
-        graph.begin_frame(camera, variant->params, gbuffer.images());
-        const HostImage found = graph.download(variant->render(graph, gbuffer).radiance);
+        pass_list.begin_frame(camera, technique->params, gbuffer.images());
+        const HostImage found = pass_list.download(technique->render(pass_list, gbuffer).radiance);
         unsigned floor_pixels = 0;
         for (unsigned y = 0; y < view.extent.y; ++y)
             for (unsigned x = 0; x < view.extent.x; ++x) {
@@ -65,10 +65,10 @@ TEST_F(AmdMisses, SeeTheEnvironmentInTheDirectionOfTheirReflection) {
 
 /// A G-buffer from files knows the environment only as each pixel's fallback.
 TEST_F(AmdMisses, SeeTheFallbackOfTheirPixelInCaptures) {
-    PassGraph graph(device(), view.extent);
+    PassList pass_list(device(), view.extent);
     const CameraData camera = camera_data(pose, nullptr, view);
-    HostGBuffer capture =
-        download_gbuffer(graph, upload_gbuffer(graph, pose, camera, floor_below_nothing), camera, DepthFormat::d32f);
+    HostGBuffer capture = download_gbuffer(pass_list, upload_gbuffer(pass_list, pose, camera, floor_below_nothing),
+                                           camera, DepthFormat::d32f);
     for (unsigned y = 0; y < view.extent.y; ++y)
         for (unsigned x = 0; x < view.extent.x; ++x)
             capture.fallback.set_rgb(y * view.extent.x + x, {float(x), float(y), float((x * y) % 7)});

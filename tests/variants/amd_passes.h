@@ -23,9 +23,9 @@ struct AmdTracingParameters {
 
 /// What outlives a frame, by the names that technique.json gives them.
 struct AmdHistories {
-    PassGraph::History radiance, variance, sample_count, average_radiance, roughness;
+    PassList::History radiance, variance, sample_count, average_radiance, roughness;
 };
-AmdHistories amd_histories(PassGraph& graph, bool is_float, bool is_float_roughness);
+AmdHistories amd_histories(PassList& pass_list, bool is_float, bool is_float_roughness);
 
 struct AmdWork {
     Buffer ray_list, tile_list, counters, indirect_arguments;
@@ -33,17 +33,17 @@ struct AmdWork {
 
 inline float amd_alpha_of_8_bits(float alpha) { return alpha_of_8_bits(alpha); }
 
-AmdWork amd_classify(PassGraph& graph, const GBuffer& gbuffer, const AmdHistories& histories, const Image& confidence,
-                     const AmdDenoiserParameters& parameters);
-void amd_prepare_arguments(PassGraph& graph, const AmdWork& work, const AmdDenoiserParameters& parameters);
-void amd_intersect(PassGraph& graph, const GBuffer& gbuffer, const Tracers::Images& images, const Image& noise,
+AmdWork amd_classify(PassList& pass_list, const GBuffer& gbuffer, const AmdHistories& histories,
+                     const Image& confidence, const AmdDenoiserParameters& parameters);
+void amd_prepare_arguments(PassList& pass_list, const AmdWork& work, const AmdDenoiserParameters& parameters);
+void amd_intersect(PassList& pass_list, const GBuffer& gbuffer, const Tracers::Images& images, const Image& noise,
                    const AmdWork& work, const AmdHistories& histories, const AmdTracingParameters& parameters,
                    RayProbe* probe = nullptr);
-void amd_reproject(PassGraph& graph, const GBuffer& gbuffer, const AmdWork& work, const AmdHistories& histories,
+void amd_reproject(PassList& pass_list, const GBuffer& gbuffer, const AmdWork& work, const AmdHistories& histories,
                    const AmdDenoiserParameters& parameters);
-void amd_prefilter(PassGraph& graph, const AmdWork& work, const AmdHistories& histories,
+void amd_prefilter(PassList& pass_list, const AmdWork& work, const AmdHistories& histories,
                    const AmdDenoiserParameters& parameters);
-void amd_resolve_temporal(PassGraph& graph, const AmdWork& work, const AmdHistories& histories,
+void amd_resolve_temporal(PassList& pass_list, const AmdWork& work, const AmdHistories& histories,
                           const AmdDenoiserParameters& parameters);
-void amd_denoise(PassGraph& graph, const GBuffer& gbuffer, const AmdWork& work, const AmdHistories& histories,
+void amd_denoise(PassList& pass_list, const GBuffer& gbuffer, const AmdWork& work, const AmdHistories& histories,
                  const AmdDenoiserParameters& parameters);

@@ -2,14 +2,14 @@
 #include "tests/variants/amd_golden.h"
 #include "tests/variants/denoiser_scene.h"
 #include "tests/variants/mirror_scenes.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 #include "variants/tracers/outcome.h"
 
 #include <cmath>
 
 namespace {
 
-struct AmdStages : VariantTest {
+struct AmdStages : TechniqueTest {
     CameraPose pose{.vertical_fov = 1.2f, .near = 0.1f, .far = 100.0f};
     FrameView view{.extent = {96, 120}};
     HostImage noise{{128, 128}, 2, 0.9f};
@@ -101,13 +101,13 @@ TEST_F(AmdStages, OfTheDenoiserLeaveWhatTheyWereGiven) {
             now.camera.frame.w = frame > 0;
             bench.begin_frame(now, &inputs);
             const AmdHistories& h = bench.histories;
-            amd_reproject(bench.graph, bench.gbuffer, bench.work, h, bench.denoiser);
-            passes.samples = bench.graph.download(h.sample_count.current);
-            passes.traced = bench.graph.download(h.radiance.current);
-            amd_prefilter(bench.graph, bench.work, h, bench.denoiser);
-            passes.prefiltered = bench.graph.download(h.radiance.previous);
-            amd_resolve_temporal(bench.graph, bench.work, h, bench.denoiser);
-            passes.resolved = bench.graph.download(h.radiance.current);
+            amd_reproject(bench.pass_list, bench.gbuffer, bench.work, h, bench.denoiser);
+            passes.samples = bench.pass_list.download(h.sample_count.current);
+            passes.traced = bench.pass_list.download(h.radiance.current);
+            amd_prefilter(bench.pass_list, bench.work, h, bench.denoiser);
+            passes.prefiltered = bench.pass_list.download(h.radiance.previous);
+            amd_resolve_temporal(bench.pass_list, bench.work, h, bench.denoiser);
+            passes.resolved = bench.pass_list.download(h.radiance.current);
         }
         return passes;
     };

@@ -1,25 +1,25 @@
 #include "tests/variants/amd_scenes.h"
 #include "tests/variants/other_subgroups.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 namespace {
 
 constexpr glm::uvec2 extent{128, 96};
 
-struct AmdSubgroups : VariantTest {
+struct AmdSubgroups : TechniqueTest {
     /// Three frames of a held camera; rough pixels of most quads wait for a neighbour's ray in the first.
     HostImage radiance(const nlohmann::json& parameters) {
-        PassGraph graph(device(), extent);
-        const std::unique_ptr<Variant> variant = make_variant("amd_sssr", parameters);
+        PassList pass_list(device(), extent);
+        const std::unique_ptr<Technique> technique = make_technique("amd_sssr", parameters);
         const CameraPose pose{.vertical_fov = 1.2f, .near = 0.1f, .far = 100.0f};
         Image image;
         for (unsigned frame = 0; frame < 3; ++frame) {
             const CameraData camera = camera_data(pose, &pose, {.extent = extent, .frame = frame});
-            const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, glossy_floor);
-            graph.begin_frame(camera, variant->params, gbuffer.images());
-            image = variant->render(graph, gbuffer).radiance;
+            const GBuffer gbuffer = upload_gbuffer(pass_list, pose, camera, glossy_floor);
+            pass_list.begin_frame(camera, technique->params, gbuffer.images());
+            image = technique->render(pass_list, gbuffer).radiance;
         }
-        return graph.download(image);
+        return pass_list.download(image);
     }
 
     /// Of both forms of the denoiser; and with the early exit of subgroups that few rays are left of.

@@ -153,9 +153,9 @@ TEST_P(RecordedNoise, IsWhatOurPassMakesOfTheOriginalTable) {
     const auto first = std::ranges::find(files, 0u, frame_of);
     ASSERT_NE(first, files.end()) << "no frame 0 among the recorded";
     begin(frame_of(GetParam()), 0);
-    noise.render(graph, NoiseShift::golden_diagonal);  // makes the images; then the table is exchanged
-    graph.upload(graph.image_of("blue_noise_table", Format::rg8, {128, 128}), recorded_numbers(*first));
-    const HostImage made = graph.download(noise.render(graph, NoiseShift::golden_diagonal));
+    noise.render(pass_list, NoiseShift::golden_diagonal);  // makes the images; then the table is exchanged
+    pass_list.upload(pass_list.image_of("blue_noise_table", Format::rg8, {128, 128}), recorded_numbers(*first));
+    const HostImage made = pass_list.download(noise.render(pass_list, NoiseShift::golden_diagonal));
     EXPECT_EQ(made.values, recorded_numbers(GetParam()).values);
 }
 

@@ -138,19 +138,21 @@ TEST_F(BlueNoisePass, GivesTheSameNumbersAsADraw) {
         for (const NoisePrecision precision : {NoisePrecision::bits_8, NoisePrecision::float_32})
             for (const unsigned seed : {0u, 3u}) {
                 begin(77, seed);
-                const HostImage computed = graph.download(noise.render(graph, shift, precision, NoiseStage::compute));
-                graph.clear(
-                    graph.image_of("blue_noise", precision == NoisePrecision::bits_8 ? Format::rg8 : Format::rg32f,
-                                   {128, 128}),
+                const HostImage computed =
+                    pass_list.download(noise.render(pass_list, shift, precision, NoiseStage::compute));
+                pass_list.clear(
+                    pass_list.image_of("blue_noise", precision == NoisePrecision::bits_8 ? Format::rg8 : Format::rg32f,
+                                       {128, 128}),
                     {});
-                const HostImage drawn = graph.download(noise.render(graph, shift, precision, NoiseStage::fragment));
+                const HostImage drawn =
+                    pass_list.download(noise.render(pass_list, shift, precision, NoiseStage::fragment));
                 EXPECT_EQ(drawn.values, computed.values) << int(shift) << ", seed " << seed;
             }
 }
 
 TEST_F(BlueNoisePass, ServesSeveralGraphs) {
     const HostImage first = numbers(5, 2, NoiseShift::r2);
-    PassGraph other(device(), {4, 4});
+    PassList other(device(), {4, 4});
     CameraData camera{};
     camera.frame = {5, 2, 0, 1};
     for (int repetition = 0; repetition < 2; ++repetition) {

@@ -1,7 +1,7 @@
 // Mips of the picture of reflections: how wide each is, which one a cone chooses, and what averages leave of colours.
 #include "tests/variants/synthetic_gbuffer.h"
+#include "tests/variants/technique_fixture.h"
 #include "tests/variants/technique_passes.h"
-#include "tests/variants/variant_fixture.h"
 
 #include <cmath>
 #include <random>
@@ -12,7 +12,7 @@ using Pixels = std::function<glm::vec4(glm::uvec2 pixel)>;  ///< what its rays s
 
 /// Seen from an orthographic camera, unless a test says otherwise, one pixel per metre. Rays are mirrored across the
 /// screen, at equal depth, to the farther side of it.
-struct ConeMips : VariantTest {
+struct ConeMips : TechniqueTest {
     ParameterSet params;
     ParameterView half_resolution{params, "half_resolution"};
 
@@ -39,28 +39,30 @@ struct ConeMips : VariantTest {
 
     /// Channels: radiance, confidence.
     HostImage show(const Pixels& seen) {
-        PassGraph graph(device(), extent);
-        return show(graph, seen);
+        PassList pass_list(device(), extent);
+        return show(pass_list, seen);
     }
-    HostImage show(PassGraph& graph, const Pixels& seen) {
+    HostImage show(PassList& pass_list, const Pixels& seen) {
         const CameraPose pose{
             .is_orthographic = is_orthographic, .orthographic_height = float(extent.y), .near = 1, .far = 20};
         const CameraData camera = camera_data(pose, nullptr, {.extent = extent});
-        const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, [&](const CameraRay& ray) { return surface(ray); });
+        const GBuffer gbuffer =
+            upload_gbuffer(pass_list, pose, camera, [&](const CameraRay& ray) { return surface(ray); });
         HostImage radiance(extent, 4);
         for (unsigned y = 0; y < extent.y; ++y)
             for (unsigned x = 0; x < extent.x; ++x)
                 for (int i = 0; i < 4; ++i) radiance.pixel(x, y)[i] = seen({x, y})[i];
-        const Image own_radiance = graph.image("own_radiance", Format::rgba32f),
-                    own_length = graph.image("own_length", Format::r32f);
-        graph.upload(own_radiance, radiance);
-        graph.upload(own_length, HostImage(extent, 1, ray_length));
-        graph.begin_frame(camera, params, gbuffer.images());
-        const HostImage shown = graph.download(
-            denoiser_passes("cone_mips", graph, gbuffer, {{"own_radiance", own_radiance}, {"own_length", own_length}})
-                .radiance);
-        levels =
-            graph.download(graph.image_of("cone_level", Format::r32f, half_resolution ? (extent + 1u) / 2u : extent));
+        const Image own_radiance = pass_list.image("own_radiance", Format::rgba32f),
+                    own_length = pass_list.image("own_length", Format::r32f);
+        pass_list.upload(own_radiance, radiance);
+        pass_list.upload(own_length, HostImage(extent, 1, ray_length));
+        pass_list.begin_frame(camera, params, gbuffer.images());
+        const HostImage shown =
+            pass_list.download(denoiser_passes("cone_mips", pass_list, gbuffer,
+                                               {{"own_radiance", own_radiance}, {"own_length", own_length}})
+                                   .radiance);
+        levels = pass_list.download(
+            pass_list.image_of("cone_level", Format::r32f, half_resolution ? (extent + 1u) / 2u : extent));
         return shown;
     }
 
@@ -109,11 +111,11 @@ double variance_between(double level) {
 TEST_F(ConeMips, EachLevelIsAsWideAsItsFormula) {
     extent = {256, 256};
     params.assign({{"average_linear", true}});
-    PassGraph graph(device(), extent);
-    show(graph, impulse());
-    const Image chain = graph.image_of("reflection_mips", Format::rgba32f, extent, 9);
+    PassList pass_list(device(), extent);
+    show(pass_list, impulse());
+    const Image chain = pass_list.image_of("reflection_mips", Format::rgba32f, extent, 9);
     for (unsigned level = 1; level <= 4; ++level) {
-        const glm::dvec2 found = spread(graph.download(chain.mip(level)), std::exp2(level));
+        const glm::dvec2 found = spread(pass_list.download(chain.mip(level)), std::exp2(level));
         // The pixel lies in the corner of its texel of each level, and not anywhere in it as the formula's do.
         for (int i = 0; i < 2; ++i) EXPECT_NEAR(found[i] / variance_of_level(level), 1, 0.02) << level;
     }
@@ -290,9 +292,10 @@ TEST_F(ConeMips, ConfidenceGrowsIntoMissesOrIsAMean) {
     const auto border = [](glm::uvec2 pixel) { return glm::vec4(pixel.x < 32 ? 1.0f : 0.0f); };
     for (const bool even_weights : {false, true}) {
         params.assign({{"even_weights", even_weights}});
-        PassGraph graph(device(), extent);
-        show(graph, border);
-        const HostImage level = graph.download(graph.image_of("reflection_mips", Format::rgba32f, extent, 5).mip(1));
+        PassList pass_list(device(), extent);
+        show(pass_list, border);
+        const HostImage level =
+            pass_list.download(pass_list.image_of("reflection_mips", Format::rgba32f, extent, 5).mip(1));
         EXPECT_NEAR(level.pixel(15, 4)[3], even_weights ? 0.6073f : 0.8855f, 1e-4f);
         EXPECT_NEAR(level.pixel(16, 4)[3], even_weights ? 0.3927f : 0.7638f, 1e-4f);
         EXPECT_NEAR(level.pixel(4, 4)[3], 1, 1e-6f);

@@ -1,12 +1,12 @@
 #include "tests/variants/denoiser_bench.h"
 
-#include "variants/denoisers/first_turn.h"
 #include "variants/denoisers/denoisers.h"
+#include "variants/denoisers/first_turn.h"
 
 DenoiserBench::DenoiserBench(Device& device, const std::string& denoiser, const CameraPose& pose, glm::uvec2 extent,
-                           SyntheticScene scene, const nlohmann::json& own, const nlohmann::json& of_technique)
+                             SyntheticScene scene, const nlohmann::json& own, const nlohmann::json& of_technique)
     : pose(pose),
-      graph(device, extent),
+      pass_list(device, extent),
       scene_(std::move(scene)),
       denoiser_(std::make_unique<Denoiser>(find_denoiser(denoiser))) {
     add_block(technique_, "denoisers/rays.json");
@@ -21,18 +21,18 @@ std::vector<glm::uvec2> DenoiserBench::traced_pixels() const {
     const unsigned side = value_of(technique_, "half_resolution") == true ? 2 : 1, turn = frame_ + first_turn(0);
     const glm::uvec2 of_quad = side == 1 ? glm::uvec2(0) : glm::uvec2((turn ^ turn >> 1) & 1, turn & 1);
     std::vector<glm::uvec2> pixels;
-    for (unsigned y = 0; y < graph.extent().y; y += side)
-        for (unsigned x = 0; x < graph.extent().x; x += side)
-            pixels.push_back(glm::min(glm::uvec2(x, y) + of_quad, graph.extent() - 1u));
+    for (unsigned y = 0; y < pass_list.extent().y; y += side)
+        for (unsigned x = 0; x < pass_list.extent().x; x += side)
+            pixels.push_back(glm::min(glm::uvec2(x, y) + of_quad, pass_list.extent() - 1u));
     return pixels;
 }
 
 /// In images of their own; in the first frame its own.
 void DenoiserBench::keep_previous(GBuffer& gbuffer) {
     const auto keep = [&](Image& input, const char* name, const Image& current, HostImage& before) {
-        const HostImage now = graph.download(current);
-        input = graph.image(std::string("kept_") + name, current.format).as(name);
-        graph.upload(input, frame_ > 0 ? before : now);
+        const HostImage now = pass_list.download(current);
+        input = pass_list.image(std::string("kept_") + name, current.format).as(name);
+        pass_list.upload(input, frame_ > 0 ? before : now);
         before = now;
     };
     keep(gbuffer.previous_depth, "previous_depth", gbuffer.depth, depth_before_);
@@ -40,12 +40,12 @@ void DenoiserBench::keep_previous(GBuffer& gbuffer) {
 }
 
 HostImage DenoiserBench::next(const RayFrame& frame) {
-    const glm::uvec2 extent = graph.extent();
+    const glm::uvec2 extent = pass_list.extent();
     const FrameView view{.extent = extent, .frame = frame_};
     const CameraData camera = camera_data(pose, frame_ > 0 ? &pose_before_ : nullptr, view);
-    GBuffer gbuffer = upload_gbuffer(graph, pose, camera, scene_);
+    GBuffer gbuffer = upload_gbuffer(pass_list, pose, camera, scene_);
     keep_previous(gbuffer);
-    graph.upload(gbuffer.fallback, HostImage(extent, 4, environment));
+    pass_list.upload(gbuffer.fallback, HostImage(extent, 4, environment));
     const bool has_moved = frame_ > 0 && pose.world_from_view != pose_before_.world_from_view;
     HostImage color(extent, 4, 1), motion = has_moved ? motion_of(pose, camera, scene_) : HostImage(extent, 2);
     for (unsigned y = 0; y < extent.y; ++y)
@@ -53,7 +53,7 @@ HostImage DenoiserBench::next(const RayFrame& frame) {
             color.set_rgb(size_t(y) * extent.x + x, frame.color({x, y}));
             for (int c = 0; c < 2; ++c) motion.pixel(x, y)[c] += frame.motion({x, y})[c];
         }
-    graph.upload(gbuffer.motion, motion);
+    pass_list.upload(gbuffer.motion, motion);
     std::vector<StoredRay> rays;
     for (const glm::uvec2 pixel : traced_pixels()) {
         const CameraRay seen = camera_ray(pose, extent, glm::vec2(pixel) + 0.5f);
@@ -64,15 +64,15 @@ HostImage DenoiserBench::next(const RayFrame& frame) {
                         .length = 1});
         frame.change(pixel, rays.back());
     }
-    graph.begin_frame(camera, technique_, gbuffer.images());
-    if (value_of(technique_, "misses") == "probe") probe = screen_probe(graph, gbuffer);
+    pass_list.begin_frame(camera, technique_, gbuffer.images());
+    if (value_of(technique_, "misses") == "probe") probe = screen_probe(pass_list, gbuffer);
     const DenoisedRays resolved{.technique = technique_,
-                                .traced = upload_rays(graph, rays),
-                                .color = graph.image("shown_by_hits", Format::rgba32f),
+                                .traced = upload_rays(pass_list, rays),
+                                .color = pass_list.image("shown_by_hits", Format::rgba32f),
                                 .probe = probe};
-    graph.upload(resolved.color, color);
-    const HostImage radiance = graph.download(denoiser_->run(graph, gbuffer, resolved).radiance);
-    graph.set_params(technique_);
+    pass_list.upload(resolved.color, color);
+    const HostImage radiance = pass_list.download(denoiser_->run(pass_list, gbuffer, resolved).radiance);
+    pass_list.set_params(technique_);
     ++frame_;
     pose_before_ = pose;
     return radiance;

@@ -20,14 +20,14 @@ inline unsigned packed(glm::uvec2 pixel) { return pixel.x | pixel.y << 16; }
 class DenoiserBench {
 public:
     DenoiserBench(Device& device, const std::string& denoiser, const CameraPose& pose, glm::uvec2 extent,
-                 SyntheticScene scene, const nlohmann::json& own,
-                 const nlohmann::json& of_technique = nlohmann::json::object());
+                  SyntheticScene scene, const nlohmann::json& own,
+                  const nlohmann::json& of_technique = nlohmann::json::object());
 
     /// Channels: radiance, confidence.
     HostImage next(const RayFrame& frame);
 
     CameraPose pose;  ///< of the next frame
-    PassGraph graph;
+    PassList pass_list;
     float environment = 0;             ///< everywhere
     std::optional<ScreenProbe> probe;  ///< of the last frame, where `misses` is probe
 

@@ -5,8 +5,8 @@
 #include "tests/variants/amd_scenes.h"
 #include "tests/variants/mirror_scenes.h"
 #include "tests/variants/rough_floor.h"
+#include "tests/variants/technique_fixture.h"
 #include "tests/variants/technique_passes.h"
-#include "tests/variants/variant_fixture.h"
 
 #include <optional>
 #include <set>
@@ -42,7 +42,7 @@ nlohmann::json plain(const nlohmann::json& given) {
                    given);
 }
 
-struct DenoisersTest : VariantTest {
+struct DenoisersTest : TechniqueTest {
     CameraPose pose{.vertical_fov = 1.2f, .near = 0.1f, .far = 100.0f};
 
     /// Channels: radiance, confidence.
@@ -53,10 +53,10 @@ struct DenoisersTest : VariantTest {
 
     /// `step`: of the camera from frame to frame. `fallback`: what misses see, everywhere; none: another value in each
     /// pixel. `tilt`: of geometric normals to shading ones.
-    Frames render(Variant& variant, const SyntheticScene& scene, glm::uvec2 extent, unsigned count = 1,
+    Frames render(Technique& technique, const SyntheticScene& scene, glm::uvec2 extent, unsigned count = 1,
                   glm::vec3 step = glm::vec3(0), std::optional<float> fallback = std::nullopt,
                   glm::vec3 tilt = glm::vec3(0)) {
-        PassGraph graph(device(), extent);
+        PassList pass_list(device(), extent);
         Frames frames;
         CameraPose before = pose;
         HostImage previous_depth, previous_normal;
@@ -65,28 +65,28 @@ struct DenoisersTest : VariantTest {
             now.world_from_view[3] += glm::vec4(float(frame) * step, 0.0f);
             const CameraData camera =
                 camera_data(now, frame > 0 ? &before : nullptr, {.extent = extent, .frame = frame});
-            GBuffer gbuffer = upload_gbuffer(graph, now, camera, scene);
-            graph.upload(gbuffer.motion, motion_of(now, camera, scene));
-            HostImage fallbacks(extent, 4, fallback.value_or(0)), flat = graph.download(gbuffer.geometric_normal);
+            GBuffer gbuffer = upload_gbuffer(pass_list, now, camera, scene);
+            pass_list.upload(gbuffer.motion, motion_of(now, camera, scene));
+            HostImage fallbacks(extent, 4, fallback.value_or(0)), flat = pass_list.download(gbuffer.geometric_normal);
             for (size_t i = 0; i < fallbacks.pixel_count(); ++i) {
                 if (!fallback) fallbacks.set_rgb(i, glm::vec3(0.1f * float(i % 7)));
                 if (flat.rgb(i) != glm::vec3(0)) flat.set_rgb(i, glm::normalize(flat.rgb(i) + tilt));
             }
-            graph.upload(gbuffer.fallback, fallbacks);
-            graph.upload(gbuffer.geometric_normal, flat);
+            pass_list.upload(gbuffer.fallback, fallbacks);
+            pass_list.upload(gbuffer.geometric_normal, flat);
             // Of the frame before, in images of their own.
             const auto keep = [&](Image& input, const char* name, const Image& current, HostImage& kept) {
-                const HostImage pixels = graph.download(current);
-                input = graph.image(std::string("kept_") + name, current.format).as(name);
-                graph.upload(input, kept.pixel_count() > 0 ? kept : pixels);
+                const HostImage pixels = pass_list.download(current);
+                input = pass_list.image(std::string("kept_") + name, current.format).as(name);
+                pass_list.upload(input, kept.pixel_count() > 0 ? kept : pixels);
                 kept = pixels;
             };
             keep(gbuffer.previous_depth, "previous_depth", gbuffer.depth, previous_depth);
             keep(gbuffer.previous_normal, "previous_normal", gbuffer.normal, previous_normal);
-            graph.begin_frame(camera, variant.params, gbuffer.images());
-            const Reflections reflections = variant.render(graph, gbuffer);
-            const HostImage radiance = graph.download(reflections.radiance),
-                            confidence = download_confidence(graph, reflections);
+            pass_list.begin_frame(camera, technique.params, gbuffer.images());
+            const Reflections reflections = technique.render(pass_list, gbuffer);
+            const HostImage radiance = pass_list.download(reflections.radiance),
+                            confidence = download_confidence(pass_list, reflections);
             HostImage image(extent, 4);
             for (size_t i = 0; i < image.pixel_count(); ++i) {
                 for (size_t c = 0; c < 3; ++c) image.values[4 * i + c] = radiance.values[radiance.channels * i + c];
@@ -94,7 +94,7 @@ struct DenoisersTest : VariantTest {
             }
             frames.images.push_back(image);
             frames.stages.clear();
-            for (const PassTime& time : graph.times()) frames.stages.push_back(time.stage);
+            for (const PassTime& time : pass_list.times()) frames.stages.push_back(time.stage);
             before = now;
         }
         return frames;
@@ -102,7 +102,8 @@ struct DenoisersTest : VariantTest {
 
     void expect_equal(const nlohmann::json& composed, const std::string& technique, const nlohmann::json& parameters,
                       const SyntheticScene& scene, glm::vec3 tilt = glm::vec3(0)) {
-        const auto parts = make_variant("composed_ssr", plain(composed)), whole = make_variant(technique, parameters);
+        const auto parts = make_technique("composed_ssr", plain(composed)),
+                   whole = make_technique(technique, parameters);
         const glm::uvec2 extent(67, 45);
         const glm::vec3 step(0.02f, 0.01f, -0.03f);
         const Frames of_parts = render(*parts, scene, extent, 4, step, {}, tilt),
@@ -167,11 +168,11 @@ TEST_F(DenoisersTest, MeanIsThatOfTheLobe) {
         SCOPED_TRACE(lobe);
         const RoughFloor floor{.roughness = 0.7f, .pose = pose, .extent = extent};
         const RoughFloor::Mean expected = floor.of_lobe();
-        const auto variant = make_variant(
+        const auto technique = make_technique(
             "composed_ssr",
             plain(changed(RoughFloor::march(),
                           {{"lobe", lobe}, {"max_rays", 4}, {"importance_bias", 0.0}, {"max_roughness", 1}})));
-        const Frames frames = render(*variant, floor.scene(), extent, 60);
+        const Frames frames = render(*technique, floor.scene(), extent, 60);
         const RoughFloor::Mean mean = floor.mean([&](unsigned frame) { return frames.images[frame]; }, 60);
         // Five standard errors: one false alarm in a million. A ratio of four rays is biased by about a quarter of the
         // covariance of its sums over their means; cells of quadrature and edges of pixels: 1 %.
@@ -184,9 +185,9 @@ TEST_F(DenoisersTest, AreBelievable) {
     for (const DenoiserEntry& entry : denoiser_table())
         for (const glm::uvec2 extent : {glm::uvec2(67, 45), glm::uvec2(1, 1)}) {
             SCOPED_TRACE(entry.name + ", " + std::to_string(extent.x));
-            const auto variant = make_variant(
+            const auto technique = make_technique(
                 "composed_ssr", {{"denoiser", entry.name}, {"misses", entry.takes_probe ? "probe" : "fallback"}});
-            const Frames frames = render(*variant, glossy_floor, extent, 3, {0.02f, 0.01f, -0.03f});
+            const Frames frames = render(*technique, glossy_floor, extent, 3, {0.02f, 0.01f, -0.03f});
             for (const HostImage& image : frames.images) {
                 size_t bad = 0;
                 for (size_t i = 0; i < image.pixel_count(); ++i) {
@@ -209,10 +210,11 @@ TEST_F(DenoisersTest, KeepConstantLightConstant) {
     for (const DenoiserEntry& entry : denoiser_table()) {
         SCOPED_TRACE(entry.name);
         // With its preset, if it has one: the original of AMD's denoiser also averages what was never written.
-        const bool has_preset = std::ranges::count(find_variant("composed_ssr").presets, entry.name, &Preset::name) > 0;
-        const auto variant = make_variant("composed_ssr", plain({{"cells.edge_fade", true}, {"denoiser", entry.name}}),
-                                          has_preset ? entry.name : "");
-        const Frames frames = render(*variant, white, {67, 45}, 4, {0.02f, 0.01f, -0.03f}, 1.0f);
+        const bool has_preset =
+            std::ranges::count(find_technique("composed_ssr").presets, entry.name, &Preset::name) > 0;
+        const auto technique = make_technique(
+            "composed_ssr", plain({{"cells.edge_fade", true}, {"denoiser", entry.name}}), has_preset ? entry.name : "");
+        const Frames frames = render(*technique, white, {67, 45}, 4, {0.02f, 0.01f, -0.03f}, 1.0f);
         // Its weights are densities, not divided by their sum: one holds in the mean over pixels only.
         const bool is_normalized = entry.name != "reservoirs";
         for (const HostImage& image : frames.images) {
@@ -236,7 +238,7 @@ TEST_F(DenoisersTest, KeepConstantLightConstant) {
 TEST_F(DenoisersTest, SayWhichStagesTheyHave) {
     for (const DenoiserEntry& entry : denoiser_table()) {
         SCOPED_TRACE(entry.name);
-        const auto variant = make_variant("composed_ssr", plain({{"denoiser", entry.name}, {"tracer", "dda"}}));
+        const auto technique = make_technique("composed_ssr", plain({{"denoiser", entry.name}, {"tracer", "dda"}}));
         std::vector<std::string> said = {"composed_ssr/trace"}, run;
         ParameterSet params;
         add_block(params, "denoisers/rays.json");
@@ -246,7 +248,7 @@ TEST_F(DenoisersTest, SayWhichStagesTheyHave) {
         for (const char* constant : {"scene_is_still", "scene_has_matte", "scene_has_environment"})
             for (const std::string& stage : denoisers.chosen().readers_of(constant))
                 EXPECT_TRUE(std::ranges::count(said, stage)) << stage;
-        for (const std::string& stage : render(*variant, glossy_floor, {67, 45}).stages)
+        for (const std::string& stage : render(*technique, glossy_floor, {67, 45}).stages)
             if (stage != "clear") run.push_back(stage);
         EXPECT_EQ(run, said);
     }
@@ -255,15 +257,15 @@ TEST_F(DenoisersTest, SayWhichStagesTheyHave) {
 TEST_F(DenoisersTest, TakeTheProbeOrRefuseIt) {
     for (const DenoiserEntry& entry : denoiser_table()) {
         SCOPED_TRACE(entry.name);
-        const auto variant = make_variant("composed_ssr", plain({{"denoiser", entry.name}, {"misses", "probe"}}));
+        const auto technique = make_technique("composed_ssr", plain({{"denoiser", entry.name}, {"misses", "probe"}}));
         if (entry.takes_probe) {
-            const std::vector<std::string> stages = render(*variant, glossy_floor, {16, 16}).stages;
+            const std::vector<std::string> stages = render(*technique, glossy_floor, {16, 16}).stages;
             for (const std::string& stage : screen_probe_stages())
                 EXPECT_TRUE(std::ranges::count(stages, stage)) << stage;
             continue;
         }
         try {
-            render(*variant, glossy_floor, {16, 16});
+            render(*technique, glossy_floor, {16, 16});
             ADD_FAILURE() << "was run";
         } catch (const Error& error) {
             EXPECT_NE(std::string(error.what()).find("take fallback or weight"), std::string::npos) << error.what();
@@ -274,14 +276,15 @@ TEST_F(DenoisersTest, TakeTheProbeOrRefuseIt) {
 TEST_F(DenoisersTest, RefuseRaysWithoutTheDensitiesThatTheyNeed) {
     size_t refused = 0;
     for (const DenoiserEntry& entry : denoiser_table()) {
-        const auto variant = make_variant("composed_ssr", plain({{"denoiser", entry.name}, {"draw_directions", false}}));
+        const auto technique =
+            make_technique("composed_ssr", plain({{"denoiser", entry.name}, {"draw_directions", false}}));
         if (!entry.needs_density) {
-            EXPECT_NO_THROW(render(*variant, glossy_floor, {16, 16}));
+            EXPECT_NO_THROW(render(*technique, glossy_floor, {16, 16}));
             continue;
         }
         ++refused;
         try {
-            render(*variant, glossy_floor, {16, 16});
+            render(*technique, glossy_floor, {16, 16});
             ADD_FAILURE() << entry.name << " was run";
         } catch (const Error& error) {
             EXPECT_NE(std::string(error.what()).find("draw_directions must be true"), std::string::npos)

@@ -1,27 +1,28 @@
 #include "tests/variants/amd_golden.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <random>
 
 namespace {
 
-/// Mips of the pyramid of `depth`, as the graph's device makes them.
+/// Mips of the pyramid of `depth`, as the pass_list's device makes them.
 std::vector<HostImage> pyramid_of(Device& device, const HostImage& depth, bool is_reversed, unsigned mips,
                                   bool keeps_farthest = false) {
-    PassGraph graph(device, depth.extent);
+    PassList pass_list(device, depth.extent);
     AmdParameters parameters;
     CameraData camera{};
     camera.extent = {depth.extent, 1.0f / glm::vec2(depth.extent)};
     camera.depth = {0.1f, 100.0f, is_reversed ? 0.0f : 1.0f, is_reversed};
-    const Image image = graph.image("depth", Format::r32f);
-    graph.upload(image, depth);
+    const Image image = pass_list.image("depth", Format::r32f);
+    pass_list.upload(image, depth);
     std::vector<HostImage> levels;
     for (int frame = 0; frame < 2; ++frame) {  // the second finds out whether the counter has been rewound
-        graph.begin_frame(camera, parameters.params, std::span(&image, 1));
-        const Image pyramid = depth_pyramid(graph, image, mips, keeps_farthest);
+        pass_list.begin_frame(camera, parameters.params, std::span(&image, 1));
+        const Image pyramid = depth_pyramid(pass_list, image, mips, keeps_farthest);
         levels.clear();
-        for (unsigned level = 0; level < pyramid.mips; ++level) levels.push_back(graph.download(pyramid.mip(level)));
-        graph.clear(pyramid, glm::vec4(0.5f));
+        for (unsigned level = 0; level < pyramid.mips; ++level)
+            levels.push_back(pass_list.download(pyramid.mip(level)));
+        pass_list.clear(pyramid, glm::vec4(0.5f));
     }
     return levels;
 }
@@ -55,7 +56,7 @@ void expect_pyramid(Device& device, const HostImage& depth, bool is_reversed, bo
     }
 }
 
-struct DepthPyramid : VariantTest {};
+struct DepthPyramid : TechniqueTest {};
 
 /// Each of them also where a third of the pixels shows nothing, which is as near as can be among the farthest.
 TEST_F(DepthPyramid, HoldsTheNearestAndTheFarthestOfEachBlockAtAnySize) {
@@ -81,7 +82,7 @@ TEST_F(DepthPyramid, HasNoMoreLevelsThanAskedFor) {
     EXPECT_EQ(pyramid_of(device(), HostImage({300, 200}, 1, 0.25f), false, 13).size(), 9u);  // 300 halves 8 times
 }
 
-struct AmdPyramidOf : VariantTest, testing::WithParamInterface<std::string> {};
+struct AmdPyramidOf : TechniqueTest, testing::WithParamInterface<std::string> {};
 
 TEST_P(AmdPyramidOf, EqualsTheOriginals) {
     const HostImage depth = golden_layer(read_golden(GetParam() + "/gbuffer.exr"), "depth");

@@ -1,6 +1,6 @@
 #include "tests/variants/accumulation_bench.h"
 #include "tests/variants/denoiser_tolerance.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <regex>
 
@@ -9,21 +9,21 @@
 
 namespace {
 
-/// A file "SEQUENCE/fFRAME/STAGE_VARIANT_FACTOR.exr".
+/// A file "SEQUENCE/fFRAME/STAGE_TECHNIQUE_FACTOR.exr".
 struct Recorded {
-    std::string file, sequence, variant, factor;
+    std::string file, sequence, technique, factor;
     unsigned frame = 0;
 
     std::string folder(unsigned of_frame) const { return diligent_frame_folder(sequence, of_frame); }
     nlohmann::json parameters() const {
-        nlohmann::json all = diligent_preset(variant);
+        nlohmann::json all = diligent_preset(technique);
         all.update(diligent_sequence_parameters(sequence));
         all["temporal_radiance_stability_factor"] = nlohmann::json::parse(factor);
         return all;
     }
     /// What temporal accumulation wrote in that frame.
     Filtered accumulated(unsigned of_frame) const {
-        const LayeredImage image = read_golden(folder(of_frame) + "temporal_" + variant + "_" + factor + ".exr");
+        const LayeredImage image = read_golden(folder(of_frame) + "temporal_" + technique + "_" + factor + ".exr");
         return {.radiance = golden_layer(image, "rad"), .variance = golden_layer(image, "var")};
     }
 };
@@ -37,19 +37,20 @@ std::vector<Recorded> recorded_outputs(const std::string& stage, const std::stri
         std::smatch part;
         if (!std::regex_match(file, part, form)) continue;
         const Recorded recorded{file, part[1], part[3], part[4], unsigned(std::stoul(part[2]))};
-        const std::string read = recorded.folder(recorded.frame) + stage_before + "_" + recorded.variant;
+        const std::string read = recorded.folder(recorded.frame) + stage_before + "_" + recorded.technique;
         if (is_golden(read + ".exr") || is_golden(read + "_" + recorded.factor + ".exr")) all.push_back(recorded);
     }
     return all;
 }
 
-struct DiligentAccumulationOf : VariantTest, testing::WithParamInterface<Recorded> {};
-struct DiligentCleanupOf : VariantTest, testing::WithParamInterface<Recorded> {};
+struct DiligentAccumulationOf : TechniqueTest, testing::WithParamInterface<Recorded> {};
+struct DiligentCleanupOf : TechniqueTest, testing::WithParamInterface<Recorded> {};
 
 AccumulationInputs accumulation_inputs(const Recorded& recorded) {
     const HostGBuffer gbuffer = diligent_golden_frame(recorded.sequence, recorded.frame);
     const LayeredImage aux = read_golden(recorded.folder(recorded.frame) + "aux.exr");
-    const LayeredImage spatial = read_golden(recorded.folder(recorded.frame) + "spatial_" + recorded.variant + ".exr");
+    const LayeredImage spatial =
+        read_golden(recorded.folder(recorded.frame) + "spatial_" + recorded.technique + ".exr");
     const glm::uvec2 extent = gbuffer.extent();
     return {.camera = gbuffer.camera,
             .motion = gbuffer.motion,

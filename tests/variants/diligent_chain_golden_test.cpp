@@ -1,5 +1,5 @@
 #include "tests/variants/diligent_frames.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <bit>
 #include <cmath>
@@ -16,20 +16,20 @@
 namespace {
 
 struct Chain {
-    std::string sequence, variant, factor;
+    std::string sequence, technique, factor;
 };
 void PrintTo(const Chain& chain, std::ostream* out) {
-    *out << chain.sequence << ", " << chain.variant << ", factor " << chain.factor;
+    *out << chain.sequence << ", " << chain.technique << ", factor " << chain.factor;
 }
 
 /// Sequences of which all is recorded.
 std::vector<Chain> recorded_chains() {
     std::vector<Chain> chains;
     for (const std::string& sequence : diligent_sets_with("f0/noise.exr"))
-        for (const char* variant : {"head", "seed"})
+        for (const char* technique : {"head", "seed"})
             for (const char* factor : {"0.9", "1"})
-                if (is_golden(sequence + "/f0/temporal_" + variant + "_" + factor + ".exr"))
-                    chains.push_back({sequence, variant, factor});
+                if (is_golden(sequence + "/f0/temporal_" + technique + "_" + factor + ".exr"))
+                    chains.push_back({sequence, technique, factor});
     return chains;
 }
 
@@ -79,24 +79,24 @@ ChainInputs perturbed(ChainInputs inputs, std::mt19937& random) {
 }
 
 Stages render(DiligentFrames& frames, const HostImage& noise) {
-    PassGraph& graph = frames.graph;
+    PassList& pass_list = frames.pass_list;
     const GBuffer& gbuffer = frames.gbuffer;
     const auto& [params, tracing, filter] = frames.parameters;
-    const Image numbers = graph.image_of("blue_noise", Format::rg32f, noise.extent);
-    graph.upload(numbers, noise);
-    const Image reprojected_depth = diligent_reprojected_depth(graph, gbuffer);
-    const Tracers::Images hierarchies = diligent_depth_hierarchies(graph, gbuffer, tracing);
+    const Image numbers = pass_list.image_of("blue_noise", Format::rg32f, noise.extent);
+    pass_list.upload(numbers, noise);
+    const Image reprojected_depth = diligent_reprojected_depth(pass_list, gbuffer);
+    const Tracers::Images hierarchies = diligent_depth_hierarchies(pass_list, gbuffer, tracing);
     const DiligentMask mask = frames.mask();
-    const DiligentRays rays = diligent_trace(graph, gbuffer, hierarchies, numbers, gbuffer.lit, mask, tracing);
-    const DiligentResolved resolved = diligent_reconstruct(graph, gbuffer, rays, mask, filter);
-    const DiligentHistories histories = diligent_histories(graph, filter);
-    diligent_accumulate(graph, gbuffer, reprojected_depth, resolved, histories, mask, filter);
+    const DiligentRays rays = diligent_trace(pass_list, gbuffer, hierarchies, numbers, gbuffer.lit, mask, tracing);
+    const DiligentResolved resolved = diligent_reconstruct(pass_list, gbuffer, rays, mask, filter);
+    const DiligentHistories histories = diligent_histories(pass_list, filter);
+    diligent_accumulate(pass_list, gbuffer, reprojected_depth, resolved, histories, mask, filter);
     const Image& radiance = histories.radiance.current;
-    const Image reflections = diligent_cleanup(graph, gbuffer, radiance, histories.variance.current, mask, filter);
-    return {graph.download(resolved.radiance), graph.download(radiance), graph.download(reflections)};
+    const Image reflections = diligent_cleanup(pass_list, gbuffer, radiance, histories.variance.current, mask, filter);
+    return {pass_list.download(resolved.radiance), pass_list.download(radiance), pass_list.download(reflections)};
 }
 
-struct DiligentChainOf : VariantTest, testing::WithParamInterface<Chain> {
+struct DiligentChainOf : TechniqueTest, testing::WithParamInterface<Chain> {
     const std::string& sequence() const { return GetParam().sequence; }
 
     ChainInputs recorded_inputs() const {
@@ -110,7 +110,7 @@ struct DiligentChainOf : VariantTest, testing::WithParamInterface<Chain> {
     }
 
     Frames run(const ChainInputs& inputs) const {
-        nlohmann::json parameters = diligent_preset(GetParam().variant);
+        nlohmann::json parameters = diligent_preset(GetParam().technique);
         parameters.update(diligent_sequence_parameters(sequence()));
         parameters["temporal_radiance_stability_factor"] = nlohmann::json::parse(GetParam().factor);
         DiligentFrames frames(device(), inputs.gbuffers[0].extent(), parameters);
@@ -124,7 +124,7 @@ struct DiligentChainOf : VariantTest, testing::WithParamInterface<Chain> {
 
     std::string recorded_file(unsigned frame, const std::string& stage) const {
         const std::string factor = stage == "spatial" ? "" : "_" + GetParam().factor;
-        return diligent_frame_folder(sequence(), frame) + stage + "_" + GetParam().variant + factor + ".exr";
+        return diligent_frame_folder(sequence(), frame) + stage + "_" + GetParam().technique + factor + ".exr";
     }
 };
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(DiligentChainOf);  // GoldenVectors says where they must be
@@ -223,7 +223,7 @@ TEST_P(DiligentChainOf, RecordedSequence) {
 
 INSTANTIATE_TEST_SUITE_P(golden_diligent_chain, DiligentChainOf, testing::ValuesIn(recorded_chains()),
                          [](const auto& info) {
-                             return golden_test_name(info.param.sequence + info.param.variant + info.param.factor);
+                             return golden_test_name(info.param.sequence + info.param.technique + info.param.factor);
                          });
 
 }  // namespace

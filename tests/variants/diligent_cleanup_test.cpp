@@ -1,7 +1,7 @@
 // DiligentFX's bilateral cleanup against its formula, evaluated pixel by pixel in double precision.
 #include "core/scene/camera.h"
 #include "tests/variants/accumulation_bench.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <cmath>
 #include <random>
@@ -14,7 +14,7 @@ constexpr glm::uvec2 extent{32, 24};
 const float threshold = 0.5f;  // of roughness
 
 /// A slanted surface. No two pixels of a kernel are equally far, where the formula would compare what rounding leaves.
-struct DiligentCleanup : VariantTest {
+struct DiligentCleanup : TechniqueTest {
     const glm::vec2 slope{0.05f, 0.015f};  // m per pixel
     CleanupInputs inputs;
 

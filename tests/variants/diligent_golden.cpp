@@ -79,8 +79,8 @@ nlohmann::json diligent_sequence_parameters(const std::string& sequence) {
     return parameters;
 }
 
-nlohmann::json diligent_preset(const std::string& recorded_variant) {
-    const std::string name = recorded_variant == "seed" ? "april_2024" : "current";
-    const std::vector<Preset>& presets = find_variant("diligent_ssr").presets;
+nlohmann::json diligent_preset(const std::string& recorded_technique) {
+    const std::string name = recorded_technique == "seed" ? "april_2024" : "current";
+    const std::vector<Preset>& presets = find_technique("diligent_ssr").presets;
     return std::ranges::find(presets, name, &Preset::name)->parameters;
 }

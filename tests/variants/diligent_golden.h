@@ -38,5 +38,5 @@ nlohmann::json diligent_golden_parameters(const std::string& set, const std::str
 /// out.
 nlohmann::json diligent_sequence_parameters(const std::string& sequence);
 
-/// What our preset changes that stands for a recorded variant: "head" (2026) or "seed" (2024).
-nlohmann::json diligent_preset(const std::string& recorded_variant);
+/// What our preset changes that stands for a recorded technique: "head" (2026) or "seed" (2024).
+nlohmann::json diligent_preset(const std::string& recorded_technique);

@@ -41,13 +41,13 @@ TEST_F(DiligentHalves, OfRaysHoldWhatTheyAreGiven) {
             device(), gbuffer.extent(),
             {{"distribution_floor", false}, {"hierarchy.relative_ray_step", true}, {"float_rays", float_rays}});
         frame.begin(gbuffer);
-        PassGraph& graph = frame.graph;
-        const Image numbers = graph.image_of("blue_noise", Format::rg32f, noise.extent);
-        graph.upload(numbers, noise);
-        const Tracers::Images hierarchies = diligent_depth_hierarchies(graph, frame.gbuffer, wide().tracing);
-        const DiligentRays rays =
-            diligent_trace(graph, frame.gbuffer, hierarchies, numbers, frame.gbuffer.lit, frame.mask(), wide().tracing);
-        const HostImage radiance = graph.download(rays.radiance), direction = graph.download(rays.direction);
+        PassList& pass_list = frame.pass_list;
+        const Image numbers = pass_list.image_of("blue_noise", Format::rg32f, noise.extent);
+        pass_list.upload(numbers, noise);
+        const Tracers::Images hierarchies = diligent_depth_hierarchies(pass_list, frame.gbuffer, wide().tracing);
+        const DiligentRays rays = diligent_trace(pass_list, frame.gbuffer, hierarchies, numbers, frame.gbuffer.lit,
+                                                 frame.mask(), wide().tracing);
+        const HostImage radiance = pass_list.download(rays.radiance), direction = pass_list.download(rays.direction);
         HostImage density(direction.extent, 1);
         for (size_t i = 0; i < density.pixel_count(); ++i) density.values[i] = direction.values[4 * i + 3];
         for (const HostImage* image : std::initializer_list<const HostImage*>{&radiance, &direction, &density}) {

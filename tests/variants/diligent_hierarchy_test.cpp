@@ -1,5 +1,5 @@
 #include "tests/variants/diligent_frames.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <random>
 
@@ -17,10 +17,11 @@ HostGBuffer gbuffer_of(HostImage depth, bool is_reversed) {
 std::vector<HostImage> hierarchy_of(Device& device, const HostGBuffer& gbuffer, const std::string& form) {
     DiligentFrames frames(device, gbuffer.extent(), {{"hierarchy", form}});
     frames.begin(gbuffer);
-    const Image hierarchy = diligent_depth_hierarchies(frames.graph, frames.gbuffer, frames.parameters.tracing).nearest;
+    const Image hierarchy =
+        diligent_depth_hierarchies(frames.pass_list, frames.gbuffer, frames.parameters.tracing).nearest;
     std::vector<HostImage> levels;
     for (unsigned level = 0; level < hierarchy.mips; ++level)
-        levels.push_back(frames.graph.download(hierarchy.mip(level)));
+        levels.push_back(frames.pass_list.download(hierarchy.mip(level)));
     return levels;
 }
 
@@ -53,7 +54,7 @@ void expect_hierarchy(const std::vector<HostImage>& levels, const HostImage& dep
     }
 }
 
-struct DiligentHierarchy : VariantTest {};
+struct DiligentHierarchy : TechniqueTest {};
 
 TEST_F(DiligentHierarchy, HoldsTheNearestOfEachFootprintAtAnySizeInBothForms) {
     std::mt19937 random(5);
@@ -86,7 +87,7 @@ TEST_F(DiligentHierarchy, NoPixelIsLeftOverByOddSizes) {
         }
 }
 
-struct DiligentHierarchyOf : VariantTest, testing::WithParamInterface<std::string> {};
+struct DiligentHierarchyOf : TechniqueTest, testing::WithParamInterface<std::string> {};
 
 TEST_P(DiligentHierarchyOf, EqualsTheOriginals) {
     const HostGBuffer gbuffer = diligent_golden_gbuffer(GetParam());

@@ -17,7 +17,7 @@ TEST_F(DiligentHits, AreWhereMirrorRaysMeetTheWall) {
         for (const char* preset : {"april_2024", "current", "corrected"}) {
             SCOPED_TRACE(testing::Message() << preset << ", reversed " << (direction == DepthDirection::reversed));
             view.depth_direction = direction;
-            const std::vector<Preset>& presets = find_variant("diligent_ssr").presets;
+            const std::vector<Preset>& presets = find_technique("diligent_ssr").presets;
             nlohmann::json parameters = std::ranges::find(presets, preset, &Preset::name)->parameters;
             parameters.erase("repair_inputs");  // of the whole technique, not of its tracing
             const Quality found = quality(parameters);

@@ -11,7 +11,7 @@ struct Agreement {
     size_t directions = 0, same_direction = 0, same_density = 0;
 };
 
-struct DiligentIntersectionOf : VariantTest, testing::WithParamInterface<std::string> {
+struct DiligentIntersectionOf : TechniqueTest, testing::WithParamInterface<std::string> {
     HostGBuffer gbuffer = diligent_golden_gbuffer(GetParam());
 
     std::string file(const std::string& kind, const std::string& set) const {
@@ -24,8 +24,8 @@ struct DiligentIntersectionOf : VariantTest, testing::WithParamInterface<std::st
         return is_golden(name) ? golden_layer(read_golden(name), "U") : HostImage({128, 128}, 2, 0.5f);
     }
 
-    DiligentTraced trace(const std::string& set, const std::string& recorded_variant, bool float_rays) {
-        nlohmann::json parameters = diligent_preset(recorded_variant);
+    DiligentTraced trace(const std::string& set, const std::string& recorded_technique, bool float_rays) {
+        nlohmann::json parameters = diligent_preset(recorded_technique);
         parameters.update(diligent_golden_parameters(GetParam(), set));
         parameters["float_rays"] = float_rays;
         return diligent_trace_frame(device(), gbuffer, parameters, noise());
@@ -35,7 +35,7 @@ struct DiligentIntersectionOf : VariantTest, testing::WithParamInterface<std::st
 const float largest_half = 65504;
 
 /// Directions and densities were recorded in halves, where large densities saturate.
-Agreement compare(const DiligentTraced& found, const LayeredImage& golden, const std::string& recorded_variant) {
+Agreement compare(const DiligentTraced& found, const LayeredImage& golden, const std::string& recorded_technique) {
     const HostImage &mask = golden_layer(golden, "mask"), &hit = golden_layer(golden, "hit"),
                     &confidence = golden_layer(golden, "conf");
     const Layer *direction = golden.find("dir"), *density = golden.find("pdf"), *of_seed = golden.find("pdfseed");
@@ -52,7 +52,7 @@ Agreement compare(const DiligentTraced& found, const LayeredImage& golden, const
         ++agreement.directions;
         agreement.same_direction += glm::distance(found.direction.rgb(i), direction->image.rgb(i)) <=
                                     0.01f * glm::length(direction->image.rgb(i));
-        const bool differs = recorded_variant == "seed" && of_seed->image.values[i] != 0;
+        const bool differs = recorded_technique == "seed" && of_seed->image.values[i] != 0;
         const float p = differs ? of_seed->image.values[i] : density->image.values[i];
         agreement.same_density += std::abs(std::min(found.direction.values[4 * i + 3], largest_half) - p) <= 0.01f * p;
     }
@@ -66,10 +66,10 @@ Agreement compare(const DiligentTraced& found, const LayeredImage& golden, const
 TEST_P(DiligentIntersectionOf, EndsRaysWhereTheOriginalDoes) {
     encode_hits(gbuffer);
     for (const std::string set : {"p1", "p2", "p3"})
-        for (const std::string recorded_variant : {"head", "seed"}) {
-            SCOPED_TRACE(set + " " + recorded_variant);
+        for (const std::string recorded_technique : {"head", "seed"}) {
+            SCOPED_TRACE(set + " " + recorded_technique);
             const Agreement found =
-                compare(trace(set, recorded_variant, true), read_golden(file("hit", set)), recorded_variant);
+                compare(trace(set, recorded_technique, true), read_golden(file("hit", set)), recorded_technique);
             EXPECT_GT(found.rays, 5000u);
             EXPECT_GE(double(found.same_pixel), 0.9990 * double(found.rays));
             EXPECT_GE(double(found.same_confidence), 0.9990 * double(found.rays));

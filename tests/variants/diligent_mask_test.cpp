@@ -1,5 +1,5 @@
 #include "tests/variants/diligent_frames.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <cmath>
 #include <random>
@@ -76,7 +76,7 @@ HostImage expected_half(const HostGBuffer& gbuffer, const HostImage& roughness, 
     return kept;
 }
 
-struct DiligentMasks : VariantTest {
+struct DiligentMasks : TechniqueTest {
     /// One pixel of that roughness: is it kept?
     bool is_kept(float roughness, const nlohmann::json& parameters) {
         HostGBuffer gbuffer = mirrors({1, 1});
@@ -101,7 +101,7 @@ TEST_F(DiligentMasks, KeepWhatTheRulesSayInBothForms) {
                     const Expected expected = expected_mask(gbuffer, 0.2f, is_float);
                     EXPECT_EQ(frames.kept(mask.full).values, expected.kept.values);
                     EXPECT_EQ(frames.kept(mask.traced).values, expected.kept.values);
-                    const HostImage roughness = frames.graph.download(mask.roughness);
+                    const HostImage roughness = frames.pass_list.download(mask.roughness);
                     for (size_t i = 0; i < roughness.values.size(); ++i)  // codes, not their values, are stored
                         ASSERT_EQ(is_float ? roughness.values[i] : rounded(roughness.values[i]),
                                   expected.roughness.values[i]);
@@ -129,7 +129,7 @@ TEST_F(DiligentMasks, WouldKeepNothingWhereTheTechniqueIsLeftOut) {
                                        .max_roughness = roughness,
                                        .camera_moves = true,
                                        .has_environment = true};
-                EXPECT_EQ(make_variant("diligent_ssr", parameters)->leave_out(facts).empty(),
+                EXPECT_EQ(make_technique("diligent_ssr", parameters)->leave_out(facts).empty(),
                           is_kept(roughness, parameters))
                     << roughness << ", float " << is_float << ", threshold " << threshold;
             }
@@ -149,7 +149,7 @@ struct DiligentStaleRoughness : DiligentMasks {
         frames.begin(first);
         frames.mask();
         frames.begin(second);
-        return frames.graph.download(frames.mask().roughness);
+        return frames.pass_list.download(frames.mask().roughness);
     }
 };
 
@@ -179,7 +179,7 @@ TEST_F(DiligentMasks, OfHalfResolutionKeepWhatTheRulesSayInBothForms) {
                                           {{"mask", form}, {"half_resolution", true}, {"clear_targets", is_cleared}});
                     frames.begin(gbuffer);
                     const DiligentMask mask = frames.mask();
-                    const HostImage roughness = frames.graph.download(mask.roughness);
+                    const HostImage roughness = frames.pass_list.download(mask.roughness);
                     EXPECT_EQ(frames.kept(mask.traced).values, expected_half(gbuffer, roughness, 0.2f).values);
                     EXPECT_EQ(frames.kept(mask.full).values, expected_mask(gbuffer, 0.2f, false).kept.values);
                 }
@@ -199,7 +199,7 @@ TEST_F(DiligentMasks, OfHalfResolutionTraceRoughSurfacesUnlessTargetsAreCleared)
     }
 }
 
-struct DiligentMaskOf : VariantTest, testing::WithParamInterface<std::string> {};
+struct DiligentMaskOf : TechniqueTest, testing::WithParamInterface<std::string> {};
 
 TEST_P(DiligentMaskOf, EqualsTheOriginals) {
     const HostGBuffer gbuffer = diligent_golden_gbuffer(GetParam());
@@ -211,7 +211,7 @@ TEST_P(DiligentMaskOf, EqualsTheOriginals) {
             frames.begin(gbuffer);
             const DiligentMask mask = frames.mask();
             EXPECT_EQ(frames.kept(mask.full).values, golden_layer(golden, "mask").values) << form << ", " << file;
-            EXPECT_EQ(frames.graph.download(mask.roughness).values, golden_layer(golden, "rough").values)
+            EXPECT_EQ(frames.pass_list.download(mask.roughness).values, golden_layer(golden, "rough").values)
                 << form << ", " << file;
         }
 }
@@ -220,7 +220,7 @@ INSTANTIATE_TEST_SUITE_P(golden_diligent_mask, DiligentMaskOf,
                          testing::ValuesIn(diligent_sets_with("mask_rthr0.2.exr")),
                          [](const auto& info) { return golden_test_name(info.param); });
 
-struct DiligentMasksOf : VariantTest, testing::WithParamInterface<std::string> {};
+struct DiligentMasksOf : TechniqueTest, testing::WithParamInterface<std::string> {};
 
 /// With the roughness that older frames left where the mask leaves out.
 TEST_P(DiligentMasksOf, EqualTheOriginals) {
@@ -231,7 +231,7 @@ TEST_P(DiligentMasksOf, EqualTheOriginals) {
         const DiligentMask mask = frames.mask();
         const LayeredImage golden = read_golden(diligent_frame_folder(GetParam(), frame) + "aux.exr");
         EXPECT_EQ(frames.kept(mask.full).values, golden_layer(golden, "mask").values) << frame;
-        EXPECT_EQ(frames.graph.download(mask.roughness).values, golden_layer(golden, "rough").values) << frame;
+        EXPECT_EQ(frames.pass_list.download(mask.roughness).values, golden_layer(golden, "rough").values) << frame;
     }
 }
 

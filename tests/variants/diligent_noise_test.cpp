@@ -25,8 +25,8 @@ HostImage recorded_numbers(const std::string& file) { return golden_layer(read_g
 struct DiligentNoiseOf : BlueNoiseTest, testing::WithParamInterface<std::pair<const std::string, unsigned>> {
     HostImage drawn(unsigned frame) {
         begin(frame, 0);
-        return graph.download(
-            noise.render(graph, NoiseShift::golden_diagonal_from_half, NoisePrecision::bits_8, NoiseStage::fragment));
+        return pass_list.download(noise.render(pass_list, NoiseShift::golden_diagonal_from_half, NoisePrecision::bits_8,
+                                               NoiseStage::fragment));
     }
 };
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(DiligentNoiseOf);  // GoldenVectors says where they must be
@@ -43,8 +43,8 @@ TEST_P(DiligentNoiseOf, IsWhatOurPassMakesOfTheOriginalTable) {
     ASSERT_NE(first, files.end()) << "no frame 0 among the recorded";
     const auto [file, frame] = GetParam();
     drawn(frame);  // makes the images; then the table is exchanged
-    graph.upload(graph.image_of("blue_noise_table", Format::rg8, {128, 128}),
-                 table_from_frame_0(recorded_numbers(first->first)));
+    pass_list.upload(pass_list.image_of("blue_noise_table", Format::rg8, {128, 128}),
+                     table_from_frame_0(recorded_numbers(first->first)));
     EXPECT_EQ(drawn(frame).values, recorded_numbers(file).values);
 }
 

@@ -30,27 +30,27 @@ struct DiligentResolved {
     Image radiance, variance, hit_depth;
 };
 struct DiligentHistories {
-    PassGraph::History radiance, variance;
+    PassList::History radiance, variance;
 };
 
 inline float diligent_roughness_of_8_bits(float perceptual) { return roughness_of_8_bits(perceptual); }
 
-DiligentHistories diligent_histories(PassGraph& graph, const DiligentFilterParameters& parameters);
-Image diligent_reprojected_depth(PassGraph& graph, const GBuffer& gbuffer);
-Tracers::Images diligent_depth_hierarchies(PassGraph& graph, const GBuffer& gbuffer,
+DiligentHistories diligent_histories(PassList& pass_list, const DiligentFilterParameters& parameters);
+Image diligent_reprojected_depth(PassList& pass_list, const GBuffer& gbuffer);
+Tracers::Images diligent_depth_hierarchies(PassList& pass_list, const GBuffer& gbuffer,
                                            const DiligentTracingParameters& parameters);
-DiligentMask diligent_mask(PassGraph& graph, const GBuffer& gbuffer, const DiligentTracingParameters& tracing,
+DiligentMask diligent_mask(PassList& pass_list, const GBuffer& gbuffer, const DiligentTracingParameters& tracing,
                            const DiligentFilterParameters& filter);
-DiligentRays diligent_trace(PassGraph& graph, const GBuffer& gbuffer, const Tracers::Images& hierarchies,
+DiligentRays diligent_trace(PassList& pass_list, const GBuffer& gbuffer, const Tracers::Images& hierarchies,
                             const Image& noise, const Image& color, const DiligentMask& mask,
                             const DiligentTracingParameters& parameters, RayProbe* probe = nullptr);
-DiligentResolved diligent_reconstruct(PassGraph& graph, const GBuffer& gbuffer, const DiligentRays& rays,
+DiligentResolved diligent_reconstruct(PassList& pass_list, const GBuffer& gbuffer, const DiligentRays& rays,
                                       const DiligentMask& mask, const DiligentFilterParameters& parameters);
-void diligent_accumulate(PassGraph& graph, const GBuffer& gbuffer, const Image& reprojected_depth,
+void diligent_accumulate(PassList& pass_list, const GBuffer& gbuffer, const Image& reprojected_depth,
                          const DiligentResolved& resolved, const DiligentHistories& histories, const DiligentMask& mask,
                          const DiligentFilterParameters& parameters);
-Image diligent_cleanup(PassGraph& graph, const GBuffer& gbuffer, const Image& radiance, const Image& variance,
+Image diligent_cleanup(PassList& pass_list, const GBuffer& gbuffer, const Image& radiance, const Image& variance,
                        const DiligentMask& mask, const DiligentFilterParameters& parameters);
 
 /// Draws only the pixels that `mask` keeps.
-void draw_masked(PassGraph::Pass& pass, const Image& mask);
+void draw_masked(PassList::Pass& pass, const Image& mask);

@@ -200,11 +200,11 @@ TEST_F(DiligentRay, IsADirectionWhereTheViewerIsBelowTheHorizon) {
 /// The unit normals that the height of a cap comes from are rounded: it may exceed that of a whole sphere.
 TEST_F(DiligentRay, CapsReachARimWhateverTheirHeightIsRoundedTo) {
     DiligentParameters parameters;
-    PassGraph graph(device(), {1, 1});
-    const Buffer sines = graph.buffer("Sines", 9 * sizeof(float));
-    graph.begin_frame({}, parameters.params, {});
-    graph.compute("cap_sine.comp").use(sines).dispatch_groups({1, 1, 1});
-    const std::vector<std::byte> bytes = graph.download(sines);
+    PassList pass_list(device(), {1, 1});
+    const Buffer sines = pass_list.buffer("Sines", 9 * sizeof(float));
+    pass_list.begin_frame({}, parameters.params, {});
+    pass_list.compute("cap_sine.comp").use(sines).dispatch_groups({1, 1, 1});
+    const std::vector<std::byte> bytes = pass_list.download(sines);
     float found[9];
     std::memcpy(found, bytes.data(), sizeof found);
     for (int i = 0; i < 9; ++i) {

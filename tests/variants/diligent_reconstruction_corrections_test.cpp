@@ -1,6 +1,6 @@
 #include "tests/variants/denoiser_tolerance.h"
 #include "tests/variants/reconstruction_bench.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <algorithm>
 #include <limits>
@@ -9,7 +9,7 @@
 
 namespace {
 
-struct DiligentReconstructionCorrections : VariantTest {
+struct DiligentReconstructionCorrections : TechniqueTest {
     static Reconstruction run(const ReconstructionInputs& inputs, const nlohmann::json& overrides) {
         return ReconstructionBench(device(), inputs.depth.extent, overrides).run(inputs);
     }

@@ -1,6 +1,6 @@
 #include "tests/variants/denoiser_tolerance.h"
 #include "tests/variants/reconstruction_bench.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <Imath/half.h>
 #include <regex>
@@ -9,9 +9,9 @@
 
 namespace {
 
-/// A file "SET/spatial_SETTING[_rthrTHRESHOLD]_VARIANT.exr".
+/// A file "SET/spatial_SETTING[_rthrTHRESHOLD]_TECHNIQUE.exr".
 struct Recorded {
-    std::string file, set, setting, threshold, variant;
+    std::string file, set, setting, threshold, technique;
 };
 void PrintTo(const Recorded& recorded, std::ostream* out) { *out << recorded.file; }
 
@@ -59,7 +59,7 @@ void read_rays(const Recorded& recorded, const HostImage& lit, ReconstructionInp
         }
         inputs.ray_radiance.values[4 * i + 3] = truncated(confidence.values[i]);
         inputs.ray_direction.set_rgb(i, direction.rgb(i));
-        const bool is_seed = recorded.variant == "seed" && seed_density.values[i] > 0;
+        const bool is_seed = recorded.technique == "seed" && seed_density.values[i] > 0;
         inputs.ray_direction.values[4 * i + 3] = is_seed ? seed_density.values[i] : density.values[i];
     }
 }
@@ -79,7 +79,7 @@ ReconstructionInputs read_inputs(const Recorded& recorded) {
 }
 
 class DiligentReconstructionOf : public testing::TestWithParam<Recorded> {
-    void TearDown() override { EXPECT_EQ(VariantTest::device().validation_messages(), std::vector<std::string>()); }
+    void TearDown() override { EXPECT_EQ(TechniqueTest::device().validation_messages(), std::vector<std::string>()); }
 };
 
 }  // namespace
@@ -88,9 +88,9 @@ TEST_P(DiligentReconstructionOf, RecordedRays) {
     const Recorded& recorded = GetParam();
     const ReconstructionInputs inputs = read_inputs(recorded);
     const LayeredImage golden = read_golden(recorded.file);
-    nlohmann::json overrides = diligent_preset(recorded.variant);
+    nlohmann::json overrides = diligent_preset(recorded.technique);
     overrides.update(diligent_golden_parameters(recorded.set, recorded.setting));
-    ReconstructionBench bench(VariantTest::device(), inputs.depth.extent, overrides);
+    ReconstructionBench bench(TechniqueTest::device(), inputs.depth.extent, overrides);
     const Reconstruction ours = bench.run(inputs);
 
     // Rays that are not a number may be anything; files without a mask of their own have none.

@@ -1,6 +1,6 @@
 #include "tests/groundtruth/ggx_densities.h"
 #include "tests/variants/reconstruction_bench.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <random>
 
@@ -9,7 +9,7 @@
 
 namespace {
 
-struct DiligentReconstruction : VariantTest {
+struct DiligentReconstruction : TechniqueTest {
     /// Rays and results in 32 bits, so that formulas hold to float rounding; depths along the axis in metres.
     static Reconstruction run(const ReconstructionInputs& inputs, nlohmann::json overrides = {}) {
         overrides["float_rays"] = overrides["float_histories"] = overrides["linear_hit_depth"] = true;

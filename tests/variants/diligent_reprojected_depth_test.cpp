@@ -1,13 +1,13 @@
 #include "tests/variants/diligent_frames.h"
 #include "tests/variants/synthetic_gbuffer.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace {
 
-struct DiligentReprojectedDepth : VariantTest {};
+struct DiligentReprojectedDepth : TechniqueTest {};
 
 /// The device depth (not reversed) of a point at a distance from the camera plane.
 float depth_at(const CameraPose& pose, float distance) {
@@ -29,9 +29,9 @@ struct SeenWall {
         const CameraData camera = camera_data(now, &before, view);
         DiligentFrames frames(device, view.extent, parameters);
         const GBuffer gbuffer =
-            upload_gbuffer(frames.graph, now, camera, [&](const CameraRay& ray) { return hit(ray); });
-        frames.graph.begin_frame(camera, frames.parameters.params, gbuffer.images());
-        return frames.graph.download(diligent_reprojected_depth(frames.graph, gbuffer));
+            upload_gbuffer(frames.pass_list, now, camera, [&](const CameraRay& ray) { return hit(ray); });
+        frames.pass_list.begin_frame(camera, frames.parameters.params, gbuffer.images());
+        return frames.pass_list.download(diligent_reprojected_depth(frames.pass_list, gbuffer));
     }
 };
 
@@ -59,14 +59,14 @@ TEST_F(DiligentReprojectedDepth, OfPointsBehindThePreviousCameraIsTheNearPlaneIf
         EXPECT_NEAR(found, depth_at(wall.before, -2.0f), 1e-5f);  // mirrored: beyond the far plane
 }
 
-struct DiligentReprojectedDepthOf : VariantTest, testing::WithParamInterface<std::string> {};
+struct DiligentReprojectedDepthOf : TechniqueTest, testing::WithParamInterface<std::string> {};
 
 TEST_P(DiligentReprojectedDepthOf, EqualsTheOriginals) {
     for (unsigned frame = 0; frame < diligent_frame_count(GetParam()); ++frame) {
         const HostGBuffer host = diligent_golden_frame(GetParam(), frame);
         DiligentFrames frames(device(), host.extent(), nlohmann::json::object());
         frames.begin(host);
-        const HostImage found = frames.graph.download(diligent_reprojected_depth(frames.graph, frames.gbuffer));
+        const HostImage found = frames.pass_list.download(diligent_reprojected_depth(frames.pass_list, frames.gbuffer));
         const std::string file = diligent_frame_folder(GetParam(), frame) + "aux.exr";
         const LayeredImage golden = read_golden(file);
         const HostImage& expected = golden_layer(golden, "rpdepth");

@@ -24,7 +24,7 @@ CameraPose DiligentSequence::pose(unsigned frame) const {
 
 std::vector<HostGBuffer> DiligentSequence::frames(unsigned count, const SceneOfFrame& scene) const {
     std::vector<HostGBuffer> frames;
-    PassGraph graph(device(), view.extent);
+    PassList pass_list(device(), view.extent);
     for (unsigned frame = 0; frame < count; ++frame) {
         FrameView now = view;
         now.frame = frame;
@@ -32,7 +32,7 @@ std::vector<HostGBuffer> DiligentSequence::frames(unsigned count, const SceneOfF
         const CameraData camera = camera_data(here, frame > 0 ? &before : nullptr, now);
         const SyntheticScene shown = scene(frame);
         HostGBuffer host =
-            download_gbuffer(graph, upload_gbuffer(graph, here, camera, shown), camera, DepthFormat::d32f);
+            download_gbuffer(pass_list, upload_gbuffer(pass_list, here, camera, shown), camera, DepthFormat::d32f);
         if (frame > 0) host.previous_depth = frames.back().depth;
         for (unsigned y = 0; frame > 0 && y < view.extent.y; ++y)
             for (unsigned x = 0; x < view.extent.x; ++x) {
@@ -48,30 +48,30 @@ std::vector<HostGBuffer> DiligentSequence::frames(unsigned count, const SceneOfF
     return frames;
 }
 
-HostImage DiligentSequence::render(Variant& variant, const std::vector<HostGBuffer>& frames) {
-    PassGraph graph(device(), view.extent);
+HostImage DiligentSequence::render(Technique& technique, const std::vector<HostGBuffer>& frames) {
+    PassList pass_list(device(), view.extent);
     Reflections reflections;
     for (const HostGBuffer& host : frames) {
-        const GBuffer gbuffer = upload_gbuffer(graph, host);
-        graph.begin_frame(host.camera, variant.params, gbuffer.images());
-        reflections = variant.render(graph, gbuffer);
-        times = graph.times();
+        const GBuffer gbuffer = upload_gbuffer(pass_list, host);
+        pass_list.begin_frame(host.camera, technique.params, gbuffer.images());
+        reflections = technique.render(pass_list, gbuffer);
+        times = pass_list.times();
     }
     EXPECT_EQ(reflections.confidence_channel, 3u);
-    return graph.download(reflections.radiance);
+    return pass_list.download(reflections.radiance);
 }
 
-HostImage DiligentSequence::composited_incident(Variant& variant, std::vector<HostGBuffer> frames, float fallback) {
+HostImage DiligentSequence::composited_incident(Technique& technique, std::vector<HostGBuffer> frames, float fallback) {
     for (HostGBuffer& frame : frames) frame.fallback = HostImage(view.extent, 4, fallback);
     const HostGBuffer& last = frames.back();
-    const HostImage reflections = render(variant, frames);
-    PassGraph graph(device(), view.extent);
-    const GBuffer gbuffer = upload_gbuffer(graph, last);
-    const Image uploaded = graph.image("reflections", Format::rgba32f);
-    graph.upload(uploaded, reflections);
-    graph.begin_frame(last.camera, variant.params, gbuffer.images());
-    Compositor compositor(graph);
-    HostImage incident = graph.download(compositor.render(gbuffer, {uploaded, uploaded, 3}).specular);
+    const HostImage reflections = render(technique, frames);
+    PassList pass_list(device(), view.extent);
+    const GBuffer gbuffer = upload_gbuffer(pass_list, last);
+    const Image uploaded = pass_list.image("reflections", Format::rgba32f);
+    pass_list.upload(uploaded, reflections);
+    pass_list.begin_frame(last.camera, technique.params, gbuffer.images());
+    Compositor compositor(pass_list);
+    HostImage incident = pass_list.download(compositor.render(gbuffer, {uploaded, uploaded, 3}).specular);
     const HostImage furnace = specular_reflectance(last);
     for (size_t i = 0; i < incident.pixel_count(); ++i)
         for (unsigned c = 0; c < 4; ++c) {

@@ -1,12 +1,12 @@
 #pragma once
 #include "core/gbuffer/composite.h"
 #include "tests/variants/amd_scenes.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
 /// Frames of a camera that moves at a constant speed, and what DiligentFX's technique makes of the last of them.
-struct DiligentSequence : VariantTest {
+struct DiligentSequence : TechniqueTest {
     using SceneOfFrame = std::function<SyntheticScene(unsigned frame)>;
 
     FrameView view{.extent = {96, 72}};
@@ -21,13 +21,13 @@ struct DiligentSequence : VariantTest {
     std::vector<HostGBuffer> frames(unsigned count, const SceneOfFrame& scene) const;
 
     /// Colour, and in alpha the confidence.
-    HostImage render(Variant& variant, const std::vector<HostGBuffer>& frames);
+    HostImage render(Technique& technique, const std::vector<HostGBuffer>& frames);
     HostImage render(const std::vector<HostGBuffer>& frames, const nlohmann::json& parameters,
                      const std::string& preset) {
-        return render(*make_variant("diligent_ssr", parameters, preset), frames);
+        return render(*make_technique("diligent_ssr", parameters, preset), frames);
     }
 
     /// The same composited before `fallback` everywhere; the specular light over that of a white furnace, RGB; 1 where
     /// nothing reflects.
-    HostImage composited_incident(Variant& variant, std::vector<HostGBuffer> frames, float fallback);
+    HostImage composited_incident(Technique& technique, std::vector<HostGBuffer> frames, float fallback);
 };

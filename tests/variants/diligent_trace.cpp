@@ -6,18 +6,19 @@ DiligentTraced diligent_trace_frame(Device& device, const HostGBuffer& gbuffer, 
                                     const HostImage& noise, const HostImage* color) {
     DiligentFrames frame(device, gbuffer.extent(), parameters);
     frame.begin(gbuffer);
-    PassGraph& graph = frame.graph;
+    PassList& pass_list = frame.pass_list;
     const DiligentTracingParameters& tracing = frame.parameters.tracing;
-    const Image numbers = graph.image_of("blue_noise", Format::rg32f, noise.extent);
-    graph.upload(numbers, noise);
+    const Image numbers = pass_list.image_of("blue_noise", Format::rg32f, noise.extent);
+    pass_list.upload(numbers, noise);
     Image shown = frame.gbuffer.lit;
     if (color) {
-        shown = graph.image("color", Format::rgba32f);
-        graph.upload(shown, *color);
+        shown = pass_list.image("color", Format::rgba32f);
+        pass_list.upload(shown, *color);
     }
-    const Tracers::Images hierarchies = diligent_depth_hierarchies(graph, frame.gbuffer, tracing);
-    const DiligentRays rays = diligent_trace(graph, frame.gbuffer, hierarchies, numbers, shown, frame.mask(), tracing);
-    return {graph.download(rays.radiance), graph.download(rays.direction)};
+    const Tracers::Images hierarchies = diligent_depth_hierarchies(pass_list, frame.gbuffer, tracing);
+    const DiligentRays rays =
+        diligent_trace(pass_list, frame.gbuffer, hierarchies, numbers, shown, frame.mask(), tracing);
+    return {pass_list.download(rays.radiance), pass_list.download(rays.direction)};
 }
 
 double confidence_of(const DiligentTraced& traced) {

@@ -1,7 +1,7 @@
 #pragma once
 #include "tests/variants/diligent_golden.h"
 #include "tests/variants/mirror_scenes.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 /// What the passes up to intersection leave of one frame.
 struct DiligentTraced {
@@ -15,7 +15,7 @@ DiligentTraced diligent_trace_frame(Device& device, const HostGBuffer& gbuffer, 
                                     const HostImage& noise, const HostImage* color = nullptr);
 
 /// Frames of a synthetic scene. Unless asked otherwise rays are kept in 32 bits, so that they can be measured.
-struct DiligentTracing : VariantTest {
+struct DiligentTracing : TechniqueTest {
     CameraPose pose{.vertical_fov = 1.2f, .near = 0.1f, .far = 100.0f};
     FrameView view{.extent = {96, 120}};
     HostImage noise{{128, 128}, 2, 0.5f};

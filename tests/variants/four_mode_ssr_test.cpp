@@ -2,7 +2,7 @@
 #include "tests/variants/changed.h"
 #include "tests/variants/mirror_scenes.h"
 #include "tests/variants/rough_floor.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
@@ -12,32 +12,32 @@ namespace {
 
 using Parameters = nlohmann::json;
 
-struct FourModeTest : VariantTest {
+struct FourModeTest : TechniqueTest {
     static constexpr glm::uvec2 extent{64, 48};
     CameraPose pose{.vertical_fov = 1.2f, .near = 0.1f, .far = 100.0f};
     DepthDirection depth = DepthDirection::standard;
-    PassGraph graph{device(), extent};
+    PassList pass_list{device(), extent};
 
     /// Channels: radiance, confidence. `before`: the camera of the frame before, if there is one.
     /// `motion`: of the pixels that `moves`, in place of the scene's.
     HostImage render(
-        Variant& variant, const SyntheticScene& scene, unsigned frame = 0, const CameraPose* before = nullptr,
+        Technique& technique, const SyntheticScene& scene, unsigned frame = 0, const CameraPose* before = nullptr,
         std::optional<glm::vec2> motion = {},
         const std::function<bool(const SyntheticHit&)>& moves = [](const SyntheticHit&) { return true; }) {
         const FrameView view{.extent = extent, .depth_direction = depth, .frame = frame};
         const CameraData camera = camera_data(pose, before, view);
-        const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, scene);
+        const GBuffer gbuffer = upload_gbuffer(pass_list, pose, camera, scene);
         HostImage motions = motion_of(pose, camera, scene);
         for (size_t i = 0; motion && i < motions.values.size(); ++i) {
             const glm::vec2 place = glm::vec2(i / 2 % extent.x, i / 2 / extent.x) + 0.5f;
             if (moves(scene(camera_ray(pose, extent, place)))) motions.values[i] = (*motion)[int(i % 2)];
         }
-        graph.upload(gbuffer.motion, motions);
-        graph.begin_frame(camera, variant.params, gbuffer.images());
-        return graph.download(variant.render(graph, gbuffer).radiance);
+        pass_list.upload(gbuffer.motion, motions);
+        pass_list.begin_frame(camera, technique.params, gbuffer.images());
+        return pass_list.download(technique.render(pass_list, gbuffer).radiance);
     }
     HostImage render(const Parameters& parameters, const SyntheticScene& scene, const std::string& preset = "") {
-        return render(*make_variant("four_mode_ssr", parameters, preset), scene);
+        return render(*make_technique("four_mode_ssr", parameters, preset), scene);
     }
 };
 
@@ -69,9 +69,9 @@ SyntheticScene striped(float left, float right) {
 }
 
 /// Mode temporal with one mirror ray for each pixel, so that only the history decides what is blended.
-std::unique_ptr<Variant> temporal(const Parameters& others) {
+std::unique_ptr<Technique> temporal(const Parameters& others) {
     const Parameters mirror = {{"mode", "temporal"}, {"num_rays", 1}, {"brdf_bias", 1}};
-    return make_variant("four_mode_ssr", without_fades(changed(mirror, others)), "corrected");
+    return make_technique("four_mode_ssr", without_fades(changed(mirror, others)), "corrected");
 }
 
 }  // namespace
@@ -88,7 +88,7 @@ TEST_F(FourModeTest, PresetsAreThoseOfThePrintedTable) {
                            {"high", 64, 8, 1.0, 4},
                            {"ultra", 96, 12, 0.5, 8},
                            {"custom", 64, 8, 1.0, 4}}) {
-        const nlohmann::json values = make_variant("four_mode_ssr", {}, row.preset)->params.values();
+        const nlohmann::json values = make_technique("four_mode_ssr", {}, row.preset)->params.values();
         EXPECT_EQ(values["cells.max_steps"], row.max_steps) << row.preset;
         EXPECT_EQ(values["fixed_stride.max_steps"], row.max_steps) << row.preset;
         EXPECT_EQ(values["fixed_stride.binary_search_steps"], row.binary_search_steps) << row.preset;
@@ -96,7 +96,7 @@ TEST_F(FourModeTest, PresetsAreThoseOfThePrintedTable) {
         EXPECT_EQ(values["num_rays"], row.num_rays) << row.preset;
     }
     // "SSSRSettings Structure".
-    const nlohmann::json settings = make_variant("four_mode_ssr", {})->params.values();
+    const nlohmann::json settings = make_technique("four_mode_ssr", {})->params.values();
     const Parameters printed = {
 
         {"roughness_fade", 0.5},
@@ -167,13 +167,13 @@ TEST_F(FourModeTest, BlueNoiseHasTheMeanOfWhiteNoiseAndComesCloserToItInTenFrame
     const unsigned frames = 10, groups = 12;
     double mean[2] = {}, variance[2] = {};  // of a pixel's mean over `frames` frames
     for (const int is_blue : {0, 1}) {
-        const auto variant = make_variant(
+        const auto technique = make_technique(
             "four_mode_ssr",
             changed(RoughFloor::march(),
                     {{"mode", "stochastic"}, {"noise", is_blue ? "blue" : "white"}, {"roughness_fade", 1}}));
         std::vector<double> sums(floor.columns().size() * groups);
         for (unsigned frame = 0; frame < frames * groups; ++frame) {
-            const HostImage image = render(*variant, floor.scene(), frame);
+            const HostImage image = render(*technique, floor.scene(), frame);
             for (size_t i = 0; i < floor.columns().size(); ++i) {
                 const float* p = image.pixel(floor.columns()[i], floor.row());
                 sums[i * groups + frame / frames] += double(p[0]) * p[3] / frames;
@@ -250,15 +250,16 @@ TEST_F(FourModeTest, AnyMixtureHasTheMeanOfTheLobeIfWeighed) {
     for (const double bias : {0.0, 0.1, 1.0})
         for (const char* weights : {"ratio", "none"}) {
             SCOPED_TRACE(std::to_string(bias) + weights);
-            const auto variant = make_variant("four_mode_ssr", changed(RoughFloor::march(), {{"mode", "stochastic"},
-                                                                                             {"num_rays", 8},
-                                                                                             {"brdf_bias", bias},
-                                                                                             {"weights", weights},
-                                                                                             {"noise", "white"},
-                                                                                             {"roughness_fade", 1}}));
+            const auto technique =
+                make_technique("four_mode_ssr", changed(RoughFloor::march(), {{"mode", "stochastic"},
+                                                                              {"num_rays", 8},
+                                                                              {"brdf_bias", bias},
+                                                                              {"weights", weights},
+                                                                              {"noise", "white"},
+                                                                              {"roughness_fade", 1}}));
             const bool is_weighed = std::string(weights) == "ratio";
             const RoughFloor::Mean mean = floor.mean(
-                [&](unsigned frame) { return render(*variant, floor.scene(), frame); }, is_weighed ? 250 : 40);
+                [&](unsigned frame) { return render(*technique, floor.scene(), frame); }, is_weighed ? 250 : 40);
             if (is_weighed) {
                 const RoughFloor::Mean expected = floor.of_mixture(bias, 8, 10000);
                 // Five standard errors, one false alarm in a million; edges of pixels: 1 %.
@@ -275,10 +276,10 @@ TEST_F(FourModeTest, AnyMixtureHasTheMeanOfTheLobeIfWeighed) {
 
 TEST_F(FourModeTest, MotionVectorsSayWhereTheHistoryIs) {
     // 4 of 64 pixels to the right: 0.0625 of the threshold of 0.1 leave 0.375 of the blend.
-    const auto variant =
+    const auto technique =
         temporal({{"neighborhood_clamp", false}, {"reject_other_surfaces", false}, {"motion_threshold", 0.1}});
-    const HostImage first = render(*variant, striped(1, 2), 0);
-    const HostImage second = render(*variant, striped(0, 0), 1, &pose, glm::vec2(4.0f / extent.x, 0));
+    const HostImage first = render(*technique, striped(1, 2), 0);
+    const HostImage second = render(*technique, striped(0, 0), 1, &pose, glm::vec2(4.0f / extent.x, 0));
     size_t compared = 0, changed_side = 0;
     for (unsigned y = 0; y < extent.y; ++y)
         for (unsigned x = 4; x < extent.x; ++x) {
@@ -294,13 +295,13 @@ TEST_F(FourModeTest, MotionVectorsSayWhereTheHistoryIs) {
 TEST_F(FourModeTest, HistoryOfAReflectionMovesWithWhatIsReflected) {
     // A wall moves by 4 of 64 pixels to the right above a floor that stands still: so does its image, by 0.0625 of the
     // threshold of 0.1.
-    const auto variant = temporal({{"history_place", "reflection"},
-                                   {"neighborhood_clamp", false},
-                                   {"reject_other_surfaces", false},
-                                   {"motion_threshold", 0.1}});
+    const auto technique = temporal({{"history_place", "reflection"},
+                                     {"neighborhood_clamp", false},
+                                     {"reject_other_surfaces", false},
+                                     {"motion_threshold", 0.1}});
     const auto moves = [](const SyntheticHit& hit) { return hit.metalness == 0; };
-    const HostImage first = render(*variant, striped(1, 2), 0);
-    const HostImage second = render(*variant, striped(1, 1), 1, &pose, glm::vec2(4.0f / extent.x, 0), moves);
+    const HostImage first = render(*technique, striped(1, 2), 0);
+    const HostImage second = render(*technique, striped(1, 1), 1, &pose, glm::vec2(4.0f / extent.x, 0), moves);
     size_t compared = 0, changed_side = 0;
     for (unsigned y = 0; y < extent.y; ++y)
         for (unsigned x = 4; x < extent.x; ++x) {
@@ -319,11 +320,11 @@ TEST_F(FourModeTest, HistoryOfAReflectionMovesWithWhatIsReflected) {
 
 TEST_F(FourModeTest, HistoryFadesAsTheBlendSays) {
     // The light goes out after the first frame; without the clamp what is left of it is 0.9^n.
-    const auto variant = temporal({{"neighborhood_clamp", false}});
-    const HostImage lit = render(*variant, floor_and_wall(1), 0);
+    const auto technique = temporal({{"neighborhood_clamp", false}});
+    const HostImage lit = render(*technique, floor_and_wall(1), 0);
     float expected = 1;
     for (unsigned frame = 1; frame < 6; ++frame) {
-        const HostImage dark = render(*variant, floor_and_wall(0), frame, &pose);
+        const HostImage dark = render(*technique, floor_and_wall(0), frame, &pose);
         expected *= 0.9f;
         size_t compared = 0;
         for (size_t i = 0; i < dark.pixel_count(); ++i) {
@@ -336,9 +337,9 @@ TEST_F(FourModeTest, HistoryFadesAsTheBlendSays) {
 }
 
 TEST_F(FourModeTest, TheClampEndsWhatNoNeighbourShows) {
-    const auto variant = temporal(Parameters::object());
-    render(*variant, floor_and_wall(1), 0);
-    const HostImage dark = render(*variant, floor_and_wall(0), 1, &pose);
+    const auto technique = temporal(Parameters::object());
+    render(*technique, floor_and_wall(1), 0);
+    const HostImage dark = render(*technique, floor_and_wall(0), 1, &pose);
     for (size_t i = 0; i < dark.pixel_count(); ++i) ASSERT_EQ(dark.rgb(i), glm::vec3(0));
 }
 
@@ -346,16 +347,16 @@ TEST_F(FourModeTest, MotionRejectsTheHistoryInProportion) {
     // A camera that turns about its axis of view: a pixel's motion is its distance from the middle times the angle.
     const float turn = 0.02f;
     for (const char* history_place : {"camera", "motion_vectors"}) {
-        const auto variant = temporal({{"neighborhood_clamp", false},
-                                       {"reject_other_surfaces", false},
-                                       {"motion_threshold", 0.01},
-                                       {"history_place", history_place}});
+        const auto technique = temporal({{"neighborhood_clamp", false},
+                                         {"reject_other_surfaces", false},
+                                         {"motion_threshold", 0.01},
+                                         {"history_place", history_place}});
         const CameraPose before = pose;
-        const HostImage lit = render(*variant, floor_and_wall(1), 0);
+        const HostImage lit = render(*technique, floor_and_wall(1), 0);
         CameraPose turned = pose;
         turned.world_from_view = glm::rotate(glm::mat4(1), turn, glm::vec3(0, 0, 1));
         std::swap(pose, turned);
-        const HostImage dark = render(*variant, floor_and_wall(0), 1, &before);
+        const HostImage dark = render(*technique, floor_and_wall(0), 1, &before);
         size_t kept = 0, rejected = 0;
         for (unsigned y = 0; y < extent.y; ++y)
             for (unsigned x = 0; x < extent.x; ++x) {
@@ -388,13 +389,13 @@ TEST_F(FourModeTest, MotionRejectsTheHistoryInProportion) {
 
 TEST_F(FourModeTest, LeavesOutAllWhereNothingReflects) {
     for (const char* mode : {"simple_linear", "hiz", "temporal"}) {
-        const auto variant = make_variant("four_mode_ssr", {{"mode", mode}});
+        const auto technique = make_technique("four_mode_ssr", {{"mode", mode}});
         SceneFacts facts{};
         facts.has_reflective = true, facts.min_roughness = 0.5f;
-        EXPECT_EQ(variant->leave_out(facts).size(), std::string(mode) == "temporal" ? 3u
-                                                    : std::string(mode) == "hiz"    ? 2u
-                                                                                    : 1u);
-        const HostImage result = render(*variant, floor_before_white);
+        EXPECT_EQ(technique->leave_out(facts).size(), std::string(mode) == "temporal" ? 3u
+                                                      : std::string(mode) == "hiz"    ? 2u
+                                                                                      : 1u);
+        const HostImage result = render(*technique, floor_before_white);
         EXPECT_TRUE(std::ranges::all_of(result.values, [](float v) { return v == 0; }));
     }
 }

@@ -15,7 +15,7 @@ struct StoredRay {
 inline constexpr unsigned ray_missed = 0xffffffff, ray_below_horizon = 0xfffffffe, ray_into_surface = 0xfffffffd;
 
 /// `rays`: max_rays for each traced pixel.
-TracedRays upload_rays(PassGraph& graph, const std::vector<StoredRay>& rays);
+TracedRays upload_rays(PassList& pass_list, const std::vector<StoredRay>& rays);
 
 struct ResolvedFrame {
     HostImage radiance, length;
@@ -41,7 +41,7 @@ public:
     ParameterSet params;
     FrostbiteRayParameters ray_parameters{params};
     FrostbiteResolveParameters resolve_parameters{params};
-    PassGraph graph;
+    PassList pass_list;
     CameraData camera;
     GBuffer gbuffer;
 

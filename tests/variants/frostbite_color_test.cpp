@@ -1,5 +1,5 @@
 #include "tests/variants/frostbite_bench.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <random>
 
@@ -7,7 +7,7 @@
 
 namespace {
 
-struct FrostbiteColor : VariantTest {
+struct FrostbiteColor : TechniqueTest {
     std::mt19937 random{2};
     float uniform() { return float(random() >> 8) * 0x1p-24f; }
 };
@@ -57,18 +57,18 @@ void expect_means(const HostImage& fine, const HostImage& coarse, const std::str
 TEST_F(FrostbiteColor, LevelsAreMeansAtAnySize) {
     for (const glm::uvec2 extent : {glm::uvec2(64, 32), glm::uvec2(1, 1), glm::uvec2(7, 5), glm::uvec2(1, 9),
                                     glm::uvec2(101, 67), glm::uvec2(255, 3)}) {
-        PassGraph graph(device(), extent);
+        PassList pass_list(device(), extent);
         const ParameterSet none;
-        graph.begin_frame({}, none, {});
+        pass_list.begin_frame({}, none, {});
         HostImage color(extent, 4);
         for (float& value : color.values) value = 100 * uniform();
-        const Image lit = graph.image("lit", Format::rgba32f);
-        graph.upload(lit, color);
-        const Image pyramid = frostbite_color_pyramid(graph, lit);
-        HostImage fine = graph.download(pyramid.mip(0));
+        const Image lit = pass_list.image("lit", Format::rgba32f);
+        pass_list.upload(lit, color);
+        const Image pyramid = frostbite_color_pyramid(pass_list, lit);
+        HostImage fine = pass_list.download(pyramid.mip(0));
         EXPECT_EQ(fine.values, color.values);
         for (unsigned level = 1; level < pyramid.mips; ++level) {
-            const HostImage coarse = graph.download(pyramid.mip(level));
+            const HostImage coarse = pass_list.download(pyramid.mip(level));
             ASSERT_EQ(coarse.extent, max(fine.extent / 2u, 1u));
             expect_means(fine, coarse, "level " + std::to_string(level) + " of " + std::to_string(extent.x));
             fine = coarse;
@@ -78,12 +78,12 @@ TEST_F(FrostbiteColor, LevelsAreMeansAtAnySize) {
 }
 
 /// A pyramid whose levels show their number.
-Image numbered_levels(PassGraph& graph) {
+Image numbered_levels(PassList& pass_list) {
     const unsigned mips = 9;  // of 256 pixels
-    const Image pyramid = graph.image("numbered", Format::rgba32f, mips);
+    const Image pyramid = pass_list.image("numbered", Format::rgba32f, mips);
     for (unsigned level = 0; level < mips; ++level) {
         const Image mip = pyramid.mip(level);
-        graph.upload(mip, HostImage(mip.extent, 4, float(level)));
+        pass_list.upload(mip, HostImage(mip.extent, 4, float(level)));
     }
     return pyramid;
 }
@@ -148,7 +148,7 @@ struct FrostbiteLevels : FrostbiteColor {
         FrostbiteBench bench(device(), pose, {.extent = extent}, wall, parameters);
         std::vector<glm::vec3> hits;
         const std::vector<StoredRay> rays = rays_to_hits(bench, hits);
-        const HostImage found = bench.resolve(rays, numbered_levels(bench.graph)).radiance;
+        const HostImage found = bench.resolve(rays, numbered_levels(bench.pass_list)).radiance;
         unsigned compared = 0, sharp = 0, oblique = 0;
         for (unsigned i = 0; i < rays.size(); ++i) {
             const CameraRay ray = camera_ray(pose, extent, glm::vec2(i % extent.x, i / extent.x) + 0.5f);

@@ -1,6 +1,6 @@
 #include "tests/variants/frostbite_bench.h"
 #include "tests/variants/frostbite_emitter.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -140,7 +140,7 @@ std::vector<double> shader_means(Device& device, const Reported& r, unsigned reg
     return EmitterBench(device, r.scene, parameters).means(r.lobe, regenerations);
 }
 
-struct FrostbiteEstimators : VariantTest {};
+struct FrostbiteEstimators : TechniqueTest {};
 
 TEST_F(FrostbiteEstimators, HaveTheBiasOfTheFactSheet) {
     for (const Reported& r : reported) {

@@ -1,20 +1,20 @@
 #include "tests/variants/frostbite_filter_bench.h"
 
 FrostbiteFilterBench::FrostbiteFilterBench(Device& device, const FrameView& view, const nlohmann::json& overrides)
-    : view(view), graph(device, view.extent) {
+    : view(view), pass_list(device, view.extent) {
     parameters.params.assign(overrides);
 }
 
 GBuffer FrostbiteFilterBench::upload(const CameraPose& pose, const SyntheticScene& scene) {
     camera_ = camera_data(pose, view.frame > 0 ? &pose_before_ : nullptr, view);
-    GBuffer gbuffer = upload_gbuffer(graph, pose, camera_, scene);
-    const HostImage depth = graph.download(gbuffer.depth), normal = graph.download(gbuffer.normal);
+    GBuffer gbuffer = upload_gbuffer(pass_list, pose, camera_, scene);
+    const HostImage depth = pass_list.download(gbuffer.depth), normal = pass_list.download(gbuffer.normal);
     if (view.frame > 0) {
-        gbuffer.previous_depth = graph.image("previous_depth", Format::r32f);
-        gbuffer.previous_normal = graph.image("previous_normal", Format::rgba32f);
-        graph.upload(gbuffer.previous_depth, depth_before_);
-        graph.upload(gbuffer.previous_normal, normal_before_);
-        graph.upload(gbuffer.motion, motion_of(pose, camera_, scene));
+        gbuffer.previous_depth = pass_list.image("previous_depth", Format::r32f);
+        gbuffer.previous_normal = pass_list.image("previous_normal", Format::rgba32f);
+        pass_list.upload(gbuffer.previous_depth, depth_before_);
+        pass_list.upload(gbuffer.previous_normal, normal_before_);
+        pass_list.upload(gbuffer.motion, motion_of(pose, camera_, scene));
     }
     pose_before_ = pose;
     depth_before_ = depth;
@@ -35,13 +35,14 @@ HostImage FrostbiteFilterBench::next(
             radiance.pixel(x, y)[3] = pixel.confidence;
             *ray_length.pixel(x, y) = pixel.ray_length;
         }
-    const FrostbiteResolved images{graph.image("resolved_radiance", Format::rgba32f),
-                                   graph.image("resolved_length", Format::r32f)};
-    graph.upload(images.radiance, radiance);
-    graph.upload(images.reflection_depth, ray_length);
-    graph.begin_frame(camera_, parameters.params, gbuffer.images());
-    const Image reflections = frostbite_accumulate(graph, gbuffer, split_sum_.on(graph), images, parameters.resolve);
+    const FrostbiteResolved images{pass_list.image("resolved_radiance", Format::rgba32f),
+                                   pass_list.image("resolved_length", Format::r32f)};
+    pass_list.upload(images.radiance, radiance);
+    pass_list.upload(images.reflection_depth, ray_length);
+    pass_list.begin_frame(camera_, parameters.params, gbuffer.images());
+    const Image reflections =
+        frostbite_accumulate(pass_list, gbuffer, split_sum_.on(pass_list), images, parameters.resolve);
     ++view.frame;
     view.previous_jitter = view.jitter;
-    return graph.download(reflections);
+    return pass_list.download(reflections);
 }

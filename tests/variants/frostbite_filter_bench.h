@@ -19,7 +19,7 @@ public:
 
     FrameView view;  ///< its jitter may change between frames
     FrostbiteParameters parameters;
-    PassGraph graph;
+    PassList pass_list;
 
 private:
     GBuffer upload(const CameraPose& pose, const SyntheticScene& scene);

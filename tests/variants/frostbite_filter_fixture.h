@@ -6,7 +6,7 @@ inline SyntheticHit wall_of_mirror(const CameraRay& ray) {
     return {.distance = -5.0f / ray.direction.z, .normal = {0, 0, 1}, .roughness = 0.2f, .metalness = 1, .specular = 1};
 }
 
-struct FrostbiteFilterTest : VariantTest {
+struct FrostbiteFilterTest : TechniqueTest {
     const nlohmann::json history_alone = {{"history_weight", 1.0}, {"neighborhood_clamp", false}};
     CameraPose pose{.vertical_fov = 1.2f, .near = 0.1f, .far = 100.0f};
     FrameView view{.extent = {96, 64}};

@@ -1,7 +1,7 @@
 // Frostbite's hits on what the previous frame did not show.
 #include "core/gbuffer/environment_images.h"
 #include "tests/variants/frostbite_bench.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
@@ -37,7 +37,7 @@ SyntheticHit post_and_wall(const CameraRay& ray) {
 /// The pixel of a ray's hit.
 unsigned hit_pixel(const StoredRay& ray) { return (ray.target >> 16) * extent.x + (ray.target & 0xffff); }
 
-struct FrostbiteHiddenHits : VariantTest {
+struct FrostbiteHiddenHits : TechniqueTest {
     CameraPose before{.vertical_fov = 0.9f, .orthographic_height = 6}, now = before;
     FrameView view{.extent = extent, .jitter = {0.3f, -0.2f}, .previous_jitter = {-0.4f, 0.1f}};
     std::mt19937 random{3};
@@ -120,7 +120,7 @@ struct FrostbiteHiddenHits : VariantTest {
         parameters.update(rule);
         FrostbiteBench bench(device(), now, view, post_and_wall, parameters);
         const Environment blue{.color = environment_color};
-        const EnvironmentImages environment(bench.graph, blue, false);
+        const EnvironmentImages environment(bench.pass_list, blue, false);
         bench.gbuffer.environment = &environment;
         bench.set_previous(before, post_and_wall);
         const std::vector<StoredRay> rays = pairs_of_rays(bench, length);

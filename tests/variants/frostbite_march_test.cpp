@@ -1,6 +1,6 @@
 #include "tests/variants/frostbite_technique.h"
 #include "tests/variants/pixel_march.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <random>
 
@@ -14,7 +14,7 @@ struct Found {
     float distance;
 };
 
-struct FrostbiteMarch : VariantTest {
+struct FrostbiteMarch : TechniqueTest {
     glm::uvec2 extent{193, 131};  // odd on three levels
     CameraPose pose{.vertical_fov = 1.0f, .near = 0.1f, .far = 100.0f};
     FrameView view;
@@ -91,7 +91,7 @@ struct FrostbiteMarch : VariantTest {
     }
 
     std::vector<Found> march(const std::vector<PixelRay>& rays, bool is_linear) {
-        PassGraph graph(device(), extent);
+        PassList pass_list(device(), extent);
         const glm::uvec2 line(unsigned(rays.size()), 1);
         HostImage starts(line, 2), directions(line, 4);
         for (unsigned i = 0; i < line.x; ++i) {
@@ -100,16 +100,16 @@ struct FrostbiteMarch : VariantTest {
             *reinterpret_cast<glm::vec4*>(directions.pixel(i, 0)) = glm::vec4(ray.direction, ray.jitter);
         }
         const auto upload = [&](const char* name, Format format, const HostImage& pixels) {
-            const Image image = graph.image_of(name, format, pixels.extent);
-            graph.upload(image, pixels);
+            const Image image = pass_list.image_of(name, format, pixels.extent);
+            pass_list.upload(image, pixels);
             return image;
         };
         const std::vector<Image> inputs{upload("depth", Format::r32f, depth),
                                         upload("geometric_normal", Format::rgba32f, normal)};
-        graph.begin_frame(camera, params, inputs);
-        const Image found = graph.image_of("found", Format::rgba32f, line);
-        const Tracers::Images depths = parameters.tracers.images(graph, inputs[0]);
-        graph.compute("frostbite_rays.comp")
+        pass_list.begin_frame(camera, params, inputs);
+        const Image found = pass_list.image_of("found", Format::rgba32f, line);
+        const Tracers::Images depths = parameters.tracers.images(pass_list, inputs[0]);
+        pass_list.compute("frostbite_rays.comp")
             .read(depths.nearest)
             .read(depths.farthest)
             .read(upload("ray_start", Format::rg32f, starts))
@@ -117,7 +117,7 @@ struct FrostbiteMarch : VariantTest {
             .write(found)
             .set("is_linear", unsigned(is_linear))
             .run();
-        const HostImage pixels = graph.download(found);
+        const HostImage pixels = pass_list.download(found);
         std::vector<Found> result;
         for (unsigned i = 0; i < line.x; ++i) {
             const float* p = pixels.pixel(i, 0);

@@ -1,7 +1,7 @@
 #pragma once
 #include "tests/variants/frostbite_technique.h"
 #include "tests/variants/synthetic_gbuffer.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 #include "variants/common/horizon_image.h"
 
 /// The parameters of all passes, for tests that run them one by one.
@@ -28,4 +28,4 @@ struct FrostbiteTraced {
 };
 
 /// The first three passes over one frame of a G-buffer.
-FrostbiteTraced trace_frostbite(PassGraph& graph, const GBuffer& gbuffer, const FrostbiteParameters& parameters);
+FrostbiteTraced trace_frostbite(PassList& pass_list, const GBuffer& gbuffer, const FrostbiteParameters& parameters);

@@ -46,30 +46,30 @@ bool fills_all_boxes(const std::vector<glm::dvec2>& points, unsigned first_index
     return boxes.size() == 72;
 }
 
-struct FrostbiteRandom : VariantTest {
+struct FrostbiteRandom : TechniqueTest {
     FrostbiteParameters parameters;
     CameraPose pose{.is_orthographic = true, .orthographic_height = 4, .near = 0.1f, .far = 100};
 
     /// The rays of frames in a row, by index. `rays_of_tile`: of tile number and frame.
     template <class RaysOfTile, class See>
     void trace(glm::uvec2 extent, unsigned frames, unsigned seed, RaysOfTile rays_of_tile, See see) {
-        PassGraph graph(device(), extent);
+        PassList pass_list(device(), extent);
         CameraData camera = camera_data(pose, nullptr, {.extent = extent});
-        const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, wall);
+        const GBuffer gbuffer = upload_gbuffer(pass_list, pose, camera, wall);
         camera.frame.y = seed;
         HostImage ray_count((extent + frostbite_tile - 1u) / frostbite_tile, 1);
         for (unsigned frame = 0; frame < frames; ++frame) {
             for (unsigned tile = 0; tile < ray_count.values.size(); ++tile)
                 ray_count.values[tile] = float(rays_of_tile(tile, frame));
-            const Image counts = graph.image_of("ray_count", Format::r32f, ray_count.extent);
-            graph.upload(counts, ray_count);
+            const Image counts = pass_list.image_of("ray_count", Format::r32f, ray_count.extent);
+            pass_list.upload(counts, ray_count);
             camera.frame.x = frame;
-            graph.begin_frame(camera, parameters.params, gbuffer.images());
-            const Tracers::Images depths = parameters.ray.tracers.images(graph, gbuffer.depth);
-            const FrostbiteWork work = frostbite_allocate(graph, gbuffer, {counts}, parameters.ray);
-            const Image horizon = HorizonImage().on(graph, parameters.params);
+            pass_list.begin_frame(camera, parameters.params, gbuffer.images());
+            const Tracers::Images depths = parameters.ray.tracers.images(pass_list, gbuffer.depth);
+            const FrostbiteWork work = frostbite_allocate(pass_list, gbuffer, {counts}, parameters.ray);
+            const Image horizon = HorizonImage().on(pass_list, parameters.params);
             const std::vector<std::byte> bytes =
-                graph.download(frostbite_trace(graph, depths, work, horizon, parameters.ray).directions);
+                pass_list.download(frostbite_trace(pass_list, depths, work, horizon, parameters.ray).directions);
             std::vector<glm::vec4> directions(bytes.size() / sizeof(glm::vec4));
             std::memcpy(directions.data(), bytes.data(), bytes.size());
             see(frame, work.extent, directions);
@@ -189,11 +189,11 @@ TEST_F(FrostbiteRandom, DrawsTheMarchApartFromTheDirection) {
                               {"frostbite.linear_refinements", 0},
                               {"frostbite.relative_thickness", 10.0},
                               {"frostbite.front_faces_only", false}});
-    PassGraph graph(device(), {160, 160});  // 4 m
-    const CameraData camera = camera_data(pose, nullptr, {.extent = graph.extent()});
-    const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, sunken_mirrors);
-    graph.begin_frame(camera, parameters.params, gbuffer.images());
-    const FrostbiteTraced found = trace_frostbite(graph, gbuffer, parameters);
+    PassList pass_list(device(), {160, 160});  // 4 m
+    const CameraData camera = camera_data(pose, nullptr, {.extent = pass_list.extent()});
+    const GBuffer gbuffer = upload_gbuffer(pass_list, pose, camera, sunken_mirrors);
+    pass_list.begin_frame(camera, parameters.params, gbuffer.images());
+    const FrostbiteTraced found = trace_frostbite(pass_list, gbuffer, parameters);
     double correlation = 0, mean = 0;
     size_t rays = 0;
     for (size_t i = 0; i < found.directions.size(); ++i) {
@@ -222,7 +222,7 @@ TEST_F(FrostbiteRandom, DrawsTheMarchApartFromTheDirection) {
 struct FrostbiteIndependence : FrostbiteRandom {
     static constexpr glm::uvec2 extent{256, 128};
     static constexpr size_t pixels = size_t(extent.x) * extent.y;
-    PassGraph graph{device(), extent};
+    PassList pass_list{device(), extent};
 
     struct Number {
         unsigned k = 0, dimension = 0, frame = 0, seed = 0;  // dimension: as in frostbite_random.comp
@@ -232,10 +232,14 @@ struct FrostbiteIndependence : FrostbiteRandom {
         CameraData camera = camera_data(pose, nullptr, {.extent = extent});
         camera.frame.x = number.frame;
         camera.frame.y = number.seed;
-        graph.begin_frame(camera, parameters.params, {});
-        const Image found = graph.image("found", Format::rg32f);
-        graph.compute("frostbite_random.comp").write(found).set("k", number.k).set("dimension", number.dimension).run();
-        const HostImage image = graph.download(found);
+        pass_list.begin_frame(camera, parameters.params, {});
+        const Image found = pass_list.image("found", Format::rg32f);
+        pass_list.compute("frostbite_random.comp")
+            .write(found)
+            .set("k", number.k)
+            .set("dimension", number.dimension)
+            .run();
+        const HostImage image = pass_list.download(found);
         std::vector<glm::vec2> points(pixels);
         std::memcpy(points.data(), image.values.data(), pixels * sizeof(glm::vec2));
         return points;

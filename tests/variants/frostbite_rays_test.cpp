@@ -23,10 +23,10 @@ SyntheticHit strips(const CameraRay& ray) {
     return hit;
 }
 
-struct FrostbiteRaysTest : VariantTest {
+struct FrostbiteRaysTest : TechniqueTest {
     CameraPose pose{.vertical_fov = 1.2f, .near = 0.1f, .far = 100.0f};
     FrameView view{.extent = {131, 75}};
-    PassGraph graph{device(), view.extent};
+    PassList pass_list{device(), view.extent};
     FrostbiteParameters parameters;
     CameraData camera{};
 
@@ -34,9 +34,9 @@ struct FrostbiteRaysTest : VariantTest {
         camera = camera_data(pose, nullptr, view);
         camera.frame.x = frame;
         camera.frame.y = seed;
-        const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, scene);
-        graph.begin_frame(camera, parameters.params, gbuffer.images());
-        return trace_frostbite(graph, gbuffer, parameters);
+        const GBuffer gbuffer = upload_gbuffer(pass_list, pose, camera, scene);
+        pass_list.begin_frame(camera, parameters.params, gbuffer.images());
+        return trace_frostbite(pass_list, gbuffer, parameters);
     }
 
     SyntheticHit seen(const SyntheticScene& scene, glm::uvec2 pixel) const {
@@ -262,16 +262,16 @@ TEST_F(FrostbiteDraws, ComeAboutWithTheDensityThatTheyCarry) {
 TEST_F(FrostbiteRaysTest, AreNotMarchedIntoTheGeometricSurface) {
     parameters.params.assign({{"classification", false}});
     camera = camera_data(pose, nullptr, view);
-    const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, bare_floor(0.3f));
+    const GBuffer gbuffer = upload_gbuffer(pass_list, pose, camera, bare_floor(0.3f));
     HostImage tilted(view.extent, 4);
     const glm::vec3 shading = glm::normalize(glm::vec3(1, 1, 0));
     for (size_t i = 0; i < tilted.pixel_count(); ++i) {
         tilted.set_rgb(i, shading);
         tilted.values[4 * i + 3] = 0.3f;
     }
-    graph.upload(gbuffer.normal, tilted);
-    graph.begin_frame(camera, parameters.params, gbuffer.images());
-    const FrostbiteTraced found = trace_frostbite(graph, gbuffer, parameters);
+    pass_list.upload(gbuffer.normal, tilted);
+    pass_list.begin_frame(camera, parameters.params, gbuffer.images());
+    const FrostbiteTraced found = trace_frostbite(pass_list, gbuffer, parameters);
     size_t into = 0, out = 0;
     for (size_t i = 0; i < found.directions.size(); ++i) {
         if (!found.is_ray(i)) continue;

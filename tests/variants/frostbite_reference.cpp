@@ -32,13 +32,13 @@ FrostbiteReference::FrostbiteReference(FrostbiteBench& bench, const std::vector<
       environment_(environment),
       view_from_clip_(bench.camera.view_from_clip),
       view_from_world_(glm::mat3(bench.camera.view_from_world)),
-      depth_(bench.graph.download(bench.gbuffer.depth)),
-      normal_(bench.graph.download(bench.gbuffer.normal)),
-      geometric_normal_(bench.graph.download(bench.gbuffer.geometric_normal)),
-      base_color_(bench.graph.download(bench.gbuffer.base_color)),
-      emission_(bench.graph.download(bench.gbuffer.emission)),
-      dielectric_f0_(bench.graph.download(bench.gbuffer.dielectric_f0)),
-      motion_(bench.graph.download(bench.gbuffer.motion)) {}
+      depth_(bench.pass_list.download(bench.gbuffer.depth)),
+      normal_(bench.pass_list.download(bench.gbuffer.normal)),
+      geometric_normal_(bench.pass_list.download(bench.gbuffer.geometric_normal)),
+      base_color_(bench.pass_list.download(bench.gbuffer.base_color)),
+      emission_(bench.pass_list.download(bench.gbuffer.emission)),
+      dielectric_f0_(bench.pass_list.download(bench.gbuffer.dielectric_f0)),
+      motion_(bench.pass_list.download(bench.gbuffer.motion)) {}
 
 FrostbiteReference::Surface FrostbiteReference::surface(glm::uvec2 pixel) const {
     Surface s;

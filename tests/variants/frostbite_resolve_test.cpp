@@ -1,7 +1,7 @@
 #include "core/gbuffer/environment_images.h"
 #include "core/split_sum.h"
 #include "tests/variants/frostbite_reference.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 #include "variants/common/ggx_lobe.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -43,7 +43,7 @@ HostImage gradient_image() {
     return image;
 }
 
-struct FrostbiteResolve : VariantTest {
+struct FrostbiteResolve : TechniqueTest {
     std::mt19937 random{4};
     const CameraPose pose{.world_from_view = glm::mat4(world_from_view), .vertical_fov = 1};
     const FrameView view{.extent = extent, .jitter = {0.3f, -0.2f}, .previous_jitter = {-0.1f, 0.4f}};
@@ -57,16 +57,16 @@ struct FrostbiteResolve : VariantTest {
     /// Colours, geometric normals and motions of pixels that have nothing to do with each other.
     void scatter(FrostbiteBench& bench) {
         HostImage color(extent, 4), normal(extent, 4), motion(extent, 2);
-        const HostImage base_color = bench.graph.download(bench.gbuffer.base_color);
+        const HostImage base_color = bench.pass_list.download(bench.gbuffer.base_color);
         for (size_t i = 0; i < color.pixel_count(); ++i) {
             color.set_rgb(i, {uniform(), uniform(), uniform()});
             color.values[4 * i + 3] = base_color.values[4 * i + 3];
             normal.set_rgb(i, normalize(glm::vec3(uniform() - 0.5f, uniform() - 0.5f, uniform())));
             for (unsigned c = 0; c < 2; ++c) motion.values[2 * i + c] = 0.2f * (uniform() - 0.5f);
         }
-        bench.graph.upload(bench.gbuffer.base_color, color);
-        bench.graph.upload(bench.gbuffer.geometric_normal, normal);
-        bench.graph.upload(bench.gbuffer.motion, motion);
+        bench.pass_list.upload(bench.gbuffer.base_color, color);
+        bench.pass_list.upload(bench.gbuffer.geometric_normal, normal);
+        bench.pass_list.upload(bench.gbuffer.motion, motion);
         bench.camera.frame.w = 1;
     }
 
@@ -111,15 +111,15 @@ struct FrostbiteResolve : VariantTest {
                                      {"max_rays", 2}, {"max_roughness", 0.6},     {"importance_bias", 0.3}};
         parameters.update(overrides);
         FrostbiteBench bench(device(), pose, view, hills, parameters);
-        const EnvironmentImages images(bench.graph, environment, false);
+        const EnvironmentImages images(bench.pass_list, environment, false);
         bench.gbuffer.environment = &images;
         scatter(bench);
         bench.set_frame(2, 5);
         const std::vector<StoredRay> rays = some_rays(bench);
         const ResolvedFrame found = bench.resolve(rays, gradient_image());
         const FrostbiteReference reference(bench, rays, environment);
-        const HostImage normal = bench.graph.download(bench.gbuffer.normal),
-                        depth = bench.graph.download(bench.gbuffer.depth);
+        const HostImage normal = bench.pass_list.download(bench.gbuffer.normal),
+                        depth = bench.pass_list.download(bench.gbuffer.depth);
         unsigned compared = 0, close_calls = 0;
         for (unsigned y = 0; y < extent.y; ++y)
             for (unsigned x = 0; x < extent.x; ++x) {
@@ -196,7 +196,7 @@ TEST_F(FrostbiteResolve, AppliesTheReflectanceBeforeOrAfterTheFilter) {
             random.seed(6);
             FrostbiteBench bench(device(), pose, view, hills,
                                  {{"estimator", estimator}, {"reflectance_after_filter", is_after}});
-            normal = bench.graph.download(bench.gbuffer.normal);
+            normal = bench.pass_list.download(bench.gbuffer.normal);
             found[is_after] = bench.resolve(some_rays(bench), gradient_image()).radiance;
         }
         unsigned compared = 0;
@@ -286,7 +286,7 @@ TEST_F(FrostbiteResolve, JudgesEveryRayByTheSurfaceOfThePixelThatReusesIt) {
                        .target = is_left ? 7 | 7 << 16 : ray_into_surface,
                        .length = is_left ? 3.0f : 0.0f};
         }
-        bench.graph.upload(bench.gbuffer.geometric_normal, geometric);
+        bench.pass_list.upload(bench.gbuffer.geometric_normal, geometric);
         const ResolvedFrame found = bench.resolve(rays, color);
         for (unsigned i = 0; i < rays.size(); ++i) {
             const bool is_left = i % extent.x < extent.x / 2;

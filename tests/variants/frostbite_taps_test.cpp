@@ -1,5 +1,5 @@
 #include "tests/variants/frostbite_bench.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <set>
 
@@ -8,7 +8,7 @@
 
 namespace {
 
-struct FrostbiteTaps : VariantTest {
+struct FrostbiteTaps : TechniqueTest {
     static constexpr glm::uvec2 extent{17, 12};
 
     static SyntheticHit wall(const CameraRay&) {

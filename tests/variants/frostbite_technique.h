@@ -46,17 +46,17 @@ struct FrostbiteResolved {
     Image radiance, reflection_depth;
 };
 
-Image frostbite_color_pyramid(PassGraph& graph, const Image& color);
-FrostbiteTiles frostbite_classify(PassGraph& graph, const GBuffer& gbuffer, const Tracers::Images& images,
+Image frostbite_color_pyramid(PassList& pass_list, const Image& color);
+FrostbiteTiles frostbite_classify(PassList& pass_list, const GBuffer& gbuffer, const Tracers::Images& images,
                                   const Image& color, const FrostbiteRayParameters& parameters,
                                   RayProbe* probe = nullptr);
-FrostbiteWork frostbite_allocate(PassGraph& graph, const GBuffer& gbuffer, const FrostbiteTiles& tiles,
+FrostbiteWork frostbite_allocate(PassList& pass_list, const GBuffer& gbuffer, const FrostbiteTiles& tiles,
                                  const FrostbiteRayParameters& parameters);
-TracedRays frostbite_trace(PassGraph& graph, const Tracers::Images& images, const FrostbiteWork& work,
+TracedRays frostbite_trace(PassList& pass_list, const Tracers::Images& images, const FrostbiteWork& work,
                            const Image& below_horizon, const FrostbiteRayParameters& parameters,
                            RayProbe* probe = nullptr);
-FrostbiteResolved frostbite_resolve(PassGraph& graph, const GBuffer& gbuffer, const Image& color,
+FrostbiteResolved frostbite_resolve(PassList& pass_list, const GBuffer& gbuffer, const Image& color,
                                     const Image& split_sum, const Image& below_horizon, const TracedRays& rays,
                                     const FrostbiteResolveParameters& parameters);
-Image frostbite_accumulate(PassGraph& graph, const GBuffer& gbuffer, const Image& split_sum,
+Image frostbite_accumulate(PassList& pass_list, const GBuffer& gbuffer, const Image& split_sum,
                            const FrostbiteResolved& resolved, const FrostbiteResolveParameters& parameters);

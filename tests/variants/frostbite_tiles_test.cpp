@@ -10,9 +10,9 @@ namespace {
 
 constexpr float none = 0, missed = 1, hit = 2;  // second channel of a probe
 
-struct FrostbiteTilesTest : VariantTest {
+struct FrostbiteTilesTest : TechniqueTest {
     static constexpr glm::uvec2 extent{200, 160};  // the last tile of a row has one column of blocks
-    PassGraph graph{device(), extent};
+    PassList pass_list{device(), extent};
     FrostbiteParameters parameters;
     HostImage probes{{25, 20}, 2};
     CameraData camera{};
@@ -30,19 +30,19 @@ struct FrostbiteTilesTest : VariantTest {
     /// Rays per tile of the next frame with these probes.
     HostImage count() {
         const glm::uvec2 tiles(7, 5);
-        const Image image = graph.image_of("probes", Format::rg32f, probes.extent);
-        graph.upload(image, probes);
-        graph.begin_frame(camera, parameters.params, {});
-        const PassGraph::History ray_count = graph.history("ray_count", Format::r32f, tiles),
-                                 frames_left = graph.history("frames_left", Format::r32f, tiles);
-        graph.compute("frostbite_sssr/count_rays.comp")
+        const Image image = pass_list.image_of("probes", Format::rg32f, probes.extent);
+        pass_list.upload(image, probes);
+        pass_list.begin_frame(camera, parameters.params, {});
+        const PassList::History ray_count = pass_list.history("ray_count", Format::r32f, tiles),
+                                frames_left = pass_list.history("frames_left", Format::r32f, tiles);
+        pass_list.compute("frostbite_sssr/count_rays.comp")
             .read(image)
             .read(ray_count.previous)
             .read(frames_left.previous)
             .write(ray_count.current)
             .write(frames_left.current)
             .run();
-        return graph.download(ray_count.current);
+        return pass_list.download(ray_count.current);
     }
 };
 
@@ -139,19 +139,19 @@ struct FrostbiteProbes : FrostbiteTilesTest {
     GBuffer begin(const SyntheticScene& scene, unsigned frame) {
         camera = camera_data(pose, nullptr, view);
         camera.frame.x = frame;
-        const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, scene);
-        graph.begin_frame(camera, parameters.params, gbuffer.images());
+        const GBuffer gbuffer = upload_gbuffer(pass_list, pose, camera, scene);
+        pass_list.begin_frame(camera, parameters.params, gbuffer.images());
         return gbuffer;
     }
 
     FrostbiteTiles classify(const GBuffer& gbuffer) {
-        return frostbite_classify(graph, gbuffer, parameters.ray.tracers.images(graph, gbuffer.depth), gbuffer.lit,
-                                  parameters.ray);
+        return frostbite_classify(pass_list, gbuffer, parameters.ray.tracers.images(pass_list, gbuffer.depth),
+                                  gbuffer.lit, parameters.ray);
     }
 
     HostImage probes_of(const GBuffer& gbuffer) {
         classify(gbuffer);
-        return graph.download(graph.image_of("probes", Format::rg32f, probes.extent));
+        return pass_list.download(pass_list.image_of("probes", Format::rg32f, probes.extent));
     }
 };
 
@@ -163,7 +163,7 @@ TEST_F(FrostbiteProbes, ComeToEveryPixelOfTheirBlockAndAreSpreadOverRowsAndColum
     std::vector<std::set<int>> seen(probes.pixel_count());
     for (unsigned frame = 0; frame < 64; ++frame) {
         const GBuffer gbuffer = begin(frontal_plane, frame);
-        graph.upload(gbuffer.fallback, numbers);
+        pass_list.upload(gbuffer.fallback, numbers);
         const HostImage found = probes_of(gbuffer);
         std::vector<std::set<int>> rows(8), columns(8);  // of the first eight blocks in each column and row
         for (unsigned block = 0; block < found.pixel_count(); ++block) {
@@ -227,7 +227,7 @@ struct FrostbiteThinObject : FrostbiteProbes {
 
     /// Tiles in which some pixel's mirror ray meets the post.
     std::set<unsigned> tiles_that_hit(const GBuffer& gbuffer) {
-        const HostImage depth = graph.download(gbuffer.depth), normal = graph.download(gbuffer.normal);
+        const HostImage depth = pass_list.download(gbuffer.depth), normal = pass_list.download(gbuffer.normal);
         const float thickness = parameters.params.values().at("frostbite.relative_thickness");
         std::set<unsigned> tiles;
         for (unsigned y = 0; y < extent.y; ++y)
@@ -256,12 +256,12 @@ TEST_F(FrostbiteThinObject, MakesNoTilePopWithDilationAndHysteresis) {
     for (const bool dilates : {false, true})
         for (const unsigned hysteresis : {0u, 4u}) {
             parameters.params.assign({{"dilate_tiles", dilates}, {"hysteresis", hysteresis}});
-            for (const PassGraph::History& history :
-                 {graph.history("ray_count", Format::r32f, {7, 5}), graph.history("frames_left", Format::r32f, {7, 5})})
-                for (const Image& image : {history.current, history.previous}) graph.clear(image, {});
+            for (const PassList::History& history : {pass_list.history("ray_count", Format::r32f, {7, 5}),
+                                                     pass_list.history("frames_left", Format::r32f, {7, 5})})
+                for (const Image& image : {history.current, history.previous}) pass_list.clear(image, {});
             size_t popped = 0;
             for (unsigned frame = 0; frame < frames; ++frame) {
-                const HostImage rays = graph.download(classify(begin_crossing(frame)).ray_count);
+                const HostImage rays = pass_list.download(classify(begin_crossing(frame)).ray_count);
                 for (const unsigned tile : truth[frame]) popped += rays.values[tile] == 0;
             }
             SCOPED_TRACE(testing::Message() << popped << " of " << tiles << " tiles, dilation " << dilates
@@ -291,17 +291,17 @@ struct FrostbiteTileEdges : FrostbiteProbes {
         parameters.params.assign({{"classification", classification}});
         camera = camera_data(pose, nullptr, view);
         camera.frame.y = seed;
-        const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, rough_floor);
-        graph.begin_frame(camera, parameters.params, gbuffer.images());
-        const Tracers::Images depths = parameters.ray.tracers.images(graph, gbuffer.depth);
-        const FrostbiteTiles tiles = frostbite_classify(graph, gbuffer, depths, gbuffer.lit, parameters.ray);
-        const FrostbiteWork work = frostbite_allocate(graph, gbuffer, tiles, parameters.ray);
-        const Image horizon = HorizonImage().on(graph, parameters.params);
-        const TracedRays rays = frostbite_trace(graph, depths, work, horizon, parameters.ray);
-        ray_count = graph.download(tiles.ray_count);
-        return graph.download(
-            frostbite_resolve(graph, gbuffer, gbuffer.lit, split_sum.on(graph), horizon, rays, parameters.resolve)
-                .radiance);
+        const GBuffer gbuffer = upload_gbuffer(pass_list, pose, camera, rough_floor);
+        pass_list.begin_frame(camera, parameters.params, gbuffer.images());
+        const Tracers::Images depths = parameters.ray.tracers.images(pass_list, gbuffer.depth);
+        const FrostbiteTiles tiles = frostbite_classify(pass_list, gbuffer, depths, gbuffer.lit, parameters.ray);
+        const FrostbiteWork work = frostbite_allocate(pass_list, gbuffer, tiles, parameters.ray);
+        const Image horizon = HorizonImage().on(pass_list, parameters.params);
+        const TracedRays rays = frostbite_trace(pass_list, depths, work, horizon, parameters.ray);
+        ray_count = pass_list.download(tiles.ray_count);
+        return pass_list.download(frostbite_resolve(pass_list, gbuffer, gbuffer.lit, split_sum.on(pass_list), horizon,
+                                                    rays, parameters.resolve)
+                                      .radiance);
     }
 
     /// Of those that see some rays of other tiles, and of the others.

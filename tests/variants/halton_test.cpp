@@ -1,6 +1,6 @@
 #include "variants/common/halton.h"
-#include "core/gpu/passes/pass_graph.h"
-#include "tests/variants/variant_fixture.h"
+#include "core/gpu/passes/pass_list.h"
+#include "tests/variants/technique_fixture.h"
 #include "variants/common/ggx_lobe.h"
 
 #include <cstring>
@@ -9,7 +9,7 @@
 
 namespace {
 
-struct Halton : VariantTest {};
+struct Halton : TechniqueTest {};
 
 TEST_F(Halton, FillsEveryElementaryInterval) {
     // Each 2^a 3^b points in a row put one into every box of 2^-a by 3^-b.
@@ -104,14 +104,14 @@ TEST_F(Halton, AndLobesAreTheSameOnTheDevice) {
     for (LobeInput& in : inputs)
         in = {{0.999f * uniform(random), uniform(random), 0.05f + 0.95f * uniform(random), uniform(random)},
               {random() % 2, random() % 250, uint32_t(random()) >> random() % 32, random()}};
-    PassGraph graph(device(), {1, 1});
+    PassList pass_list(device(), {1, 1});
     const ParameterSet none;
-    graph.begin_frame({}, none, {});
-    const Buffer in = graph.buffer("Inputs", inputs.size() * sizeof inputs[0]),
-                 out = graph.buffer("Values", inputs.size() * 8 * sizeof(float));
-    graph.upload(in, std::as_bytes(std::span(inputs)));
-    graph.compute("lobe_values.comp").use(in).use(out).dispatch_groups({(inputs.size() + 63) / 64, 1, 1});
-    const std::vector<std::byte> bytes = graph.download(out);
+    pass_list.begin_frame({}, none, {});
+    const Buffer in = pass_list.buffer("Inputs", inputs.size() * sizeof inputs[0]),
+                 out = pass_list.buffer("Values", inputs.size() * 8 * sizeof(float));
+    pass_list.upload(in, std::as_bytes(std::span(inputs)));
+    pass_list.compute("lobe_values.comp").use(in).use(out).dispatch_groups({(inputs.size() + 63) / 64, 1, 1});
+    const std::vector<std::byte> bytes = pass_list.download(out);
     std::vector<float> values(inputs.size() * 8);
     std::memcpy(values.data(), bytes.data(), bytes.size());
     for (size_t n = 0; n < inputs.size(); ++n) {

@@ -1,11 +1,11 @@
 #pragma once
 #include "tests/variants/synthetic_gbuffer.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
 /// Frames of a technique before a camera that is held.
-struct HeldCamera : VariantTest {
+struct HeldCamera : TechniqueTest {
     struct Frame {
         HostImage radiance, confidence;
     };
@@ -17,19 +17,19 @@ struct HeldCamera : VariantTest {
                     .far = 100.0f};
     FrameView view{.extent = {160, 120}};
     std::vector<PassTime> times;  ///< of the last frame
-    Reflections reflections;      ///< the last, whose graph is gone
+    Reflections reflections;      ///< the last, whose pass_list is gone
 
     /// The last of `count` frames. `environment`: where rays meet nothing.
-    Frame render(Variant& variant, const SyntheticScene& scene, unsigned count = 1, float environment = 0) {
-        PassGraph graph(device(), view.extent);
+    Frame render(Technique& technique, const SyntheticScene& scene, unsigned count = 1, float environment = 0) {
+        PassList pass_list(device(), view.extent);
         for (view.frame = 0; view.frame < count; ++view.frame) {
             const CameraData camera = camera_data(pose, view.frame > 0 ? &pose : nullptr, view);
-            const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, scene);
-            graph.upload(gbuffer.fallback, HostImage(view.extent, 4, environment));
-            graph.begin_frame(camera, variant.params, gbuffer.images());
-            reflections = variant.render(graph, gbuffer);
-            times = graph.times();
+            const GBuffer gbuffer = upload_gbuffer(pass_list, pose, camera, scene);
+            pass_list.upload(gbuffer.fallback, HostImage(view.extent, 4, environment));
+            pass_list.begin_frame(camera, technique.params, gbuffer.images());
+            reflections = technique.render(pass_list, gbuffer);
+            times = pass_list.times();
         }
-        return {graph.download(reflections.radiance), download_confidence(graph, reflections)};
+        return {pass_list.download(reflections.radiance), download_confidence(pass_list, reflections)};
     }
 };

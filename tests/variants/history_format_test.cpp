@@ -1,19 +1,19 @@
 // Histories in 16 and in 32 bits, in every technique that has one.
 #include "tests/variants/mirror_scenes.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <cmath>
 
 namespace {
 
-struct HistoryFormat : VariantTest {
+struct HistoryFormat : TechniqueTest {
     /// What a mirror shows of a wall of the radiance 1/3, which no half is, after some frames at rest.
     HostImage shown(const std::string& name, nlohmann::json parameters, bool is_float) {
         constexpr glm::uvec2 extent{64, 48};
         const CameraPose pose{.vertical_fov = 1.2f, .near = 0.1f, .far = 100.0f};
         parameters["float_histories"] = is_float;
-        const auto variant = make_variant(name, parameters);
-        PassGraph graph(device(), extent);
+        const auto technique = make_technique(name, parameters);
+        PassList pass_list(device(), extent);
         const SyntheticScene scene = [](const CameraRay& ray) {
             SyntheticHit hit = floor_before_white(ray);
             hit.lit /= 3.0f;
@@ -23,10 +23,10 @@ struct HistoryFormat : VariantTest {
         for (unsigned frame = 0; frame < frames; ++frame) {
             const CameraData camera =
                 camera_data(pose, frame > 0 ? &pose : nullptr, {.extent = extent, .frame = frame});
-            const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, scene);
-            graph.upload(gbuffer.motion, motion_of(pose, camera, scene));
-            graph.begin_frame(camera, variant->params, gbuffer.images());
-            found = graph.download(variant->render(graph, gbuffer).radiance);
+            const GBuffer gbuffer = upload_gbuffer(pass_list, pose, camera, scene);
+            pass_list.upload(gbuffer.motion, motion_of(pose, camera, scene));
+            pass_list.begin_frame(camera, technique->params, gbuffer.images());
+            found = pass_list.download(technique->render(pass_list, gbuffer).radiance);
         }
         return found;
     }

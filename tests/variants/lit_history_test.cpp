@@ -1,24 +1,24 @@
 #include "variants/common/lit_history.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 namespace {
 
-struct LitHistories : VariantTest {
-    PassGraph graph{device(), {5, 3}};
+struct LitHistories : TechniqueTest {
+    PassList pass_list{device(), {5, 3}};
     ParameterSet no_parameters;
 
     /// Another colour in each pixel, and in each frame. Thirds are no halves: nothing is lost on the way.
     HostImage colors(unsigned frame) const {
-        HostImage image(graph.extent(), 4);
+        HostImage image(pass_list.extent(), 4);
         for (size_t i = 0; i < image.values.size(); ++i) image.values[i] = float(i + 100 * frame) / 3;
         return image;
     }
     Image begin(unsigned frame, Format format) {
         CameraData camera{};
         camera.frame = {frame, 0, 0, frame > 0};
-        const Image lit = graph.image("lit", format);
-        graph.upload(lit, colors(frame));
-        graph.begin_frame(camera, no_parameters, std::array{lit});
+        const Image lit = pass_list.image("lit", format);
+        pass_list.upload(lit, colors(frame));
+        pass_list.begin_frame(camera, no_parameters, std::array{lit});
         return lit;
     }
 };
@@ -27,22 +27,24 @@ TEST_F(LitHistories, ShowTheFrameBeforeAndAtFirstTheirOwn) {
     LitHistory history;
     for (unsigned frame = 0; frame < 5; ++frame) {
         const Image lit = begin(frame, Format::rgba32f);
-        EXPECT_EQ(graph.download(history.previous(graph, lit)).values, colors(frame > 0 ? frame - 1 : 0).values);
-        EXPECT_EQ(graph.download(lit).values, colors(frame).values) << frame;
+        EXPECT_EQ(pass_list.download(history.previous(pass_list, lit)).values,
+                  colors(frame > 0 ? frame - 1 : 0).values);
+        EXPECT_EQ(pass_list.download(lit).values, colors(frame).values) << frame;
     }
 }
 
 TEST_F(LitHistories, KeepTheFormatOfTheLitImage) {
     LitHistory history;
     for (unsigned frame = 0; frame < 2; ++frame)
-        EXPECT_EQ(history.previous(graph, begin(frame, Format::rgba16f)).format, Format::rgba16f);
+        EXPECT_EQ(history.previous(pass_list, begin(frame, Format::rgba16f)).format, Format::rgba16f);
 }
 
-// After a change of size there is a new graph, whose history holds nothing: the first frame shows its own colour again.
+// After a change of size there is a new pass_list, whose history holds nothing: the first frame shows its own colour
+// again.
 TEST_F(LitHistories, BeginAnewInAnotherGraph) {
     LitHistory history;
-    history.previous(graph, begin(0, Format::rgba32f));
-    PassGraph larger(device(), {7, 5});
+    history.previous(pass_list, begin(0, Format::rgba32f));
+    PassList larger(device(), {7, 5});
     const Image lit = larger.image("lit", Format::rgba32f);
     larger.upload(lit, HostImage({7, 5}, 4, 3.0f));
     CameraData camera{};

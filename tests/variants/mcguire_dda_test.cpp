@@ -1,27 +1,27 @@
 #include "tests/variants/synthetic_gbuffer.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 namespace {
 
-struct MirrorFloor : VariantTest {
+struct MirrorFloor : TechniqueTest {
     static constexpr glm::uvec2 extent{320, 240};
     CameraPose pose{.vertical_fov = 1.2f, .near = 0.1f, .far = 100.0f};
     FrameView view{.extent = extent};
-    PassGraph graph{device(), extent};
-    std::unique_ptr<Variant> variant = make_variant("mcguire_dda");
+    PassList pass_list{device(), extent};
+    std::unique_ptr<Technique> technique = make_technique("mcguire_dda");
     SyntheticScene scene = mirror_floor;
     HostImage radiance, confidence, hit;
     HostImage geometric_normal;  ///< empty: the scene's
 
     void render() {
         const CameraData camera = camera_data(pose, nullptr, view);
-        const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, scene);
-        if (!geometric_normal.values.empty()) graph.upload(gbuffer.geometric_normal, geometric_normal);
-        graph.begin_frame(camera, variant->params, gbuffer.images());
-        const Reflections reflections = variant->render(graph, gbuffer);
-        radiance = graph.download(reflections.radiance);
-        confidence = download_confidence(graph, reflections);
-        hit = graph.download(graph.image("hit", Format::rgba32f));
+        const GBuffer gbuffer = upload_gbuffer(pass_list, pose, camera, scene);
+        if (!geometric_normal.values.empty()) pass_list.upload(gbuffer.geometric_normal, geometric_normal);
+        pass_list.begin_frame(camera, technique->params, gbuffer.images());
+        const Reflections reflections = technique->render(pass_list, gbuffer);
+        radiance = pass_list.download(reflections.radiance);
+        confidence = download_confidence(pass_list, reflections);
+        hit = pass_list.download(pass_list.image("hit", Format::rgba32f));
     }
 
     /// Where the mirror ray of a floor pixel meets the wall: pixels; the height of the wall and the ray's length in m.
@@ -101,7 +101,7 @@ TEST_F(MirrorFloor, ReflectsTheWallUnderJitter) {
 }
 
 TEST_F(MirrorFloor, RefinesLongStrides) {
-    variant = make_variant("mcguire_dda", {{"dda.stride", 8}, {"dda.thickness", 10.0}});
+    technique = make_technique("mcguire_dda", {{"dda.stride", 8}, {"dda.thickness", 10.0}});
     render();
     const auto mean_error = [&] {
         double sum = 0;
@@ -116,7 +116,7 @@ TEST_F(MirrorFloor, RefinesLongStrides) {
     };
     const double coarse = mean_error();
     EXPECT_LT(coarse, 12.0);  // a stride and a half
-    variant->params.assign({{"dda.refine", true}});
+    technique->params.assign({{"dda.refine", true}});
     render();
     EXPECT_LT(mean_error(), 0.5 * coarse);
 }
@@ -124,7 +124,7 @@ TEST_F(MirrorFloor, RefinesLongStrides) {
 TEST_F(MirrorFloor, StartsEveryOtherRayHalfAStrideLaterIfAsked) {
     // The camera looks level over a level floor, so that rays run along columns, those of the border too: 8, 16, 24...
     // pixels from their own are tested, of every other ray 12, 20, 28...
-    variant = make_variant("mcguire_dda", {{"dda.stride", 8}, {"dda.checkerboard", true}, {"dda.thickness", 10.0}});
+    technique = make_technique("mcguire_dda", {{"dda.stride", 8}, {"dda.checkerboard", true}, {"dda.thickness", 10.0}});
     render();
     unsigned count = 0;
     for (unsigned y = 0; y < extent.y; ++y)
@@ -155,7 +155,7 @@ TEST_F(MirrorFloor, FiltersTheColorAtTheHitIfAsked) {
         return first;
     };
     const auto worst_error = [&](bool is_bilinear) {
-        variant = make_variant("mcguire_dda", {{"bilinear_color", is_bilinear}});
+        technique = make_technique("mcguire_dda", {{"bilinear_color", is_bilinear}});
         render();
         float worst = 0;
         for (unsigned y = 0; y < extent.y; ++y)
@@ -204,7 +204,7 @@ TEST_F(MirrorFloor, TracesRaysIntoTheSurfaceUnlessToldNotTo) {
         geometric_normal.set_rgb(i, i % extent.x < extent.x / 2 ? glm::vec3(0, 1, 0) : normalize(glm::vec3(0, 1, 3)));
     render();
     EXPECT_EQ(hit.values, all.values);
-    variant->params.assign({{"trace_inward_rays", false}});
+    technique->params.assign({{"trace_inward_rays", false}});
     render();
     unsigned kept = 0, left_out = 0;
     for (size_t i = 0; i < all.pixel_count(); ++i) {
@@ -242,22 +242,22 @@ TEST_F(MirrorFloor, LeavesOutNothingThatWouldHaveCounted) {
     render();
     const HostImage all = radiance, all_confidence = confidence;
     SceneFacts facts{.has_geometry = true, .has_reflective = true, .min_roughness = 0.8f, .max_roughness = 0.8f};
-    EXPECT_EQ(variant->leave_out(facts).size(), 2u);
+    EXPECT_EQ(technique->leave_out(facts).size(), 2u);
     render();
-    EXPECT_EQ(graph.times().size(), 1u);
+    EXPECT_EQ(pass_list.times().size(), 1u);
     EXPECT_EQ(confidence.values, all_confidence.values);
     for (size_t i = 0; i < radiance.pixel_count(); ++i) EXPECT_EQ(radiance.rgb(i), all.rgb(i));
     facts.min_roughness = 0.6f;
-    EXPECT_TRUE(variant->leave_out(facts).empty());
+    EXPECT_TRUE(technique->leave_out(facts).empty());
 }
 
 TEST_F(MirrorFloor, GivesNothingWithoutReflections) {
-    variant = make_variant("none");
+    technique = make_technique("none");
     const CameraData camera = camera_data(pose, nullptr, view);
-    const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, scene);
-    graph.begin_frame(camera, variant->params, gbuffer.images());
-    const Reflections reflections = variant->render(graph, gbuffer);
-    EXPECT_EQ(std::ranges::count(graph.download(reflections.confidence).values, 0.0f), 320 * 240);
+    const GBuffer gbuffer = upload_gbuffer(pass_list, pose, camera, scene);
+    pass_list.begin_frame(camera, technique->params, gbuffer.images());
+    const Reflections reflections = technique->render(pass_list, gbuffer);
+    EXPECT_EQ(std::ranges::count(pass_list.download(reflections.confidence).values, 0.0f), 320 * 240);
 }
 
 }  // namespace

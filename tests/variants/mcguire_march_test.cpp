@@ -1,7 +1,7 @@
 #include "experiments/study/stability/precision/double_shader.h"
 #include "tests/variants/brute_force_march.h"
 #include "tests/variants/synthetic_gbuffer.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <random>
 
@@ -17,12 +17,12 @@ struct Found {
     bool is_hit;
 };
 
-struct McGuireMarch : VariantTest {
+struct McGuireMarch : TechniqueTest {
     static constexpr glm::uvec2 extent{96, 64};
     CameraPose pose{.vertical_fov = 1.0f, .near = 0.1f, .far = 100.0f};
     FrameView view{.extent = extent};
-    PassGraph graph{device(), extent};
-    std::unique_ptr<Variant> variant = make_variant("mcguire_dda", {{"dda.max_distance", 50.0}});
+    PassList pass_list{device(), extent};
+    std::unique_ptr<Technique> technique = make_technique("mcguire_dda", {{"dda.max_distance", 50.0}});
     CameraData camera{};
     HostImage depth{extent, 1};
 
@@ -57,21 +57,21 @@ struct McGuireMarch : VariantTest {
                 origins.values[4 * i + size_t(c)] = rays[i].origin[c];
                 directions.values[4 * i + size_t(c)] = rays[i].direction[c];
             }
-        const Image depth_image = graph.image("depth", Format::r32f);
-        graph.upload(depth_image, depth);
-        graph.begin_frame(camera, variant->params, std::array{depth_image});
+        const Image depth_image = pass_list.image("depth", Format::r32f);
+        pass_list.upload(depth_image, depth);
+        pass_list.begin_frame(camera, technique->params, std::array{depth_image});
         const auto rays_image = [&](const char* name, const HostImage& pixels) {
-            const Image image = graph.image_of(name, Format::rgba32f, line);
-            graph.upload(image, pixels);
+            const Image image = pass_list.image_of(name, Format::rgba32f, line);
+            pass_list.upload(image, pixels);
             return image;
         };
-        const Image found = graph.image_of("found", Format::rgba32f, line);
-        graph.compute("dda_rays.comp")
+        const Image found = pass_list.image_of("found", Format::rgba32f, line);
+        pass_list.compute("dda_rays.comp")
             .read(rays_image("ray_origin", origins))
             .read(rays_image("ray_direction", directions))
             .write(found)
             .run();
-        const HostImage pixels = graph.download(found);
+        const HostImage pixels = pass_list.download(found);
         std::vector<Found> result;
         for (unsigned i = 0; i < line.x; ++i) {
             const float* p = pixels.pixel(i, 0);
@@ -131,7 +131,7 @@ TEST_F(McGuireMarch, AgreesWithBruteForce) {
 
 TEST_F(McGuireMarch, AgreesWithBruteForceForStrideAndThickness) {
     make_depth();
-    variant->params.assign(
+    technique->params.assign(
         {{"dda.stride", 3}, {"dda.jitter", 1.25}, {"dda.thickness", 0.02}, {"dda.relative_thickness", 0.1}});
     expect_agreement(random_rays(4000),
                      {.stride = 3, .jitter = 1.25, .thickness = 0.02, .relative_thickness = 0.1, .max_distance = 50},
@@ -142,7 +142,7 @@ TEST_F(McGuireMarch, AgreesWithBruteForceAsPublished) {
     make_depth();
     // Rays start in front of the surface: on a wall that faces the camera the published first interval begins with a
     // tie.
-    variant->params.assign({{"dda.interval_from_origin", true}, {"dda.thickness", 0.5}});
+    technique->params.assign({{"dda.interval_from_origin", true}, {"dda.thickness", 0.5}});
     std::vector<TestRay> rays = random_rays(4000);
     for (TestRay& ray : rays) ray.origin *= 0.98f;
     expect_agreement(rays, {.thickness = 0.5, .max_distance = 50, .interval_from_origin = true}, 0.1);
@@ -167,7 +167,7 @@ TEST_F(McGuireMarch, AgreesWithBruteForceForStrideAndThicknessWithReversedDepthA
     view.depth_direction = DepthDirection::reversed;
     view.jitter = {-0.45f, 0.2f};
     make_depth();
-    variant->params.assign(
+    technique->params.assign(
         {{"dda.stride", 3}, {"dda.jitter", 1.25}, {"dda.thickness", 0.02}, {"dda.relative_thickness", 0.1}});
     expect_agreement(random_rays(4000),
                      {.stride = 3, .jitter = 1.25, .thickness = 0.02, .relative_thickness = 0.1, .max_distance = 50},
@@ -178,7 +178,7 @@ TEST_F(McGuireMarch, AgreesWithBruteForceForStrideAndThicknessWithReversedDepthA
 /// that it is written as (6e-8), and the length of directions, which float makes unit to 1.8e-7.
 TEST_F(McGuireMarch, InDoubleItIsExact) {
     make_depth();
-    graph.set_changes({.format_of = {}, .glsl_of = double_where([](const std::string&) { return true; })});
+    pass_list.set_changes({.format_of = {}, .glsl_of = double_where([](const std::string&) { return true; })});
     expect_agreement(random_rays(4000), {.max_distance = 50}, 0.1, 2.4e-7, 0.0);
 }
 
@@ -186,7 +186,7 @@ TEST_F(McGuireMarch, IsTheSameAtEveryScale) {
     // A world 1e6 times larger: the thickness is relative, so each pixel must do what it did. Powers of two round
     // alike.
     make_depth();
-    variant->params.assign({{"dda.thickness", 0.0}, {"dda.relative_thickness", 0.05}, {"dda.max_distance", 0.0}});
+    technique->params.assign({{"dda.thickness", 0.0}, {"dda.relative_thickness", 0.05}, {"dda.max_distance", 0.0}});
     std::vector<TestRay> rays = random_rays(1000);
     const std::vector<Found> small = march(rays);
     const float scale = 1048576.0f;
@@ -216,7 +216,7 @@ TEST_F(McGuireMarch, MissesAlongTheView) {
 
 TEST_F(McGuireMarch, MissesWithinItsOwnPixel) {
     make_depth();
-    variant->params.assign({{"dda.max_distance", 1e-3}});
+    technique->params.assign({{"dda.max_distance", 1e-3}});
     EXPECT_FALSE(march({position_at(40, 30), {1, 0, 0}}).is_hit);
     EXPECT_FALSE(march({position_at(40, 30), {0, 1, 0}}).is_hit);
 }
@@ -261,14 +261,14 @@ TEST_F(McGuireMarch, EndsAtTheNearPlane) {
     depth = HostImage(extent, 1, far_clip.z / far_clip.w);
     for (unsigned y = 0; y < extent.y; ++y)
         for (unsigned x = 0; x < 30; ++x) *depth.pixel(x, y) = box_clip.z / box_clip.w;
-    variant->params.assign({{"dda.thickness", 1e6}});
+    technique->params.assign({{"dda.thickness", 1e6}});
     const Found found = march({{0.0f, 0.0f, -19.0f}, normalize(glm::vec3(0.02f, 0.001f, 1.0f))});
     EXPECT_FALSE(found.is_hit);
 }
 
 TEST_F(McGuireMarch, LeavesTheScreenAtItsBorder) {
     make_depth();
-    variant->params.assign({{"dda.thickness", 1e6}, {"dda.clip_to_viewport", false}});
+    technique->params.assign({{"dda.thickness", 1e6}, {"dda.clip_to_viewport", false}});
     // Just outside the first column there is nothing, whatever a truncating conversion to int would find.
     depth = HostImage(extent, 1, camera.depth.z);
     for (unsigned y = 0; y < extent.y; ++y) *depth.pixel(0, y) = 0.0f;

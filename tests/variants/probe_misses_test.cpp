@@ -1,13 +1,13 @@
 // What rays that miss see where misses = probe, through a denoiser that shows each pixel's own ray of the frame.
 #include "tests/variants/denoiser_bench.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace {
 
-struct ProbeMissesTest : VariantTest {
+struct ProbeMissesTest : TechniqueTest {
     const glm::vec3 place{1, 2, 3};  ///< of the camera, in the middle of a sphere
     static constexpr float radius = 3;
 

@@ -1,6 +1,6 @@
 #pragma once
 #include "tests/variants/denoiser_bench.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 #include "variants/common/ggx_lobe.h"
 
 #include <cmath>
@@ -10,7 +10,7 @@
 inline const nlohmann::json of_means = {{"reuse_neighbors", false}, {"change_deviations", 0.0}};
 
 /// A wall that faces the camera, and rays drawn from its lobe.
-struct RatioAccumulationTest : VariantTest {
+struct RatioAccumulationTest : TechniqueTest {
     static constexpr float wall_distance = 5;
     glm::uvec2 extent{16, 12};
     CameraPose pose{.vertical_fov = 1.2f, .near = 0.1f, .far = 100.0f};

@@ -134,7 +134,7 @@ TEST_F(RatioAccumulationTest, RoughSurfacesShowTheProbe) {
                     .next(of_one_color(7));
             for (const float value : without_probe.values) ASSERT_EQ(value, 0);
             DenoiserBench rough(device(), "ratio_accumulation", pose, extent, half_a_wall, defaults,
-                               changed(draw, {{"misses", "probe"}}));
+                                changed(draw, {{"misses", "probe"}}));
             const HostImage found = rough.next(of_one_color(7));
             std::vector<ProbeRay> rays;
             std::vector<glm::vec4> shown;
@@ -154,7 +154,7 @@ TEST_F(RatioAccumulationTest, RoughSurfacesShowTheProbe) {
                     shown.emplace_back(p[0] * p[3], p[1] * p[3], p[2] * p[3], p[3]);
                 }
             ASSERT_GT(shown.size(), extent.x * extent.y / 4);
-            const std::vector<glm::vec4> expected = look_up(rough.graph, *rough.probe, rays);
+            const std::vector<glm::vec4> expected = look_up(rough.pass_list, *rough.probe, rays);
             for (size_t i = 0; i < shown.size(); ++i) {
                 glm::vec4 least = expected[i * steps], most = least;
                 for (int step = 1; step < steps; ++step) {

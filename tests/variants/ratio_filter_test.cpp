@@ -21,7 +21,7 @@ SyntheticScene wall(float roughness) {
 
 /// Frames in a row before a camera that is held, with rays that a test makes up.
 struct RatioFilterBench {
-    PassGraph graph;
+    PassList pass_list;
     CameraPose pose, pose_before;
     FrameView view;
     SyntheticScene scene;
@@ -30,7 +30,7 @@ struct RatioFilterBench {
 
     RatioFilterBench(Device& device, const CameraPose& camera, const FrameView& frame, const SyntheticScene& shown,
                      const nlohmann::json& of_technique, const nlohmann::json& own)
-        : graph(device, frame.extent), pose(camera), view(frame), scene(shown) {
+        : pass_list(device, frame.extent), pose(camera), view(frame), scene(shown) {
         technique.params.assign({{"half_resolution", false}, {"previous_frame", false}, {"max_roughness", 1.0}});
         technique.params.assign(of_technique);
         denoiser->params.assign(own);
@@ -39,16 +39,16 @@ struct RatioFilterBench {
     /// `rays`: max_rays for each traced pixel. `color`: what hits show, 4 channels.
     HostImage next(const std::vector<StoredRay>& rays, const HostImage& color) {
         const CameraData camera = camera_data(pose, view.frame > 0 ? &pose_before : nullptr, view);
-        const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, scene);
-        graph.begin_frame(camera, technique.params, gbuffer.images());
-        const Image lit = graph.image("shown_by_hits", Format::rgba32f);
-        graph.upload(lit, color);
+        const GBuffer gbuffer = upload_gbuffer(pass_list, pose, camera, scene);
+        pass_list.begin_frame(camera, technique.params, gbuffer.images());
+        const Image lit = pass_list.image("shown_by_hits", Format::rgba32f);
+        pass_list.upload(lit, color);
         const DenoisedRays traced{
-            .technique = technique.params, .traced = upload_rays(graph, rays), .color = lit, .probe = {}};
-        const Reflections reflections = denoiser->run(graph, gbuffer, traced);
+            .technique = technique.params, .traced = upload_rays(pass_list, rays), .color = lit, .probe = {}};
+        const Reflections reflections = denoiser->run(pass_list, gbuffer, traced);
         ++view.frame;
         pose_before = pose;
-        return graph.download(reflections.radiance);
+        return pass_list.download(reflections.radiance);
     }
 
     size_t traced_pixels() const {
@@ -57,7 +57,7 @@ struct RatioFilterBench {
     }
 };
 
-struct RatioFilter : VariantTest {
+struct RatioFilter : TechniqueTest {
     const nlohmann::json of_own_rays = {{"spatial_reuse", false}, {"bilateral_filter", false}};
     CameraPose pose{.vertical_fov = 1.2f, .near = 0.1f, .far = 100.0f};
     FrameView view{.extent = {32, 24}};

@@ -3,15 +3,15 @@
 #include "core/scene/camera.h"
 
 ReconstructionBench::ReconstructionBench(Device& device, glm::uvec2 extent, const nlohmann::json& overrides)
-    : graph(device, extent) {
+    : pass_list(device, extent) {
     parameters.params.assign(overrides);
     parameters.params.assign({{"mask", "depth"}});  // as run() makes it
 }
 
 Reconstruction ReconstructionBench::run(const ReconstructionInputs& inputs, const DiligentFilterParameters* targets) {
     const auto upload = [&](const char* name, Format format, const HostImage& pixels) {
-        const Image image = graph.image_of(name, format, pixels.extent);
-        graph.upload(image, pixels);
+        const Image image = pass_list.image_of(name, format, pixels.extent);
+        pass_list.upload(image, pixels);
         return image;
     };
     GBuffer gbuffer;
@@ -23,12 +23,12 @@ Reconstruction ReconstructionBench::run(const ReconstructionInputs& inputs, cons
     const Image kept = upload("mask", Format::d16, inputs.mask);
     const DiligentMask mask{
         .roughness = upload("roughness", Format::r32f, inputs.roughness), .full = kept, .traced = kept};
-    graph.begin_frame(inputs.camera, parameters.params, std::array{gbuffer.depth, gbuffer.normal});
+    pass_list.begin_frame(inputs.camera, parameters.params, std::array{gbuffer.depth, gbuffer.normal});
     const DiligentResolved resolved =
-        diligent_reconstruct(graph, gbuffer, rays, mask, targets ? *targets : parameters.filter);
-    return {.radiance = graph.download(resolved.radiance),
-            .variance = graph.download(resolved.variance),
-            .hit_depth = graph.download(resolved.hit_depth)};
+        diligent_reconstruct(pass_list, gbuffer, rays, mask, targets ? *targets : parameters.filter);
+    return {.radiance = pass_list.download(resolved.radiance),
+            .variance = pass_list.download(resolved.variance),
+            .hit_depth = pass_list.download(resolved.hit_depth)};
 }
 
 ReconstructionInputs reflecting_wall(const ReflectingWall& wall) {

@@ -18,7 +18,7 @@ struct Reconstruction {
 /// Runs that pass on given inputs; what it leaves out keeps the values of the run before. `targets`: decides the
 /// formats in place of `parameters`, of which alone the shader knows.
 struct ReconstructionBench {
-    PassGraph graph;
+    PassList pass_list;
     DiligentParameters parameters;
 
     ReconstructionBench(Device& device, glm::uvec2 extent, const nlohmann::json& overrides);

@@ -1,8 +1,8 @@
 // The recurrent blur by what its formulas come to: means and variances of noise over frames, the width of its disk, and
 // where history of a mirror is found.
 #include "tests/variants/synthetic_gbuffer.h"
+#include "tests/variants/technique_fixture.h"
 #include "tests/variants/technique_passes.h"
-#include "tests/variants/variant_fixture.h"
 
 #include <random>
 
@@ -19,7 +19,7 @@ SyntheticScene wall(float distance, float roughness) {
     };
 }
 
-struct RecurrentBlurTest : VariantTest {
+struct RecurrentBlurTest : TechniqueTest {
     CameraPose pose{.vertical_fov = 1.0f, .near = 0.1f, .far = 100.0f};
     ParameterSet params;
     glm::uvec2 extent{64, 48};
@@ -36,21 +36,22 @@ struct RecurrentBlurTest : VariantTest {
 
     /// Frame `frame` of a camera at rest before `scene`, whose pixels' own rays see `seen` (rgb, confidence) and are
     /// `ray_length` (m) long.
-    HostImage render(PassGraph& graph, unsigned frame, const SyntheticScene& scene, const HostImage& seen,
+    HostImage render(PassList& pass_list, unsigned frame, const SyntheticScene& scene, const HostImage& seen,
                      float ray_length, unsigned seed = 0) {
         const CameraData camera =
             camera_data(pose, frame > 0 ? &pose : nullptr, {.extent = extent, .frame = frame, .seed = seed});
-        const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, scene);
-        graph.begin_frame(camera, params, gbuffer.images());
-        const Image own_radiance = graph.image("own_radiance", Format::rgba32f),
-                    own_length = graph.image("own_length", Format::r32f);
-        graph.upload(own_radiance, seen);
-        graph.upload(own_length, HostImage(extent, 1, ray_length));
-        return graph.download(blurred(graph, gbuffer, own_radiance, own_length));
+        const GBuffer gbuffer = upload_gbuffer(pass_list, pose, camera, scene);
+        pass_list.begin_frame(camera, params, gbuffer.images());
+        const Image own_radiance = pass_list.image("own_radiance", Format::rgba32f),
+                    own_length = pass_list.image("own_length", Format::r32f);
+        pass_list.upload(own_radiance, seen);
+        pass_list.upload(own_length, HostImage(extent, 1, ray_length));
+        return pass_list.download(blurred(pass_list, gbuffer, own_radiance, own_length));
     }
 
-    static Image blurred(PassGraph& graph, const GBuffer& gbuffer, const Image& radiance, const Image& length) {
-        return denoiser_passes("recurrent_blur", graph, gbuffer, {{"own_radiance", radiance}, {"own_length", length}})
+    static Image blurred(PassList& pass_list, const GBuffer& gbuffer, const Image& radiance, const Image& length) {
+        return denoiser_passes("recurrent_blur", pass_list, gbuffer,
+                               {{"own_radiance", radiance}, {"own_length", length}})
             .radiance;
     }
 
@@ -76,10 +77,10 @@ double variance_of(const HostImage& image) {
 /// variance v there is v / n left, then v / (2 max_frames - 1).
 TEST_F(RecurrentBlurTest, AveragesFramesAndThenForgets) {
     params.assign({{"spatial_filter", false}, {"max_frames", 6}});
-    PassGraph graph(device(), extent);
+    PassList pass_list(device(), extent);
     std::mt19937 random(7);
     for (unsigned frame = 0; frame < 40; ++frame) {
-        const double left = variance_of(render(graph, frame, wall(3, 0.5f), noise(random), 1.0f)) * 12;
+        const double left = variance_of(render(pass_list, frame, wall(3, 0.5f), noise(random), 1.0f)) * 12;
         const double expected = frame < 6 ? 1.0 / (frame + 1) : 1.0 / 11;
         // The variance of 3072 numbers scatters by a fortieth at most: five of those, one false alarm in a million.
         if (frame < 6 || frame > 30) {
@@ -99,14 +100,14 @@ TEST_F(RecurrentBlurTest, ReachesAsFarAsItsDisk) {
     for (const unsigned frames : {1u, 4u}) {
         double farthest = 0;
         for (unsigned seed = 0; seed < 24; ++seed) {
-            PassGraph graph(device(), extent);
+            PassList pass_list(device(), extent);
             HostImage image;
             for (unsigned frame = 0; frame < frames; ++frame) {
                 HostImage seen(extent, 4, 1.0f);
                 for (size_t i = 0; i < seen.pixel_count(); ++i) seen.set_rgb(i, glm::vec3(0));
                 const bool is_last = frame + 1 == frames;
                 if (is_last) seen.set_rgb(24 * extent.x + 32, glm::vec3(1));
-                image = render(graph, frame, wall(distance, roughness), seen, ray_length, seed);
+                image = render(pass_list, frame, wall(distance, roughness), seen, ray_length, seed);
             }
             for (unsigned y = 0; y < extent.y; ++y)
                 for (unsigned x = 0; x < extent.x; ++x)
@@ -138,7 +139,7 @@ TEST_F(RecurrentBlurTest, FindsHistoryWhereTheMirrorShowsIt) {
         return image;
     };
     const auto error_with = [&](float ray_length) {
-        PassGraph graph(device(), extent);
+        PassList pass_list(device(), extent);
         CameraPose before = pose;
         HostImage expected, found;
         for (unsigned frame = 0; frame < 6; ++frame) {
@@ -147,20 +148,20 @@ TEST_F(RecurrentBlurTest, FindsHistoryWhereTheMirrorShowsIt) {
             const CameraData camera =
                 camera_data(now, frame > 0 ? &before : nullptr, {.extent = extent, .frame = frame});
             const SyntheticScene scene = wall(distance, 0.0f);
-            const GBuffer gbuffer = upload_gbuffer(graph, now, camera, scene);
-            graph.upload(gbuffer.motion, motion_of(now, camera, scene));
-            graph.begin_frame(camera, params, gbuffer.images());
-            const Image own_radiance = graph.image("own_radiance", Format::rgba32f),
-                        own_length = graph.image("own_length", Format::r32f);
+            const GBuffer gbuffer = upload_gbuffer(pass_list, now, camera, scene);
+            pass_list.upload(gbuffer.motion, motion_of(now, camera, scene));
+            pass_list.begin_frame(camera, params, gbuffer.images());
+            const Image own_radiance = pass_list.image("own_radiance", Format::rgba32f),
+                        own_length = pass_list.image("own_length", Format::r32f);
             expected = stripes(now);
-            graph.upload(own_radiance, expected);
+            pass_list.upload(own_radiance, expected);
             // Along the pixel's line of sight, which is longer towards the corners.
             HostImage lengths(extent, 1);
             for (unsigned y = 0; y < extent.y; ++y)
                 for (unsigned x = 0; x < extent.x; ++x)
                     *lengths.pixel(x, y) = ray_length / -camera_ray(now, extent, glm::vec2(x, y) + 0.5f).direction.z;
-            graph.upload(own_length, lengths);
-            found = graph.download(blurred(graph, gbuffer, own_radiance, own_length));
+            pass_list.upload(own_length, lengths);
+            found = pass_list.download(blurred(pass_list, gbuffer, own_radiance, own_length));
             before = now;
         }
         double squares = 0;

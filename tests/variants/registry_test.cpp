@@ -2,7 +2,7 @@
 #include "core/files.h"
 #include "core/gpu/pipelines/shader.h"
 #include "tests/error_message.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 #include "variants/tracers/tracers.h"
 
 #include <algorithm>
@@ -12,57 +12,57 @@
 
 namespace {
 
-TEST(Registry, NamesTheNearestVariant) {
-    EXPECT_EQ(error_message([] { make_variant("mcguire_dad"); }),
-              "unknown variant 'mcguire_dad'; did you mean 'mcguire_dda'?");
+TEST(Registry, NamesTheNearestTechnique) {
+    EXPECT_EQ(error_message([] { make_technique("mcguire_dad"); }),
+              "unknown technique 'mcguire_dad'; did you mean 'mcguire_dda'?");
     EXPECT_EQ(error_message([] {
-                  make_variant("mcguire_dda", {{"thicknes", 1}});
+                  make_technique("mcguire_dda", {{"thicknes", 1}});
               }),
-              "variant 'mcguire_dda': unknown parameter 'thicknes'; did you mean 'dda.thickness'?");
+              "technique 'mcguire_dda': unknown parameter 'thicknes'; did you mean 'dda.thickness'?");
     EXPECT_EQ(error_message([] {
-                  make_variant("mcguire_dda", {{"dda.stride", 0}});
+                  make_technique("mcguire_dda", {{"dda.stride", 0}});
               }),
-              "variant 'mcguire_dda': parameter 'dda.stride' = 0 is outside of its range: [1, 64]");
-    EXPECT_EQ(error_message([] { make_variant("mcguire_dda", {}, "corse"); }),
-              "unknown preset of variant 'mcguire_dda': 'corse'; did you mean 'coarse'?");
-    EXPECT_EQ(error_message([] { make_variant("none", {}, "fast"); }),
-              "unknown preset of variant 'none': 'fast'; there are none");
+              "technique 'mcguire_dda': parameter 'dda.stride' = 0 is outside of its range: [1, 64]");
+    EXPECT_EQ(error_message([] { make_technique("mcguire_dda", {}, "corse"); }),
+              "unknown preset of technique 'mcguire_dda': 'corse'; did you mean 'coarse'?");
+    EXPECT_EQ(error_message([] { make_technique("none", {}, "fast"); }),
+              "unknown preset of technique 'none': 'fast'; there are none");
 }
 
 TEST(Registry, AppliesPresetsBeforeParameters) {
-    const auto variant = make_variant("mcguire_dda", {{"dda.stride", 7}}, "coarse");
-    EXPECT_EQ(variant->params.values().at("dda.stride"), 7);
-    EXPECT_EQ(variant->params.values().at("dda.refine"), true);
+    const auto technique = make_technique("mcguire_dda", {{"dda.stride", 7}}, "coarse");
+    EXPECT_EQ(technique->params.values().at("dda.stride"), 7);
+    EXPECT_EQ(technique->params.values().at("dda.refine"), true);
 }
 
 /// What `ssrlab tune` writes becomes presets by a copy of its file; a copy beside the wrong technique is an error.
 TEST(Registry, TakesPresetsThatASearchFound) {
     const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "tuned_presets.json";
-    const auto add = [&](VariantEntry entry, const std::string& preset) {
+    const auto add = [&](TechniqueEntry entry, const std::string& preset) {
         write_text(file, R"({"presets": [)" + preset + "]}");
         add_tuned_presets(entry, file);
         return entry.presets.back();
     };
-    const VariantEntry& dda = find_variant("mcguire_dda");
-    const Preset found = add(dda, R"({"variant": "mcguire_dda", "name": "best_4x", "description": "made up",
+    const TechniqueEntry& dda = find_technique("mcguire_dda");
+    const Preset found = add(dda, R"({"technique": "mcguire_dda", "name": "best_4x", "description": "made up",
                                       "parameters": {"dda.stride": 2}})");
     EXPECT_EQ(found.name, "best_4x");
     EXPECT_EQ(found.meaning, "made up");
     EXPECT_EQ(found.parameters, nlohmann::json({{"dda.stride", 2}}));
     const std::string rest = R"("description": "", "parameters": {}})";
-    EXPECT_EQ(error_message([&] { add(dda, R"({"variant": "amd_sssr", "name": "best_4x", )" + rest); }),
+    EXPECT_EQ(error_message([&] { add(dda, R"({"technique": "amd_sssr", "name": "best_4x", )" + rest); }),
               file.string() + ":1:15: presets[0]: 'amd_sssr' is not 'mcguire_dda'");
-    EXPECT_EQ(error_message([&] { add(dda, R"({"variant": "mcguire_dda", "name": "coarse", )" + rest); }),
+    EXPECT_EQ(error_message([&] { add(dda, R"({"technique": "mcguire_dda", "name": "coarse", )" + rest); }),
               file.string() + ":1:41: presets[0]: 'mcguire_dda' has a preset 'coarse' already");
 }
 
-TEST(Registry, DescribesEveryVariantInFull) {
-    for (const VariantEntry& entry : variant_table()) {
+TEST(Registry, DescribesEveryTechniqueInFull) {
+    for (const TechniqueEntry& entry : technique_table()) {
         EXPECT_FALSE(entry.title.empty() || entry.source.empty() || entry.description.empty()) << entry.name;
         for (const Preset& preset : entry.presets)
-            EXPECT_NO_THROW(make_variant(entry.name, {}, preset.name)) << preset.name;
-        const std::unique_ptr<Variant> variant = entry.create();
-        for (const Parameter& p : variant->params)
+            EXPECT_NO_THROW(make_technique(entry.name, {}, preset.name)) << preset.name;
+        const std::unique_ptr<Technique> technique = entry.create();
+        for (const Parameter& p : technique->params)
             EXPECT_FALSE(p.doc.empty() || p.source.empty()) << entry.name << ": " << p.name;
     }
 }
@@ -70,12 +70,12 @@ TEST(Registry, DescribesEveryVariantInFull) {
 /// Papers compare techniques by the names of their parameters.
 TEST(Registry, ParametersOfOneNameAreOfOneUnitAndKind) {
     std::map<std::string, std::pair<std::string, const Parameter*>> known;
-    std::vector<std::unique_ptr<Variant>> variants;
+    std::vector<std::unique_ptr<Technique>> techniques;
     unsigned shared = 0;
-    for (const VariantEntry& entry : variant_table()) {
+    for (const TechniqueEntry& entry : technique_table()) {
         if (!entry.is_ssrlabs()) continue;  // of another test of this process
-        variants.push_back(entry.create());
-        for (const Parameter& p : variants.back()->params) {
+        techniques.push_back(entry.create());
+        for (const Parameter& p : techniques.back()->params) {
             const auto [first, is_new] = known.try_emplace(p.name, entry.name, &p);
             if (is_new) continue;
             ++shared;
@@ -94,23 +94,23 @@ TEST(Registry, ParametersOfOneNameAreOfOneUnitAndKind) {
 
 /// Of every technique of ssrlab but `none`, which has no shader.
 void expect_all_techniques(const std::set<std::string>& compiled) {
-    for (const VariantEntry& entry : variant_table()) {
+    for (const TechniqueEntry& entry : technique_table()) {
         if (!entry.is_ssrlabs()) continue;  // of another test of this process
         EXPECT_EQ(compiled.contains(entry.name), entry.name != "none") << entry.name;
     }
 }
 
-/// All parameter sets of one variant share its folder's shaders.
-TEST(Registry, CompilesEveryShaderOfEveryVariant) {
+/// All parameter sets of one technique share its folder's shaders.
+TEST(Registry, CompilesEveryShaderOfEveryTechnique) {
     std::set<std::string> compiled;
-    for (const VariantEntry& entry : variant_table()) {
+    for (const TechniqueEntry& entry : technique_table()) {
         if (!entry.is_ssrlabs()) continue;  // of another test of this process
         for (const auto& file :
              std::filesystem::recursive_directory_iterator(SSRLAB_SOURCE_DIR "/variants/" + entry.name)) {
             if (file.path().extension() != ".comp" && file.path().extension() != ".frag") continue;
             const std::string name = std::filesystem::relative(file.path(), SSRLAB_SOURCE_DIR "/variants");
-            const std::unique_ptr<Variant> variant = entry.create();
-            EXPECT_NO_THROW(compile(name, "", shader_prelude(variant->params), variant->shader_includes())) << name;
+            const std::unique_ptr<Technique> technique = entry.create();
+            EXPECT_NO_THROW(compile(name, "", shader_prelude(technique->params), technique->shader_includes())) << name;
             compiled.insert(entry.name);
         }
     }
@@ -120,28 +120,29 @@ TEST(Registry, CompilesEveryShaderOfEveryVariant) {
 /// Any tracer runs in any technique: their names, and those of the technique, stay apart.
 TEST(Registry, CompilesEveryTechniqueWithEveryTracer) {
     std::set<std::string> compiled;
-    for (const VariantEntry& entry : variant_table()) {
+    for (const TechniqueEntry& entry : technique_table()) {
         if (!entry.is_ssrlabs()) continue;  // of another test of this process
         for (const TracerEntry& tracer : tracer_table()) {
             nlohmann::json chosen = nlohmann::json::object();
-            const std::unique_ptr<Variant> default_variant = entry.create();
-            for (const Parameter& p : default_variant->params)
+            const std::unique_ptr<Technique> default_technique = entry.create();
+            for (const Parameter& p : default_technique->params)
                 if (std::ranges::count(p.choices, tracer.name)) chosen[p.name] = tracer.name;
-            const std::unique_ptr<Variant> variant = make_variant(entry.name, chosen);
+            const std::unique_ptr<Technique> technique = make_technique(entry.name, chosen);
             for (const auto& file : std::filesystem::directory_iterator(SSRLAB_SOURCE_DIR "/variants/" + entry.name)) {
                 if (file.path().extension() != ".comp" && file.path().extension() != ".frag") continue;
                 if (read_text(file.path()).find("tracer\"\n") == std::string::npos) continue;
                 const std::string name = std::filesystem::relative(file.path(), SSRLAB_SOURCE_DIR "/variants");
                 const auto compiles_as = [&](ShaderLanguage language) {
-                    compile(name, "", shader_prelude(variant->params, language), variant->shader_includes(), language);
+                    compile(name, "", shader_prelude(technique->params, language), technique->shader_includes(),
+                            language);
                 };
                 EXPECT_NO_THROW(compiles_as(ShaderLanguage::vulkan)) << name << ", " << tracer.name;
                 if (tracer.fits_webgl2) {  // others are answered by the scene already
                     nlohmann::json asked = chosen;
                     asked["exact_rays"] = "random";
-                    if (std::ranges::count(variant->params, "hierarchy.min_traversal_occupancy", &Parameter::name))
+                    if (std::ranges::count(technique->params, "hierarchy.min_traversal_occupancy", &Parameter::name))
                         asked["hierarchy.min_traversal_occupancy"] = 0;
-                    const std::unique_ptr<Variant> asking = make_variant(entry.name, asked);
+                    const std::unique_ptr<Technique> asking = make_technique(entry.name, asked);
                     EXPECT_NO_THROW(compile(name, "", shader_prelude(asking->params), asking->shader_includes()))
                         << name << ", " << tracer.name << ", exact_rays";
                 }
@@ -157,8 +158,8 @@ TEST(Registry, CompilesEveryTechniqueWithEveryTracer) {
 
 /// Of the tracers and denoisers that it has, whose own are others.
 TEST(Registry, ATechniqueBeginsWithItsOwnDefaults) {
-    const nlohmann::json composed = make_variant("composed_ssr")->params.values(),
-                         amd = make_variant("amd_sssr")->params.values();
+    const nlohmann::json composed = make_technique("composed_ssr")->params.values(),
+                         amd = make_technique("amd_sssr")->params.values();
     EXPECT_EQ(composed.at("lobe"), "visible_normals");
     EXPECT_EQ(composed.at("dda.thickness"), 0);
     EXPECT_EQ(amd.at("hierarchy.judgement"), "amd");
@@ -168,7 +169,7 @@ TEST(Registry, ATechniqueBeginsWithItsOwnDefaults) {
 /// A NaN or Inf of a G-buffer stays in its pixel with every preset that is recommended.
 TEST(Registry, RecommendedPresetsRepairTheirInputs) {
     size_t count = 0;
-    for (const VariantEntry& entry : variant_table()) {
+    for (const TechniqueEntry& entry : technique_table()) {
         if (!entry.is_ssrlabs()) continue;  // of another test of this process
         for (const Preset& preset : entry.presets) {
             if (!preset.name.starts_with("best") && !preset.name.starts_with("rooms_") && preset.name != "corrected")

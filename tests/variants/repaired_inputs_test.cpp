@@ -1,6 +1,6 @@
 #include "variants/common/repaired_inputs.h"
 #include "core/gbuffer/gbuffer_transfer.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <cmath>
 #include <limits>
@@ -9,7 +9,7 @@ namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
 
-struct RepairedInputsTest : VariantTest {
+struct RepairedInputsTest : TechniqueTest {
     glm::uvec2 extent{4, 1};
     ParameterSet no_parameters;
 
@@ -32,11 +32,11 @@ struct RepairedInputsTest : VariantTest {
         return g;
     }
     HostGBuffer repaired(const HostGBuffer& given) {
-        PassGraph graph(device(), extent);
-        const GBuffer gbuffer = upload_gbuffer(graph, given);
-        graph.begin_frame(given.camera, no_parameters, gbuffer.images());
-        const RepairedInputs inputs(graph, gbuffer, true);
-        return download_gbuffer(graph, inputs.gbuffer(), given.camera, DepthFormat::d32f);
+        PassList pass_list(device(), extent);
+        const GBuffer gbuffer = upload_gbuffer(pass_list, given);
+        pass_list.begin_frame(given.camera, no_parameters, gbuffer.images());
+        const RepairedInputs inputs(pass_list, gbuffer, true);
+        return download_gbuffer(pass_list, inputs.gbuffer(), given.camera, DepthFormat::d32f);
     }
 };
 
@@ -74,23 +74,23 @@ TEST_F(RepairedInputsTest, FaultsBecomeWhatNoTechniqueMinds) {
 
 TEST_F(RepairedInputsTest, OthersSeeTheGivenInputsAgain) {
     const HostGBuffer given = plain();
-    PassGraph graph(device(), extent);
-    const GBuffer gbuffer = upload_gbuffer(graph, given);
-    graph.begin_frame(given.camera, no_parameters, gbuffer.images());
-    { const RepairedInputs inputs(graph, gbuffer, true); }
-    EXPECT_EQ(graph.times().size(), 1u);
-    EXPECT_EQ(graph.times().front().stage, RepairedInputs::stage);
-    { const RepairedInputs inputs(graph, gbuffer, false); }
-    EXPECT_EQ(graph.times().size(), 1u) << "nothing runs where it is not wanted";
+    PassList pass_list(device(), extent);
+    const GBuffer gbuffer = upload_gbuffer(pass_list, given);
+    pass_list.begin_frame(given.camera, no_parameters, gbuffer.images());
+    { const RepairedInputs inputs(pass_list, gbuffer, true); }
+    EXPECT_EQ(pass_list.times().size(), 1u);
+    EXPECT_EQ(pass_list.times().front().stage, RepairedInputs::stage);
+    { const RepairedInputs inputs(pass_list, gbuffer, false); }
+    EXPECT_EQ(pass_list.times().size(), 1u) << "nothing runs where it is not wanted";
 }
 
 TEST_F(RepairedInputsTest, AreLeftOutWhereInputsAreSound) {
     for (const bool is_faulty : {false, true}) {
-        const auto variant = make_variant("simple_ssr", {}, "corrected");
+        const auto technique = make_technique("simple_ssr", {}, "corrected");
         SceneFacts facts;
         facts.has_geometry = facts.has_reflective = true, facts.min_roughness = 0;
         facts.has_faulty_inputs = is_faulty;
-        const std::vector<LeftOut> left_out = variant->leave_out(facts);
+        const std::vector<LeftOut> left_out = technique->leave_out(facts);
         ASSERT_EQ(left_out.size(), is_faulty ? 0u : 1u);
         if (!is_faulty) {
             EXPECT_EQ(left_out.front().what, RepairedInputs::stage);

@@ -1,7 +1,7 @@
 // Reservoirs: what one stands for after any number of frames, and what is shown of neighbours' ones.
 #include "tests/variants/synthetic_gbuffer.h"
+#include "tests/variants/technique_fixture.h"
 #include "tests/variants/technique_passes.h"
-#include "tests/variants/variant_fixture.h"
 #include "variants/common/ggx_lobe.h"
 
 #include <cmath>
@@ -20,7 +20,7 @@ struct SeenRay {
 using Rays = std::function<std::optional<SeenRay>(glm::uvec2 pixel)>;
 
 /// A wall that faces an orthographic camera, seen at ten pixels per metre.
-struct ReservoirsTest : VariantTest {
+struct ReservoirsTest : TechniqueTest {
     ParameterSet params;
     std::mt19937 random{1};
 
@@ -34,7 +34,7 @@ struct ReservoirsTest : VariantTest {
                             .metalness = 1,
                             .specular = 1};
     };
-    std::optional<PassGraph> graph;
+    std::optional<PassList> pass_list;
     unsigned frame = 0;
 
     ReservoirsTest() {
@@ -46,12 +46,12 @@ struct ReservoirsTest : VariantTest {
 
     /// The next frame. Channels: radiance, confidence.
     HostImage next(const Rays& rays) {
-        if (!graph || graph->extent() != extent) graph.emplace(device(), extent);
+        if (!pass_list || pass_list->extent() != extent) pass_list.emplace(device(), extent);
         const CameraPose pose{
             .is_orthographic = is_orthographic, .orthographic_height = 0.1f * float(extent.y), .near = 1, .far = 1000};
         const CameraData camera =
             camera_data(pose, frame > 0 ? &pose : nullptr, {.extent = extent, .frame = frame, .seed = 3});
-        const GBuffer gbuffer = upload_gbuffer(*graph, pose, camera, scene);
+        const GBuffer gbuffer = upload_gbuffer(*pass_list, pose, camera, scene);
         HostImage radiance(extent, 4), direction(extent, 4);
         for (unsigned y = 0; y < extent.y; ++y)
             for (unsigned x = 0; x < extent.x; ++x)
@@ -63,16 +63,16 @@ struct ReservoirsTest : VariantTest {
                     radiance.pixel(x, y)[3] = ray->known;
                     direction.pixel(x, y)[3] = 1;
                 }
-        const Image ray_radiance = graph->image("ray_radiance", Format::rgba32f),
-                    ray_direction = graph->image("ray_direction", Format::rgba32f);
-        graph->upload(ray_radiance, radiance);
-        graph->upload(ray_direction, direction);
-        graph->upload(gbuffer.fallback, HostImage(extent, 4, fallback));
-        graph->begin_frame(camera, params, gbuffer.images());
+        const Image ray_radiance = pass_list->image("ray_radiance", Format::rgba32f),
+                    ray_direction = pass_list->image("ray_direction", Format::rgba32f);
+        pass_list->upload(ray_radiance, radiance);
+        pass_list->upload(ray_direction, direction);
+        pass_list->upload(gbuffer.fallback, HostImage(extent, 4, fallback));
+        pass_list->begin_frame(camera, params, gbuffer.images());
         ++frame;
-        return graph->download(denoiser_passes("reservoirs", *graph, gbuffer,
-                                              {{"ray_radiance", ray_radiance}, {"ray_direction", ray_direction}})
-                                   .radiance);
+        return pass_list->download(denoiser_passes("reservoirs", *pass_list, gbuffer,
+                                                   {{"ray_radiance", ray_radiance}, {"ray_direction", ray_direction}})
+                                       .radiance);
     }
 
     /// A direction of the wall's lobe above its horizon.
@@ -122,7 +122,7 @@ TEST_F(ReservoirsTest, WeightsOverTimeAreMeans) {
             mean += (seen - mean) / (1 + std::min(count, 8u));
             return SeenRay{.radiance = glm::vec3(seen)};
         });
-        const HostImage kept = graph->download(graph->history("reservoir_origin", Format::rgba32f).current);
+        const HostImage kept = pass_list->download(pass_list->history("reservoir_origin", Format::rgba32f).current);
         EXPECT_FLOAT_EQ(kept.pixel(20, 20)[3], float(std::min(count + 1, 9u)));
     }
     for (size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(shown.values[4 * i], expected[i], 1e-4 * expected[i]);

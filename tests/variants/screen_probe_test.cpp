@@ -2,7 +2,7 @@
 #include "core/gbuffer/environment_images.h"
 #include "tests/variants/probe_lookup.h"
 #include "tests/variants/synthetic_gbuffer.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <cmath>
 #include <glm/gtc/constants.hpp>
@@ -33,12 +33,12 @@ const float within_texels = 0.05f;
 
 SyntheticHit background(const CameraRay&) { return {}; }
 
-struct ScreenProbeTest : VariantTest {
+struct ScreenProbeTest : TechniqueTest {
     CameraPose pose{.vertical_fov = 1.2f, .near = 0.1f, .far = 100.0f};
     HostImage emission;       ///< rgb; none: black
     Environment environment;  ///< black
     float albedo = 0;
-    PassGraph graph{device(), {64, 48}};
+    PassList pass_list{device(), {64, 48}};
     ParameterSet none;
     ScreenProbe probe;
 
@@ -46,17 +46,17 @@ struct ScreenProbeTest : VariantTest {
         pose.world_from_view = glm::rotate(glm::mat4(1), glm::radians(degrees), axis);
     }
     void show(const SyntheticScene& scene, bool has_previous = true) {
-        const FrameView view{.extent = graph.extent(), .frame = frame_};
+        const FrameView view{.extent = pass_list.extent(), .frame = frame_};
         const CameraData camera = camera_data(pose, has_previous && frame_ > 0 ? &before_ : nullptr, view);
-        GBuffer gbuffer = upload_gbuffer(graph, pose, camera, scene);
-        environment_ = std::make_unique<EnvironmentImages>(graph, environment, false);
+        GBuffer gbuffer = upload_gbuffer(pass_list, pose, camera, scene);
+        environment_ = std::make_unique<EnvironmentImages>(pass_list, environment, false);
         gbuffer.environment = environment_.get();
-        HostImage base_color(graph.extent(), 4);
+        HostImage base_color(pass_list.extent(), 4);
         for (size_t i = 0; i < base_color.pixel_count(); ++i) base_color.set_rgb(i, glm::vec3(albedo));
-        graph.upload(gbuffer.base_color, base_color);
-        if (emission.pixel_count() > 0) graph.upload(gbuffer.emission, emission);
-        graph.begin_frame(camera, none, gbuffer.images());
-        probe = screen_probe(graph, gbuffer);
+        pass_list.upload(gbuffer.base_color, base_color);
+        if (emission.pixel_count() > 0) pass_list.upload(gbuffer.emission, emission);
+        pass_list.begin_frame(camera, none, gbuffer.images());
+        probe = screen_probe(pass_list, gbuffer);
         ++frame_;
         before_ = pose;
     }
@@ -67,7 +67,7 @@ struct ScreenProbeTest : VariantTest {
         for (const float degrees : {270.0f, 180.0f, 90.0f, 0.0f}) turn(degrees, up), show(scene);
     }
 
-    std::vector<glm::vec4> along(const std::vector<ProbeRay>& rays) { return look_up(graph, probe, rays); }
+    std::vector<glm::vec4> along(const std::vector<ProbeRay>& rays) { return look_up(pass_list, probe, rays); }
     glm::vec4 towards(glm::vec3 direction) { return along({{glm::vec3(0), glm::normalize(direction)}})[0]; }
     /// Of `count` directions, those for which `is_asked`.
     std::vector<ProbeRay> directions(unsigned count, const std::function<bool(glm::vec3)>& is_asked) {
@@ -94,7 +94,7 @@ TEST_F(ScreenProbeTest, AllThatIsClosedLooksAsItDoesOnTheScreen) {
     for (const float degrees : {0.0f, 40.0f, 200.0f}) {
         turn(degrees, glm::normalize(glm::vec3(1, 2, 0.5f)));
         show(sphere([&](glm::vec3) { return glm::vec3(radiance); }), false);
-        const HostImage surfaces = graph.download(probe.surfaces), nearness = graph.download(probe.nearness);
+        const HostImage surfaces = pass_list.download(probe.surfaces), nearness = pass_list.download(probe.nearness);
         for (size_t i = 0; i < surfaces.pixel_count(); ++i) {
             for (int c = 0; c < 4; ++c) ASSERT_NEAR(surfaces.values[4 * i + size_t(c)], radiance[c], 1e-4) << degrees;
             ASSERT_NEAR(nearness.values[i], 1 / radius, 1e-4) << degrees;
@@ -104,15 +104,15 @@ TEST_F(ScreenProbeTest, AllThatIsClosedLooksAsItDoesOnTheScreen) {
 
 TEST_F(ScreenProbeTest, NothingIsGuessedFromNothing) {
     show(background);
-    for (const float value : graph.download(probe.surfaces).values) ASSERT_EQ(value, 0);
-    for (const float value : graph.download(probe.nearness).values) ASSERT_EQ(value, 0);
+    for (const float value : pass_list.download(probe.surfaces).values) ASSERT_EQ(value, 0);
+    for (const float value : pass_list.download(probe.nearness).values) ASSERT_EQ(value, 0);
 }
 
 TEST_F(ScreenProbeTest, OfLampsOnlyWhatTheyReflectIsSpread) {
-    emission = HostImage(graph.extent(), 4, 5);
+    emission = HostImage(pass_list.extent(), 4, 5);
     for (const float reflected : {0.0f, 2.0f}) {
         show(sphere([=](glm::vec3) { return glm::vec3(5 + reflected); }), false);
-        const HostImage surfaces = graph.download(probe.surfaces);
+        const HostImage surfaces = pass_list.download(probe.surfaces);
         for (size_t i = 0; i < surfaces.values.size(); ++i)
             ASSERT_NEAR(surfaces.values[i], i % 4 == 3 ? 1 : reflected, 1e-4);
     }
@@ -169,7 +169,7 @@ TEST_F(ScreenProbeTest, SpreadsNumbersAlone) {
     const float radiances[] = {2, std::nanf(""), infinite, -infinite, 2, -1, 2, 1e30f};
     unsigned pixel = 0;
     show(sphere([&](glm::vec3) { return glm::vec3(radiances[pixel++ % 8]); }));
-    const HostImage surfaces = graph.download(probe.surfaces), nearness = graph.download(probe.nearness);
+    const HostImage surfaces = pass_list.download(probe.surfaces), nearness = pass_list.download(probe.nearness);
     for (size_t i = 0; i < surfaces.values.size(); ++i) {
         ASSERT_GE(surfaces.values[i], 0);
         ASSERT_LE(surfaces.values[i], i % 4 == 3 ? 1 : 65504);

@@ -3,44 +3,44 @@
 #include "tests/variants/lobe_quadrature.h"
 #include "tests/variants/mirror_scenes.h"
 #include "tests/variants/rough_floor.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <cstring>
 
 namespace {
 
-struct SimpleSsrTest : VariantTest {
+struct SimpleSsrTest : TechniqueTest {
     static constexpr glm::uvec2 extent{64, 48};
     CameraPose pose{.vertical_fov = 1.2f, .near = 0.1f, .far = 100.0f};
 
     /// Channels: radiance, confidence. Frame `frame` of a camera at rest.
     HostImage render(const nlohmann::json& parameters, const SyntheticScene& scene, const std::string& preset = "") {
-        const auto variant = make_variant("simple_ssr", parameters, preset);
-        PassGraph graph(device(), extent);
-        return render(graph, *variant, scene, 0);
+        const auto technique = make_technique("simple_ssr", parameters, preset);
+        PassList pass_list(device(), extent);
+        return render(pass_list, *technique, scene, 0);
     }
-    HostImage render(PassGraph& graph, Variant& variant, const SyntheticScene& scene, unsigned frame,
+    HostImage render(PassList& pass_list, Technique& technique, const SyntheticScene& scene, unsigned frame,
                      glm::vec2 motion = glm::vec2(0)) {
         FrameView view{.extent = extent, .frame = frame};
         const CameraData camera = camera_data(pose, frame > 0 ? &pose : nullptr, view);
-        const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, scene);
+        const GBuffer gbuffer = upload_gbuffer(pass_list, pose, camera, scene);
         HostImage motions(extent, 2);
         for (size_t i = 0; i < motions.values.size(); ++i) motions.values[i] = motion[int(i % 2)];
-        graph.upload(gbuffer.motion, motions);
-        graph.begin_frame(camera, variant.params, gbuffer.images());
-        return graph.download(variant.render(graph, gbuffer).radiance);
+        pass_list.upload(gbuffer.motion, motions);
+        pass_list.begin_frame(camera, technique.params, gbuffer.images());
+        return pass_list.download(technique.render(pass_list, gbuffer).radiance);
     }
 };
 
 TEST_F(SimpleSsrTest, MirrorRaysAreThoseOfThePlainestTechnique) {
-    const auto plain = make_variant("mcguire_dda");
-    PassGraph graph(device(), extent);
+    const auto plain = make_technique("mcguire_dda");
+    PassList pass_list(device(), extent);
     const CameraData camera = camera_data(pose, nullptr, {.extent = extent});
-    const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, mirror_floor);
-    graph.begin_frame(camera, plain->params, gbuffer.images());
-    const Reflections reflections = plain->render(graph, gbuffer);
-    const HostImage radiance = graph.download(reflections.radiance),
-                    confidence = graph.download(reflections.confidence);
+    const GBuffer gbuffer = upload_gbuffer(pass_list, pose, camera, mirror_floor);
+    pass_list.begin_frame(camera, plain->params, gbuffer.images());
+    const Reflections reflections = plain->render(pass_list, gbuffer);
+    const HostImage radiance = pass_list.download(reflections.radiance),
+                    confidence = pass_list.download(reflections.confidence);
     const HostImage simple = render({{"tracer", "dda"}}, mirror_floor);
     size_t hits = 0;
     for (size_t i = 0; i < simple.pixel_count(); ++i) {
@@ -57,11 +57,11 @@ TEST_F(SimpleSsrTest, EveryDrawHasTheMeanOfTheLobeIfWeighed) {
     for (const char* draw : {"jittered_ray", "normals", "visible_normals", "cosine"}) {
         SCOPED_TRACE(draw);
         const auto mean_of = [&](const char* weights) {
-            const auto variant = make_variant(
+            const auto technique = make_technique(
                 "simple_ssr", changed(RoughFloor::march(),
                                       {{"draw", draw}, {"rays", 16}, {"weights", weights}, {"max_roughness", 1}}));
-            PassGraph graph(device(), extent);
-            return floor.mean([&](unsigned frame) { return render(graph, *variant, floor.scene(), frame); }, 40);
+            PassList pass_list(device(), extent);
+            return floor.mean([&](unsigned frame) { return render(pass_list, *technique, floor.scene(), frame); }, 40);
         };
         const RoughFloor::Mean weighed = mean_of("ratio"), alike = mean_of("none");
         // Five standard errors: one false alarm in a million. A ratio of 16 rays is biased by about a sixteenth of the
@@ -172,10 +172,10 @@ TEST_F(SimpleSsrTest, PreviousFrameShowsWhereItsSurfaceWas) {
             return hit;
         };
     };
-    const auto variant = make_variant("simple_ssr", {{"previous_frame", true}});
-    PassGraph graph(device(), extent);
-    const HostImage first = render(graph, *variant, with_light(1), 0),
-                    second = render(graph, *variant, with_light(3), 1);
+    const auto technique = make_technique("simple_ssr", {{"previous_frame", true}});
+    PassList pass_list(device(), extent);
+    const HostImage first = render(pass_list, *technique, with_light(1), 0),
+                    second = render(pass_list, *technique, with_light(3), 1);
     size_t hits = 0;
     for (size_t i = 0; i < first.pixel_count(); ++i) {
         ASSERT_EQ(first.values[4 * i + 3], second.values[4 * i + 3]);
@@ -186,12 +186,12 @@ TEST_F(SimpleSsrTest, PreviousFrameShowsWhereItsSurfaceWas) {
     }
     EXPECT_GT(hits, 400u);
     // All has come from 1.5 screens above: hits show the clamped border of the frame before, its uppermost row.
-    const HostImage moved = render(graph, *variant, with_light(3), 2, {0, 1.5f});
+    const HostImage moved = render(pass_list, *technique, with_light(3), 2, {0, 1.5f});
     for (size_t i = 0; i < moved.pixel_count(); ++i)
         if (moved.values[4 * i + 3] > 0) {
             ASSERT_EQ(moved.rgb(i), glm::vec3(3));
         }
-    const HostImage from_floor = render(graph, *variant, with_light(3), 3, {0, -1.5f});
+    const HostImage from_floor = render(pass_list, *technique, with_light(3), 3, {0, -1.5f});
     for (size_t i = 0; i < moved.pixel_count(); ++i)
         if (from_floor.values[4 * i + 3] > 0) {
             ASSERT_EQ(from_floor.rgb(i), glm::vec3(0)) << "the floor is black";
@@ -234,12 +234,12 @@ TEST_F(SimpleSsrTest, MirrorsStaySharpBesideABlur) {
 }
 
 TEST_F(SimpleSsrTest, LeavesOutAllWhereNothingReflects) {
-    const auto variant = make_variant("simple_ssr", {}, "slides_blurred");
+    const auto technique = make_technique("simple_ssr", {}, "slides_blurred");
     SceneFacts facts{};
     facts.has_reflective = true, facts.min_roughness = 0.9f;
-    EXPECT_EQ(variant->leave_out(facts).size(), 4u);
-    PassGraph graph(device(), extent);
-    const HostImage result = render(graph, *variant, floor_before_white, 0);
+    EXPECT_EQ(technique->leave_out(facts).size(), 4u);
+    PassList pass_list(device(), extent);
+    const HostImage result = render(pass_list, *technique, floor_before_white, 0);
     EXPECT_TRUE(std::ranges::all_of(result.values, [](float v) { return v == 0; }));
 }
 

@@ -1,6 +1,6 @@
 // The denoiser speed_accumulation, with rays that the tests make up, against closed forms.
 #include "tests/variants/denoiser_bench.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -9,7 +9,7 @@
 
 namespace {
 
-struct SpeedAccumulationTest : VariantTest {
+struct SpeedAccumulationTest : TechniqueTest {
     static constexpr glm::uvec2 extent{16, 12}, middle{8, 6};
     static constexpr float wall_distance = 5;
     CameraPose pose{.vertical_fov = 1.2f, .near = 0.1f, .far = 100.0f};
@@ -231,8 +231,9 @@ TEST_F(SpeedAccumulationTest, TheFirstPixelRejectsOnlyInTheOriginal) {
     for (const bool is_corrected : {false, true}) {
         const float distance = is_corrected ? wall_distance : wall_distance / 2;
         const float per_uv = std::tan(pose.vertical_fov / 2) * distance * pose.far / (pose.far - distance);
-        DenoiserBench target(device(), "speed_accumulation", pose, extent, with_corner,
-                            {{"rejection", "world_smooth"}, {"speed_of", "target"}, {"depth_of_target", is_corrected}});
+        DenoiserBench target(
+            device(), "speed_accumulation", pose, extent, with_corner,
+            {{"rejection", "world_smooth"}, {"speed_of", "target"}, {"depth_of_target", is_corrected}});
         EXPECT_NEAR(share(std::move(target), moving({0, 0}, {0, 1e-4f / per_uv})), mixed(0.25 * 0.5), 1e-3);
     }
 }

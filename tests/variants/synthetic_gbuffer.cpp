@@ -13,9 +13,9 @@ void set_pixel(HostImage& image, unsigned x, unsigned y, glm::vec4 value) {
 
 }  // namespace
 
-GBuffer upload_gbuffer(PassGraph& graph, const CameraPose& pose, const CameraData& camera,
+GBuffer upload_gbuffer(PassList& pass_list, const CameraPose& pose, const CameraData& camera,
                        const SyntheticScene& scene) {
-    const glm::uvec2 extent = graph.extent();
+    const glm::uvec2 extent = pass_list.extent();
     HostImage depth(extent, 1, camera.depth.z), normal(extent, 4), base_color(extent, 4), emission(extent, 4),
         lit(extent, 4), dielectric_f0(extent, 4);
     for (unsigned y = 0; y < extent.y; ++y)
@@ -32,8 +32,8 @@ GBuffer upload_gbuffer(PassGraph& graph, const CameraPose& pose, const CameraDat
         }
     GBuffer gbuffer;
     const auto upload = [&](Image& image, const char* name, Format format, const HostImage& pixels) {
-        image = graph.image(name, format);
-        graph.upload(image, pixels);
+        image = pass_list.image(name, format);
+        pass_list.upload(image, pixels);
     };
     upload(gbuffer.depth, "depth", Format::r32f, depth);
     upload(gbuffer.normal, "normal", Format::rgba32f, normal);
@@ -69,9 +69,9 @@ HostImage motion_of(const CameraPose& pose, const CameraData& camera, const Synt
 }
 
 HostGBuffer host_gbuffer(Device& device, const CameraPose& pose, const FrameView& view, const SyntheticScene& scene) {
-    PassGraph graph(device, view.extent);
+    PassList pass_list(device, view.extent);
     const CameraData camera = camera_data(pose, nullptr, view);
-    return download_gbuffer(graph, upload_gbuffer(graph, pose, camera, scene), camera, DepthFormat::d32f);
+    return download_gbuffer(pass_list, upload_gbuffer(pass_list, pose, camera, scene), camera, DepthFormat::d32f);
 }
 
 SyntheticHit mirror_floor(const CameraRay& ray) {

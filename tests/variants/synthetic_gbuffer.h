@@ -15,8 +15,9 @@ struct SyntheticHit {
 };
 using SyntheticScene = std::function<SyntheticHit(const CameraRay&)>;
 
-/// The images that variants read, filled at the pixel centres (moved by the jitter) and uploaded.
-GBuffer upload_gbuffer(PassGraph& graph, const CameraPose& pose, const CameraData& camera, const SyntheticScene& scene);
+/// The images that techniques read, filled at the pixel centres (moved by the jitter) and uploaded.
+GBuffer upload_gbuffer(PassList& pass_list, const CameraPose& pose, const CameraData& camera,
+                       const SyntheticScene& scene);
 
 /// The same on the CPU.
 HostGBuffer host_gbuffer(Device& device, const CameraPose& pose, const FrameView& view, const SyntheticScene& scene);

@@ -11,8 +11,8 @@
 
 // Whole frames of the stochastic techniques, and their stages, on one G-buffer: a floor of metal in strips of growing
 // roughness, all of which both trace, before a checkered wall, seen by a camera at rest. Times are those of the pass
-// graph (ms per frame, submissions included); cpu_ms is the time of all processors, which other programs disturb less.
-// Run with --benchmark_enable_random_interleaving=true --benchmark_repetitions=9 and compare the medians.
+// pass_list (ms per frame, submissions included); cpu_ms is the time of all processors, which other programs disturb
+// less. Run with --benchmark_enable_random_interleaving=true --benchmark_repetitions=9 and compare the medians.
 
 namespace {
 
@@ -30,31 +30,32 @@ SyntheticHit strips_before_wall(const CameraRay& ray) {
 }
 
 /// One frame after `index` others.
-std::vector<PassTime> run(PassGraph& graph, Variant& variant, const GBuffer& gbuffer, CameraData camera,
+std::vector<PassTime> run(PassList& pass_list, Technique& technique, const GBuffer& gbuffer, CameraData camera,
                           unsigned index) {
     camera.frame = {index, 0, 0, index > 0 ? 1 : 0};
-    graph.begin_frame(camera, variant.params, gbuffer.images());
-    const LimitScope limits(graph, variant.limits);
-    variant.render(graph, gbuffer);
-    return graph.times();
+    pass_list.begin_frame(camera, technique.params, gbuffer.images());
+    const LimitScope limits(pass_list, technique.limits);
+    technique.render(pass_list, gbuffer);
+    return pass_list.times();
 }
 
 void frames(benchmark::State& state, const char* name, const char* preset, const nlohmann::json& parameters) {
     static Device device;
     const glm::uvec2 extent(state.range(0), state.range(1));
-    PassGraph graph(device, extent);
+    PassList pass_list(device, extent);
     const CameraPose pose;
     const CameraData camera = camera_data(pose, nullptr, {.extent = extent});
-    const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, strips_before_wall);
-    const std::unique_ptr<Variant> variant = make_variant(name, parameters, preset);
+    const GBuffer gbuffer = upload_gbuffer(pass_list, pose, camera, strips_before_wall);
+    const std::unique_ptr<Technique> technique = make_technique(name, parameters, preset);
 
     unsigned index = 0;
-    while (index < 8) run(graph, *variant, gbuffer, camera, index++);  // compiles the shaders, fills the histories
+    while (index < 8)
+        run(pass_list, *technique, gbuffer, camera, index++);  // compiles the shaders, fills the histories
     std::map<std::string, double> sums;
     double cpu_ms = 0;
     for (auto _ : state) {
         const std::clock_t start = std::clock();
-        const std::vector<PassTime> stages = run(graph, *variant, gbuffer, camera, index++);
+        const std::vector<PassTime> stages = run(pass_list, *technique, gbuffer, camera, index++);
         cpu_ms += 1e3 * double(std::clock() - start) / CLOCKS_PER_SEC;
         double total = 0;
         for (const PassTime& stage : stages) {
@@ -74,10 +75,10 @@ void march(benchmark::State& state, const char* preset, const nlohmann::json& pa
     const glm::uvec2 extent(state.range(0), state.range(1));
     const CameraPose pose;
     const CameraData camera = camera_data(pose, nullptr, {.extent = extent});
-    PassGraph graph(device, extent), counting_graph(device, extent);
-    const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, strips_before_wall);
-    const std::unique_ptr<Variant> variant = make_variant("amd_sssr", parameters, preset);
-    const std::unique_ptr<Variant> counting = make_variant("amd_sssr", parameters, preset);
+    PassList pass_list(device, extent), counting_graph(device, extent);
+    const GBuffer gbuffer = upload_gbuffer(pass_list, pose, camera, strips_before_wall);
+    const std::unique_ptr<Technique> technique = make_technique("amd_sssr", parameters, preset);
+    const std::unique_ptr<Technique> counting = make_technique("amd_sssr", parameters, preset);
     RayProbe probe;
     probe.is_recording = true;
     counting->ray_probe = &probe;
@@ -86,7 +87,7 @@ void march(benchmark::State& state, const char* preset, const nlohmann::json& pa
     unsigned index = 0;
     for (auto _ : state) {
         double milliseconds = 0;
-        for (const PassTime& stage : run(graph, *variant, gbuffer, camera, index))
+        for (const PassTime& stage : run(pass_list, *technique, gbuffer, camera, index))
             if (stage.stage == "amd_sssr/intersect") milliseconds += stage.milliseconds;
         state.SetIterationTime(milliseconds * 1e-3);
         seconds += milliseconds * 1e-3;

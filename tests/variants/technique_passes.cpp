@@ -6,7 +6,8 @@
 const Declaration& declared_technique(const std::string& name) {
     static std::map<std::string, std::shared_ptr<const Declaration>> read;
     std::shared_ptr<const Declaration>& declaration = read[name];
-    if (!declaration) declaration = read_technique(std::filesystem::path(SSRLAB_SOURCE_DIR) / "variants" / name).declaration;
+    if (!declaration)
+        declaration = read_technique(std::filesystem::path(SSRLAB_SOURCE_DIR) / "variants" / name).declaration;
     return *declaration;
 }
 
@@ -19,9 +20,9 @@ void add_denoiser(ParameterSet& params, const std::string& denoiser) {
     for (const Parameter& parameter : declared.params) params.add(parameter);
 }
 
-Reflections denoiser_passes(const std::string& denoiser, PassGraph& graph, const GBuffer& gbuffer,
-                           const std::map<std::string, Image>& images) {
-    TechniquePasses passes(*find_denoiser(denoiser).passes, graph, gbuffer, graph.params(), images);
+Reflections denoiser_passes(const std::string& denoiser, PassList& pass_list, const GBuffer& gbuffer,
+                            const std::map<std::string, Image>& images) {
+    TechniquePasses passes(*find_denoiser(denoiser).passes, pass_list, gbuffer, pass_list.params(), images);
     passes.list.run_all();
     return passes.list.result();
 }

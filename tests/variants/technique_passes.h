@@ -25,17 +25,18 @@ struct ParameterView {
 /// Adds the parameters that a denoiser's shaders name.
 void add_denoiser(ParameterSet& params, const std::string& denoiser);
 
-/// The denoiser's passes on what it is given in `images`, with the graph's parameters.
-Reflections denoiser_passes(const std::string& denoiser, PassGraph& graph, const GBuffer& gbuffer,
-                           const std::map<std::string, Image>& images);
+/// The denoiser's passes on what it is given in `images`, with the pass_list's parameters.
+Reflections denoiser_passes(const std::string& denoiser, PassList& pass_list, const GBuffer& gbuffer,
+                            const std::map<std::string, Image>& images);
 
 /// One frame of a technique's passes on images of the test's own.
 struct TechniquePasses {
-    TechniquePasses(const Declaration& declaration, PassGraph& graph, const GBuffer& gbuffer, const ParameterSet& params,
-                    std::map<std::string, Image> images = {}, std::map<std::string, Buffer> buffers = {},
-                    const Tracers* tracers = nullptr, RayProbe* probe = nullptr)
+    TechniquePasses(const Declaration& declaration, PassList& pass_list, const GBuffer& gbuffer,
+                    const ParameterSet& params, std::map<std::string, Image> images = {},
+                    std::map<std::string, Buffer> buffers = {}, const Tracers* tracers = nullptr,
+                    RayProbe* probe = nullptr)
         : declaration(declaration),
-          list(declaration, params, declaration.known_values(params), {graph, gbuffer, provided, tracers, probe},
+          list(declaration, params, declaration.known_values(params), {pass_list, gbuffer, provided, tracers, probe},
                std::move(images), std::move(buffers)) {}
 
     /// Those of this stage, "mask" of diligent_ssr/mask.

@@ -13,10 +13,10 @@ float TracerBench::device_depth(float distance) const {
 
 void TracerBench::show(const SyntheticScene& scene) {
     camera = camera_data(pose, nullptr, view);
-    PassGraph graph(device_, view.extent);
-    const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, scene);
-    depth = graph.download(gbuffer.depth);
-    normal = graph.download(gbuffer.normal);
+    PassList pass_list(device_, view.extent);
+    const GBuffer gbuffer = upload_gbuffer(pass_list, pose, camera, scene);
+    depth = pass_list.download(gbuffer.depth);
+    normal = pass_list.download(gbuffer.normal);
 }
 
 void TracerBench::show_wall(float distance) {
@@ -61,10 +61,10 @@ std::vector<BenchEnd> TracerBench::trace(const std::string& tracer, const std::v
     params.assign({{"tracer", tracer}});
     params.assign(parameters);
 
-    PassGraph graph(device_, view.extent);
+    PassList pass_list(device_, view.extent);
     const auto upload = [&](const char* name, Format format, const HostImage& pixels) {
-        const Image image = graph.image_of(name, format, pixels.extent);
-        graph.upload(image, pixels);
+        const Image image = pass_list.image_of(name, format, pixels.extent);
+        pass_list.upload(image, pixels);
         return image;
     };
     const HostImage& shading = shading_normal.values.empty() ? normal : shading_normal;
@@ -80,14 +80,15 @@ std::vector<BenchEnd> TracerBench::trace(const std::string& tracer, const std::v
     }
     const Image start = upload("ray_start", Format::rg32f, starts),
                 direction = upload("ray_direction", Format::rgba32f, directions),
-                place = graph.image_of("end_place", Format::rgba32f, line),
-                meeting = graph.image_of("end_meeting", Format::rgba32f, line);
-    graph.begin_frame(camera, params, inputs);
-    const Tracers::Images images = tracers.images(graph, inputs[0]);
-    tracers.run(graph, graph.compute("tracer_rays.comp").read(start).read(direction).write(place).write(meeting),
-                {"tracer"}, images, nullptr, 1, [&](PassGraph::Pass& pass) { pass.run(line); });
+                place = pass_list.image_of("end_place", Format::rgba32f, line),
+                meeting = pass_list.image_of("end_meeting", Format::rgba32f, line);
+    pass_list.begin_frame(camera, params, inputs);
+    const Tracers::Images images = tracers.images(pass_list, inputs[0]);
+    tracers.run(pass_list,
+                pass_list.compute("tracer_rays.comp").read(start).read(direction).write(place).write(meeting),
+                {"tracer"}, images, nullptr, 1, [&](PassList::Pass& pass) { pass.run(line); });
 
-    const HostImage places = graph.download(place), meetings = graph.download(meeting);
+    const HostImage places = pass_list.download(place), meetings = pass_list.download(meeting);
     std::vector<BenchEnd> ends;
     for (unsigned i = 0; i < line.x; ++i) {
         const float *p = places.pixel(i, 0), *m = meetings.pixel(i, 0);

@@ -1,6 +1,6 @@
 #include "core/gpu/pipelines/shader.h"
+#include "tests/variants/technique_fixture.h"
 #include "tests/variants/tracer_bench.h"
-#include "tests/variants/variant_fixture.h"
 
 // What holds of every tracer.
 
@@ -45,7 +45,7 @@ SyntheticHit room(const CameraRay& ray) {
     return nearest;
 }
 
-struct TracersInRoom : VariantTest {
+struct TracersInRoom : TechniqueTest {
     TracerBench bench{device(), {160, 120}};
 
     /// By an angle (rad), from half a metre above the origin.
@@ -326,9 +326,9 @@ TEST_F(TracersInRoom, MissTheirOwnPlane) {
 TEST(TracersInWebgl2, CompileAsGlslEs) {
     for (const TracerEntry& entry : tracer_table()) {
         if (!entry.fits_webgl2) continue;
-        const auto variant = make_variant("diligent_ssr", {{"tracer", entry.name}});
+        const auto technique = make_technique("diligent_ssr", {{"tracer", entry.name}});
         EXPECT_NO_THROW(compile("diligent_ssr/intersection.frag", "",
-                                shader_prelude(variant->params, ShaderLanguage::webgl2), variant->shader_includes(),
+                                shader_prelude(technique->params, ShaderLanguage::webgl2), technique->shader_includes(),
                                 ShaderLanguage::webgl2))
             << entry.name;
     }
@@ -361,16 +361,16 @@ TEST_F(TracersInRoom, LevelsExistDownToTheFinest) {
     bench.view.extent = {67, 45};
     bench.show(room);
     const ParameterSet no_parameters;
-    PassGraph graph(device(), bench.view.extent);
+    PassList pass_list(device(), bench.view.extent);
     HostImage asked({unsigned(cases.size()), 1}, 4);
     for (unsigned i = 0; i < cases.size(); ++i)
         for (int c = 0; c < 3; ++c) asked.pixel(i, 0)[c] = float(c < 2 ? cases[i].pixel[c] : cases[i].level);
-    const Image input = graph.image_of("asked", Format::rgba32f, asked.extent),
-                output = graph.image_of("existing", Format::r32f, asked.extent);
-    graph.upload(input, asked);
-    graph.begin_frame(bench.camera, no_parameters, {});
-    graph.compute("existing_levels.comp").read(input).write(output).run();
-    const HostImage found = graph.download(output);
+    const Image input = pass_list.image_of("asked", Format::rgba32f, asked.extent),
+                output = pass_list.image_of("existing", Format::r32f, asked.extent);
+    pass_list.upload(input, asked);
+    pass_list.begin_frame(bench.camera, no_parameters, {});
+    pass_list.compute("existing_levels.comp").read(input).write(output).run();
+    const HostImage found = pass_list.download(output);
     for (unsigned i = 0; i < cases.size(); ++i)
         EXPECT_EQ(found.values[i], float(cases[i].existing)) << cases[i].pixel.x << ", " << cases[i].pixel.y;
 }

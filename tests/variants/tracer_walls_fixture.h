@@ -1,10 +1,10 @@
 #pragma once
+#include "tests/variants/technique_fixture.h"
 #include "tests/variants/tracer_bench.h"
-#include "tests/variants/variant_fixture.h"
 
 /// A wall 10 m before the camera with one column at 5 m, and one pixel at 5.02 m that faces to the right, from which
 /// rays start: to the right, parallel to the image, they meet the column.
-struct TracerAtWall : VariantTest {
+struct TracerAtWall : TechniqueTest {
     static constexpr unsigned column = 140;
     static constexpr glm::uvec2 start{20, 40};
     static inline const glm::vec3 to_left = glm::normalize(glm::vec3(-1, 0, 1));  ///< and to the camera

@@ -1,12 +1,12 @@
 // Any tracer in any technique.
 #include "variants/tracers/tracers.h"
 #include "tests/variants/amd_scenes.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 #include "variants/tracers/outcome.h"
 
 namespace {
 
-struct TracersTest : VariantTest {
+struct TracersTest : TechniqueTest {
     CameraPose pose{.vertical_fov = 1.2f, .near = 0.1f, .far = 100.0f};
     FrameView view{.extent = {67, 45}};
 
@@ -14,15 +14,15 @@ struct TracersTest : VariantTest {
         HostImage radiance;
         std::vector<float> confidence;
     };
-    Rendered render(Variant& variant) {
-        PassGraph graph(device(), view.extent);
+    Rendered render(Technique& technique) {
+        PassList pass_list(device(), view.extent);
         const CameraData camera = camera_data(pose, nullptr, view);
-        const GBuffer gbuffer = upload_gbuffer(graph, pose, camera, glossy_floor);
-        graph.begin_frame(camera, variant.params, gbuffer.images());
-        const LimitScope limits(graph, variant.ray_probe ? Limits::none : variant.limits);
-        const Reflections reflections = variant.render(graph, gbuffer);
-        const HostImage confidence = graph.download(reflections.confidence);
-        Rendered rendered{.radiance = graph.download(reflections.radiance), .confidence = {}};
+        const GBuffer gbuffer = upload_gbuffer(pass_list, pose, camera, glossy_floor);
+        pass_list.begin_frame(camera, technique.params, gbuffer.images());
+        const LimitScope limits(pass_list, technique.ray_probe ? Limits::none : technique.limits);
+        const Reflections reflections = technique.render(pass_list, gbuffer);
+        const HostImage confidence = pass_list.download(reflections.confidence);
+        Rendered rendered{.radiance = pass_list.download(reflections.radiance), .confidence = {}};
         for (size_t i = 0; i < confidence.pixel_count(); ++i)
             rendered.confidence.push_back(confidence.values[i * confidence.channels + reflections.confidence_channel]);
         return rendered;
@@ -42,10 +42,10 @@ void expect_valid(const auto& rendered) {
 }
 
 /// Parameters of a technique that choose among tracers, all set to one; and those that make runs repeat and short.
-nlohmann::json all_by(const TracerEntry& tracer, const VariantEntry& entry) {
+nlohmann::json all_by(const TracerEntry& tracer, const TechniqueEntry& entry) {
     nlohmann::json parameters = {{"hierarchy.min_traversal_occupancy", 0}};
-    const std::unique_ptr<Variant> variant = entry.create();
-    for (const Parameter& p : variant->params)
+    const std::unique_ptr<Technique> technique = entry.create();
+    for (const Parameter& p : technique->params)
         if (std::ranges::count(p.choices, tracer.name)) parameters[p.name] = tracer.name;
     parameters["fixed_stride.refine"] = true;  // steps of the four-mode pass as printed end too far behind the wall
     parameters["exact_layer.thickness_from"] = "parameter";  // the made-up G-buffer has one layer
@@ -58,11 +58,11 @@ nlohmann::json all_by(const TracerEntry& tracer, const VariantEntry& entry) {
 }  // namespace
 
 TEST_F(TracersTest, TraceForEveryTechniqueAndChangeNothingWhenRecorded) {
-    for (const VariantEntry& entry : variant_table())
+    for (const TechniqueEntry& entry : technique_table())
         for (const TracerEntry& tracer : tracer_table()) {
             if (entry.name == "none" || tracer.name == "exact_scene") continue;  // there is no scene to ask
             SCOPED_TRACE(entry.name + ", " + tracer.name);
-            const std::unique_ptr<Variant> probed = make_variant(entry.name, all_by(tracer, entry));
+            const std::unique_ptr<Technique> probed = make_technique(entry.name, all_by(tracer, entry));
             RayProbe probe;
             probe.is_recording = true;
             probed->ray_probe = &probe;
@@ -70,7 +70,7 @@ TEST_F(TracersTest, TraceForEveryTechniqueAndChangeNothingWhenRecorded) {
             expect_valid(result);
             // Each technique's recording and each tracer's is compared once, as their shaders are compiled anew for it.
             if (entry.name == "mcguire_dda" || &tracer == &tracer_table().front()) {
-                const std::unique_ptr<Variant> plain = make_variant(entry.name, all_by(tracer, entry));
+                const std::unique_ptr<Technique> plain = make_technique(entry.name, all_by(tracer, entry));
                 EXPECT_TRUE(render(*plain).radiance.values == result.radiance.values);
             }
             EXPECT_FALSE(probe.recorded.empty());

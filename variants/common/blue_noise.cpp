@@ -48,23 +48,23 @@ std::vector<uint8_t> blue_noise_texture() {
     return texels;
 }
 
-Image BlueNoise::uploaded(PassGraph& graph) {
-    const Image table = graph.image_of("blue_noise_table", Format::rg8, table_extent);
+Image BlueNoise::uploaded(PassList& pass_list) {
+    const Image table = pass_list.image_of("blue_noise_table", Format::rg8, table_extent);
     if (uploaded_table_.lock() != table.storage) {
-        graph.upload(table, blue_noise_table());
+        pass_list.upload(table, blue_noise_table());
         uploaded_table_ = table.storage;
     }
     return table;
 }
 
-Image BlueNoise::render(PassGraph& graph, NoiseShift shift, NoisePrecision precision, NoiseStage stage) {
-    const Image table = uploaded(graph);
+Image BlueNoise::render(PassList& pass_list, NoiseShift shift, NoisePrecision precision, NoiseStage stage) {
+    const Image table = uploaded(pass_list);
     const bool is_8_bit = precision == NoisePrecision::bits_8;
-    const Image noise = graph.image_of("blue_noise", is_8_bit ? Format::rg8 : Format::rg32f, table_extent);
+    const Image noise = pass_list.image_of("blue_noise", is_8_bit ? Format::rg8 : Format::rg32f, table_extent);
     const glm::uvec2 per_frame = shift_per_frame(shift);
     const bool is_drawn = stage == NoiseStage::fragment;
-    PassGraph::Pass pass =
-        is_drawn ? graph.fragment("common/blue_noise.frag") : graph.compute("common/blue_noise.comp");
+    PassList::Pass pass =
+        is_drawn ? pass_list.fragment("common/blue_noise.frag") : pass_list.compute("common/blue_noise.comp");
     pass.read(table)
         .write(noise)
         .set("start", shift == NoiseShift::golden_diagonal_from_half ? 1u << 31 : 0u)

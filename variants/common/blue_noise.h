@@ -1,5 +1,5 @@
 #pragma once
-#include "core/gpu/passes/pass_graph.h"
+#include "core/gpu/passes/pass_list.h"
 
 #include <memory>
 
@@ -18,7 +18,7 @@ enum class NoisePrecision { bits_8, float_32 };
 enum class NoiseStage { compute, fragment };
 
 /// Random numbers for the samples of one frame: 128x128 pairs, blue over the image plane, uniform over the unit square.
-/// One per variant; it uploads the table that all frames derive from when a graph has none yet.
+/// One per technique; it uploads the table that all frames derive from when a pass_list has none yet.
 class BlueNoise {
 public:
     /// Adds the pass "common/blue_noise" and returns its image `blue_noise`, rg8 or rg32f: two numbers per texel; pixel
@@ -26,14 +26,14 @@ public:
     /// their period is 256 frames; a seed other than 0 moves the table by whole texels and all numbers by a rotation of
     /// the unit square (Cranley and Patterson 1976), so that every pixel's numbers are independent between seeds. Fails
     /// with Error if the file of the table is missing or not of its size.
-    Image render(PassGraph& graph, NoiseShift shift, NoisePrecision precision = NoisePrecision::bits_8,
+    Image render(PassList& pass_list, NoiseShift shift, NoisePrecision precision = NoisePrecision::bits_8,
                  NoiseStage stage = NoiseStage::compute);
 
     /// The table under the name `blue_noise`, for passes whose shaders name it and never look at it.
-    Image table(PassGraph& graph) { return uploaded(graph).as("blue_noise"); }
+    Image table(PassList& pass_list) { return uploaded(pass_list).as("blue_noise"); }
 
 private:
-    Image uploaded(PassGraph& graph);
+    Image uploaded(PassList& pass_list);
     std::weak_ptr<ImageStorage> uploaded_table_;
 };
 

@@ -30,13 +30,13 @@ const HostImage& horizon_table(unsigned lobe, float bias) {
     return entry->second;
 }
 
-Image HorizonImage::on(PassGraph& graph, const ParameterSet& params) {
+Image HorizonImage::on(PassList& pass_list, const ParameterSet& params) {
     const nlohmann::json values = params.values();
-    const Image image = graph.image_of("below_horizon", Format::r32f, {64, 64});
+    const Image image = pass_list.image_of("below_horizon", Format::r32f, {64, 64});
     const unsigned lobe = values.at("lobe") == "normals" ? lobe_of_normals : lobe_of_visible_normals;
     const auto bias = values.at("importance_bias").get<float>();
     if (uploaded_.lock() == image.storage && lobe == lobe_ && bias == bias_) return image;
-    graph.upload(image, horizon_table(lobe, bias));
+    pass_list.upload(image, horizon_table(lobe, bias));
     uploaded_ = image.storage;
     lobe_ = lobe;
     bias_ = bias;

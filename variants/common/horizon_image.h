@@ -1,14 +1,14 @@
 #pragma once
-#include "core/gpu/passes/pass_graph.h"
+#include "core/gpu/passes/pass_list.h"
 
 #include <memory>
 
 /// share_below_horizon() of lobe_horizon.h on the GPU, for shaders that include frostbite_sssr/horizon.glsl.
 class HorizonImage {
 public:
-    /// The image `below_horizon`, r32f, of the parameters `lobe` and `importance_bias`; uploaded when the graph has
+    /// The image `below_horizon`, r32f, of the parameters `lobe` and `importance_bias`; uploaded when the pass_list has
     /// none for them yet.
-    Image on(PassGraph& graph, const ParameterSet& params);
+    Image on(PassList& pass_list, const ParameterSet& params);
 
 private:
     std::weak_ptr<ImageStorage> uploaded_;
@@ -18,5 +18,5 @@ private:
 
 /// Column = cosine of the viewer, row = perceptual roughness, both at texel centres (i + 0.5) / 64. Read between texels
 /// its error is below 0.01, but for views within 3 degrees of grazing, where it reaches 0.1. Made once per process for
-/// each lobe and bias: its 4096 integrals would be most of what a variant takes to start, and every seed starts one.
+/// each lobe and bias: its 4096 integrals would be most of what a technique takes to start, and every seed starts one.
 const HostImage& horizon_table(unsigned lobe, float bias);

@@ -27,14 +27,14 @@ constexpr RepairedImage images[] = {{&GBuffer::depth, Kind::depth},
 
 }  // namespace
 
-RepairedInputs::RepairedInputs(PassGraph& graph, const GBuffer& gbuffer, bool is_wanted)
-    : graph_(graph), is_wanted_(is_wanted), given_(gbuffer), repaired_(gbuffer) {
+RepairedInputs::RepairedInputs(PassList& pass_list, const GBuffer& gbuffer, bool is_wanted)
+    : pass_list_(pass_list), is_wanted_(is_wanted), given_(gbuffer), repaired_(gbuffer) {
     if (!is_wanted) return;
     for (const auto& [member, kind] : images) {
         const Image& given = gbuffer.*member;
         if (!given.storage || (member == &GBuffer::dielectric_f0 && !gbuffer.has_dielectric_f0)) continue;
-        const Image repaired = graph.image("repaired_" + given.name, given.format);
-        graph.fragment("common/repair_image.frag")
+        const Image repaired = pass_list.image("repaired_" + given.name, given.format);
+        pass_list.fragment("common/repair_image.frag")
             .read(given.as("given"))
             .read((member == &GBuffer::previous_normal ? gbuffer.previous_depth : gbuffer.depth).as("surface_depth"))
             .write(repaired.as("repaired"))
@@ -43,9 +43,9 @@ RepairedInputs::RepairedInputs(PassGraph& graph, const GBuffer& gbuffer, bool is
             .run();
         repaired_.*member = repaired.as(given.name);
     }
-    graph.set_inputs(repaired_.images());
+    pass_list.set_inputs(repaired_.images());
 }
 
 RepairedInputs::~RepairedInputs() {
-    if (is_wanted_) graph_.set_inputs(given_.images());
+    if (is_wanted_) pass_list_.set_inputs(given_.images());
 }

@@ -2,14 +2,15 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/former_names.h"
 #include "core/near_miss.h"
 #include "core/path_inside.h"
 #include "variants/common/names.h"
 #include "variants/common/parameter_block.h"
+#include "variants/denoisers/denoisers.h"
 #include "variants/passes/check_frames.h"
 #include "variants/passes/read_passes.h"
 #include "variants/passes/technique_files.h"
-#include "variants/denoisers/denoisers.h"
 
 #include <algorithm>
 #include <cctype>
@@ -37,8 +38,8 @@ void read_tracers(JsonObject object, Declaration& declaration) {
     }
     if (declaration.slots.empty()) fail(object.at("slots"), ": 'slots' must name at least one tracer's place");
     if (object.has("after")) {
-        const std::string name =
-            object.choice("after", names_of(declaration.parameters, &Parameter::name), declaration.parameters.back().name);
+        const std::string name = object.choice("after", names_of(declaration.parameters, &Parameter::name),
+                                               declaration.parameters.back().name);
         const auto found = std::ranges::find(declaration.parameters, name, &Parameter::name);
         declaration.parameters_before_tracers = size_t(found - declaration.parameters.begin()) + 1;
     }
@@ -70,7 +71,7 @@ void read_denoiser(JsonObject object, Declaration& declaration) {
 
 /// Fails if two of the parameters that shaders see have one name.
 void refuse_repetition(const std::vector<DeclaredParameter>& declared, const Declaration& declaration) {
-    const std::unique_ptr<Variant> variant = make_declared(std::make_shared<Declaration>(declaration));
+    const std::unique_ptr<Technique> technique = make_declared(std::make_shared<Declaration>(declaration));
     for (size_t i = 0; i < declared.size(); ++i) {
         const auto& [parameter, place] = declared[i];
         const std::string& name = parameter.name;
@@ -78,7 +79,7 @@ void refuse_repetition(const std::vector<DeclaredParameter>& declared, const Dec
             fail(place,
                  ": the parameter 'denoiser' chooses one of ssrlab's denoisers, which a technique with "
                  "\"denoiser\": {...} has; call yours otherwise");
-        if (std::ranges::count(variant->params, parameter.glsl_name(), &Parameter::glsl_name) == 1) continue;
+        if (std::ranges::count(technique->params, parameter.glsl_name(), &Parameter::glsl_name) == 1) continue;
         const auto first = std::ranges::find(declaration.parameters, name, &Parameter::name);
         if (first - declaration.parameters.begin() < long(i))
             fail(place, ": the parameter '", name, "' is declared twice");
@@ -165,27 +166,28 @@ DeclaredEntry read_technique(const fs::path& named) {
         fail("there is no technique in the folder ", named.string(),
              ": it has no technique.json; `ssrlab new FOLDER --from TECHNIQUE` writes one");
     JsonDocument document = read_json_document(file);
+    take_former_names(document, FormerNames::of_technique);
     const nlohmann::json as_written = document.value;
     write_out_short_forms(document.value);
     JsonObject root(document, file.string());
     know_keys(root,
-              {"title", "source", "description", "parameters", "tracers", "pyramids", "denoiser", "conditions", "images",
-               "buffers", "passes", "result", "random", "not_repeatable", "reflects", "limits", "presets"});
+              {"title", "source", "description", "parameters", "tracers", "pyramids", "denoiser", "conditions",
+               "images", "buffers", "passes", "result", "random", "not_repeatable", "reflects", "limits", "presets"});
 
     auto declaration = std::make_shared<Declaration>();
     declaration->name = declared_name(folder);
     if (const auto passes = document.value.find("passes"); passes != document.value.end() && passes->is_array())
         declaration->reads_inputs =
             !std::ranges::all_of(*passes, [](const auto& pass) { return pass.contains("clear"); });
-    VariantEntry entry{.name = declaration->name,
-                       .title = root.text("title"),
-                       .source = root.text("source", ""),
-                       .description = root.text("description", ""),
-                       .presets = {},
-                       .create = {}};
+    TechniqueEntry entry{.name = declaration->name,
+                         .title = root.text("title"),
+                         .source = root.text("source", ""),
+                         .description = root.text("description", ""),
+                         .presets = {},
+                         .create = {}};
     ParameterReader reader(folder);
     read_parameters(root, reader, *declaration);
-    const std::unique_ptr<Variant> plain = make_declared(std::make_shared<Declaration>(*declaration));
+    const std::unique_ptr<Technique> plain = make_declared(std::make_shared<Declaration>(*declaration));
     read_passes(root, KnownValues(plain->params), *declaration);
     TechniqueFolder read{.path = folder, .files = {}, .sources = {}, .content_hash = {}};
     read_shaders(*declaration, read);
@@ -202,4 +204,4 @@ DeclaredEntry read_technique(const fs::path& named) {
     return {std::move(entry), declaration};
 }
 
-VariantEntry declared_entry(const fs::path& folder) { return read_technique(folder).entry; }
+TechniqueEntry declared_entry(const fs::path& folder) { return read_technique(folder).entry; }

@@ -4,15 +4,15 @@
 #include "variants/common/lit_history.h"
 #include "variants/common/parameter_block.h"
 #include "variants/common/repaired_inputs.h"
-#include "variants/passes/declared_passes.h"
 #include "variants/denoisers/denoisers.h"
+#include "variants/passes/declared_passes.h"
 
 #include <algorithm>
 
 namespace {
 
 /// The technique that a technique.json declares.
-class DeclaredTechnique final : public Variant {
+class DeclaredTechnique final : public Technique {
 public:
     explicit DeclaredTechnique(std::shared_ptr<const Declaration> declaration)
         : declaration_(std::move(declaration)), tracers_(own_parameters()) {
@@ -21,7 +21,7 @@ public:
         params.change_defaults(declaration_->denoiser->defaults);
     }
 
-    Reflections render(PassGraph& graph, const GBuffer& gbuffer) override;
+    Reflections render(PassList& pass_list, const GBuffer& gbuffer) override;
     std::vector<LeftOut> leave_out(const SceneFacts& facts) override;
 
     bool depends_on_seed() const override;
@@ -48,8 +48,8 @@ private:
     }
     bool repairs_inputs() const { return declaration_->reads_inputs && value_of(params, "repair_inputs") == true; }
     bool has_no_rays(const KnownValues& known) const;
-    Reflections run_passes(PassGraph& graph, const GBuffer& gbuffer);
-    Reflections run_with_denoiser(PassGraph& graph, const GBuffer& gbuffer, const DeclaredPasses::Around& around);
+    Reflections run_passes(PassList& pass_list, const GBuffer& gbuffer);
+    Reflections run_with_denoiser(PassList& pass_list, const GBuffer& gbuffer, const DeclaredPasses::Around& around);
     /// All stages that begin with its rays, in their order.
     std::vector<std::string> stages() const;
     void add_left_out(std::vector<LeftOut>& left_out, const SceneFacts& facts);
@@ -79,7 +79,7 @@ bool DeclaredTechnique::depends_on_seed() const {
 std::string DeclaredTechnique::not_repeatable() const {
     const std::string of_rays = tracers_.not_repeatable(),
                       of_rest = denoisers_ ? denoisers_->chosen().not_repeatable()
-                                          : because(declaration_->not_repeatable, of_any_shot());
+                                           : because(declaration_->not_repeatable, of_any_shot());
     return of_rays + (of_rays.empty() || of_rest.empty() ? "" : "; ") + of_rest;
 }
 
@@ -101,49 +101,51 @@ bool DeclaredTechnique::needs_depth_layers() const {
     return false;
 }
 
-Reflections DeclaredTechnique::render(PassGraph& graph, const GBuffer& gbuffer) {
-    graph.set_constants(constants_);
-    const RepairedInputs inputs(graph, gbuffer, repairs_inputs() && (!facts_ || facts_->has_faulty_inputs));
+Reflections DeclaredTechnique::render(PassList& pass_list, const GBuffer& gbuffer) {
+    pass_list.set_constants(constants_);
+    const RepairedInputs inputs(pass_list, gbuffer, repairs_inputs() && (!facts_ || facts_->has_faulty_inputs));
     if (facts_ && has_no_rays(known())) {
-        const Image nothing = graph.image("reflections", Format::rgba16f);
-        graph.clear(nothing, {});
+        const Image nothing = pass_list.image("reflections", Format::rgba16f);
+        pass_list.clear(nothing, {});
         return {nothing, nothing, 3};
     }
-    return run_passes(graph, inputs.gbuffer());
+    return run_passes(pass_list, inputs.gbuffer());
 }
 
-Reflections DeclaredTechnique::run_passes(PassGraph& graph, const GBuffer& gbuffer) {
+Reflections DeclaredTechnique::run_passes(PassList& pass_list, const GBuffer& gbuffer) {
     provided_.begin_frame();
-    const DeclaredPasses::Around around{graph, gbuffer, provided_, &tracers_, ray_probe};
-    if (denoisers_) return run_with_denoiser(graph, gbuffer, around);
+    const DeclaredPasses::Around around{pass_list, gbuffer, provided_, &tracers_, ray_probe};
+    if (denoisers_) return run_with_denoiser(pass_list, gbuffer, around);
     DeclaredPasses passes(*declaration_, params, known(), around);
     passes.run_all();
     return passes.result();
 }
 
-Reflections DeclaredTechnique::run_with_denoiser(PassGraph& graph, const GBuffer& gbuffer,
-                                                const DeclaredPasses::Around& around) {
+Reflections DeclaredTechnique::run_with_denoiser(PassList& pass_list, const GBuffer& gbuffer,
+                                                 const DeclaredPasses::Around& around) {
     const KnownValues known = this->known();
     const nlohmann::json& values = known.by_name();
     const ScreenShare traced{.divisor = values.at("half_resolution") == true ? 2u : 1u, .rounds_up = true};
-    const glm::uvec2 extent = traced.of(graph.extent());
+    const glm::uvec2 extent = traced.of(pass_list.extent());
     const size_t bytes = size_t(extent.x) * extent.y * values.at("max_rays").get<size_t>() * 16;
     DenoisedRays rays{
         .technique = params,
-        .traced = {.directions = graph.buffer("directions", bytes), .hits = graph.buffer("hits", bytes)},
-        .color = provided_.image(graph, gbuffer, values.at("previous_frame") == true ? "lit_before" : "lit", params),
+        .traced = {.directions = pass_list.buffer("directions", bytes), .hits = pass_list.buffer("hits", bytes)},
+        .color =
+            provided_.image(pass_list, gbuffer, values.at("previous_frame") == true ? "lit_before" : "lit", params),
         .probe = {}};
-    if (values.at("misses") == "probe") rays.probe = screen_probe(graph, gbuffer);
+    if (values.at("misses") == "probe") rays.probe = screen_probe(pass_list, gbuffer);
     DeclaredPasses(*declaration_, params, known, around, {},
-             {{"directions", rays.traced.directions}, {"hits", rays.traced.hits}})
+                   {{"directions", rays.traced.directions}, {"hits", rays.traced.hits}})
         .run_all();
-    return denoisers_->run(graph, gbuffer, rays);
+    return denoisers_->run(pass_list, gbuffer, rays);
 }
 
 bool DeclaredTechnique::has_no_rays(const KnownValues& known) const {
     if (!facts_->has_reflective) return true;
     if (denoisers_) {
-        const bool answers_rough = known.by_name().at("misses") == "probe" && denoisers_->entry().answers_rough_surfaces;
+        const bool answers_rough =
+            known.by_name().at("misses") == "probe" && denoisers_->entry().answers_rough_surfaces;
         return facts_->min_roughness > known.by_name().at("max_roughness").get<float>() && !answers_rough;
     }
     const RoughnessLimit* limit = first_that_holds(declaration_->reflects, known);
@@ -249,6 +251,6 @@ void DeclaredTechnique::add_left_out(std::vector<LeftOut>& left_out, const Scene
 
 }  // namespace
 
-std::unique_ptr<Variant> make_declared(std::shared_ptr<const Declaration> declaration) {
+std::unique_ptr<Technique> make_declared(std::shared_ptr<const Declaration> declaration) {
     return std::make_unique<DeclaredTechnique>(std::move(declaration));
 }

@@ -1,6 +1,6 @@
 // A ray of another pixel as one pixel would trace it.
-#ifndef RESOLVES_AIMED_RAY_GLSL
-#define RESOLVES_AIMED_RAY_GLSL
+#ifndef DENOISERS_AIMED_RAY_GLSL
+#define DENOISERS_AIMED_RAY_GLSL
 #include "denoisers/ray.glsl"
 
 struct AimedRay {

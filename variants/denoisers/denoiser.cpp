@@ -71,9 +71,9 @@ std::vector<std::string> Denoiser::readers_of(const std::string& scene_constant)
 namespace {
 
 /// A pass that reads rays; shaders that include seen.glsl read all this.
-PassGraph::Pass seeing(PassGraph& graph, const char* shader, const GBuffer& gbuffer, const DenoisedRays& rays,
-                       const std::map<std::string, Image>& images) {
-    PassGraph::Pass pass = graph.compute(shader);
+PassList::Pass seeing(PassList& pass_list, const char* shader, const GBuffer& gbuffer, const DenoisedRays& rays,
+                      const std::map<std::string, Image>& images) {
+    PassList::Pass pass = pass_list.compute(shader);
     pass.read(images.at("hit_color")).use(rays.traced.directions).use(rays.traced.hits);
     pass.read_linear(images.at("screen_probe")).read(images.at("screen_probe_nearness"));
     bind_environment(pass, gbuffer);
@@ -82,15 +82,15 @@ PassGraph::Pass seeing(PassGraph& graph, const char* shader, const GBuffer& gbuf
 
 }  // namespace
 
-Reflections Denoiser::run(PassGraph& graph, const GBuffer& gbuffer, const DenoisedRays& rays) {
+Reflections Denoiser::run(PassList& pass_list, const GBuffer& gbuffer, const DenoisedRays& rays) {
     std::map<std::string, Image> images = {
         {"hit_color", rays.color.as("hit_color")},
         {"screen_probe", (rays.probe ? rays.probe->surfaces : rays.color).as("screen_probe")},
         {"screen_probe_nearness", (rays.probe ? rays.probe->nearness : rays.color).as("screen_probe_nearness")}};
     std::map<std::string, Buffer> buffers = {{"directions", rays.traced.directions}, {"hits", rays.traced.hits}};
     const auto add = [&](const char* shader, const std::vector<std::pair<const char*, Format>>& written) {
-        PassGraph::Pass pass = seeing(graph, shader, gbuffer, rays, images);
-        for (const auto& [name, format] : written) pass.write(images[name] = graph.image(name, format));
+        PassList::Pass pass = seeing(pass_list, shader, gbuffer, rays, images);
+        for (const auto& [name, format] : written) pass.write(images[name] = pass_list.image(name, format));
         pass.run();
     };
     if (has_read("own_radiance"))
@@ -98,16 +98,17 @@ Reflections Denoiser::run(PassGraph& graph, const GBuffer& gbuffer, const Denois
     if (has_read("ray_radiance"))
         add("denoisers/ray_images.comp", {{"ray_radiance", Format::rgba32f}, {"ray_direction", Format::rgba32f}});
     if (has_read(seen_rays_buffer)) {
-        buffers[seen_rays_buffer] = graph.buffer(seen_rays_buffer, rays.traced.directions.size);  // a vec4 per ray
+        buffers[seen_rays_buffer] = pass_list.buffer(seen_rays_buffer, rays.traced.directions.size);  // a vec4 per ray
         const bool is_half = value_of(rays.technique, "half_resolution").get<bool>();
-        seeing(graph, "denoisers/see_rays.comp", gbuffer, rays, images)
+        seeing(pass_list, "denoisers/see_rays.comp", gbuffer, rays, images)
             .use(buffers[seen_rays_buffer])
-            .run(ScreenShare{.divisor = is_half ? 2u : 1u, .rounds_up = true}.of(graph.extent()));
+            .run(ScreenShare{.divisor = is_half ? 2u : 1u, .rounds_up = true}.of(pass_list.extent()));
     }
     decide(rays.technique);
-    graph.set_params(params);
+    pass_list.set_params(params);
     provided_.begin_frame();
-    DeclaredPasses passes(*entry.passes, params, known(), {graph, gbuffer, provided_}, std::move(images), std::move(buffers));
+    DeclaredPasses passes(*entry.passes, params, known(), {pass_list, gbuffer, provided_}, std::move(images),
+                          std::move(buffers));
     passes.run_all();
     return passes.result();
 }

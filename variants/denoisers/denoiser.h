@@ -34,12 +34,12 @@ struct DenoisedRays {
 /// and the buffers `directions` and `hits` (TracedRays) and `seen_rays`: what each ray sees, of seen_rays.glsl.
 struct DenoiserEntry {
     std::string name, title, source, description;
-    bool needs_density = true;                ///< weighs neighbours' rays by densities, which mirror rays lack
-    bool takes_probe = true;                  ///< sees misses as seen.glsl does, which knows the probe
-    bool answers_rough_surfaces = false;      ///< shows something on surfaces rougher than max_roughness, too
+    bool needs_density = true;                  ///< weighs neighbours' rays by densities, which mirror rays lack
+    bool takes_probe = true;                    ///< sees misses as seen.glsl does, which knows the probe
+    bool answers_rough_surfaces = false;        ///< shows something on surfaces rougher than max_roughness, too
     std::shared_ptr<const Declaration> passes;  ///< with the parameters that users see, without the denoiser's name
-    std::vector<Parameter> given;             ///< those that its shaders name, too, and that the technique decides: ...
-    bool is_given_as_technique = false;       ///< ... by its own values of their names ...
+    std::vector<Parameter> given;        ///< those that its shaders name, too, and that the technique decides: ...
+    bool is_given_as_technique = false;  ///< ... by its own values of their names ...
     nlohmann::json given_values = nlohmann::json::object();  ///< ... and by values, or names of given_facts()
     std::vector<std::string> sources;                        ///< shaders, by their paths from the root
     std::string content_hash;                                ///< of what declares it
@@ -61,12 +61,12 @@ public:
     /// Takes what the technique decides; before all that follows.
     void decide(const ParameterSet& technique);
     /// Adds this frame's passes. Those that read rays come first, with the technique's parameters; from then on the
-    /// graph's are `params`.
-    Reflections run(PassGraph& graph, const GBuffer& gbuffer, const DenoisedRays& rays);
+    /// pass_list's are `params`.
+    Reflections run(PassList& pass_list, const GBuffer& gbuffer, const DenoisedRays& rays);
     /// Of its passes, in their order.
     std::vector<std::string> stages() const;
     bool draws_random_numbers() const;
-    std::string not_repeatable() const;  ///< as of Variant::not_repeatable()
+    std::string not_repeatable() const;  ///< as of Technique::not_repeatable()
     /// Stages whose shaders look at a constant of a scene (core/gpu/pipelines/shader.h).
     std::vector<std::string> readers_of(const std::string& scene_constant) const;
     /// The one that reads what rays see, before the denoiser's own; "" where its own passes do.

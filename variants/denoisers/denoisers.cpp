@@ -45,7 +45,9 @@ Denoisers::Denoisers(ParameterSet& params, const std::string& initial) : params_
         }
 }
 
-const DenoiserEntry& Denoisers::entry() const { return find_denoiser(value_of(params_, "denoiser").get<std::string>()); }
+const DenoiserEntry& Denoisers::entry() const {
+    return find_denoiser(value_of(params_, "denoiser").get<std::string>());
+}
 
 Denoiser& Denoisers::chosen() {
     const DenoiserEntry& entry = this->entry();
@@ -58,7 +60,7 @@ Denoiser& Denoisers::chosen() {
     return *chosen_;
 }
 
-Reflections Denoisers::run(PassGraph& graph, const GBuffer& gbuffer, const DenoisedRays& rays) {
+Reflections Denoisers::run(PassList& pass_list, const GBuffer& gbuffer, const DenoisedRays& rays) {
     const DenoiserEntry& entry = this->entry();
     if (entry.needs_density && value_of(params_, "draw_directions") != true)
         fail("denoiser = ", entry.name,
@@ -67,8 +69,8 @@ Reflections Denoisers::run(PassGraph& graph, const GBuffer& gbuffer, const Denoi
     if (rays.probe && !entry.takes_probe)
         fail("denoiser = ", entry.name,
              " has its own way to see what rays met, which does not know misses = probe: take fallback or weight");
-    const ParameterSet& params = graph.params();
-    const Reflections reflections = chosen().run(graph, gbuffer, rays);
-    graph.set_params(params);
+    const ParameterSet& params = pass_list.params();
+    const Reflections reflections = chosen().run(pass_list, gbuffer, rays);
+    pass_list.set_params(params);
     return reflections;
 }

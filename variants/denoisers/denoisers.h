@@ -22,9 +22,9 @@ public:
     /// The chosen one, with the values of its parameters.
     Denoiser& chosen();
 
-    /// Adds its passes; the graph then has the technique's parameters again. Fails with Error where rays have no
+    /// Adds its passes; the pass_list then has the technique's parameters again. Fails with Error where rays have no
     /// density and it needs one, and where it does not know the probe.
-    Reflections run(PassGraph& graph, const GBuffer& gbuffer, const DenoisedRays& rays);
+    Reflections run(PassList& pass_list, const GBuffer& gbuffer, const DenoisedRays& rays);
 
 private:
     ParameterSet& params_;

@@ -1,6 +1,6 @@
 // Where hits take their colour from. Needs the parameter previous_frame.
-#ifndef RESOLVES_HIT_COLOR_GLSL
-#define RESOLVES_HIT_COLOR_GLSL
+#ifndef DENOISERS_HIT_COLOR_GLSL
+#define DENOISERS_HIT_COLOR_GLSL
 #include "common/motion.glsl"
 
 // Where the lit image shows what `pixel` shows: as `motion` is without jitter, both frames' are added.

@@ -1,6 +1,6 @@
 // Taps on a disk that faces a lobe.
-#ifndef RESOLVES_LOBE_DISK_GLSL
-#define RESOLVES_LOBE_DISK_GLSL
+#ifndef DENOISERS_LOBE_DISK_GLSL
+#define DENOISERS_LOBE_DISK_GLSL
 #include "common/halton.h"
 #include "core/shared/brdf.h"
 

@@ -1,6 +1,6 @@
 // Needs the `camera` block.
-#ifndef RESOLVES_PIXEL_SCALE_GLSL
-#define RESOLVES_PIXEL_SCALE_GLSL
+#ifndef DENOISERS_PIXEL_SCALE_GLSL
+#define DENOISERS_PIXEL_SCALE_GLSL
 
 // Pixels of the screen per metre across the view at a view-space position.
 float pixels_per_metre(vec3 position) {

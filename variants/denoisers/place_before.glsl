@@ -1,6 +1,6 @@
 // Where on the previous frame's images something was.
-#ifndef RESOLVES_PLACE_BEFORE_GLSL
-#define RESOLVES_PLACE_BEFORE_GLSL
+#ifndef DENOISERS_PLACE_BEFORE_GLSL
+#define DENOISERS_PLACE_BEFORE_GLSL
 #include "common/mirror_ray.glsl"
 #include "common/motion.glsl"
 

@@ -1,6 +1,6 @@
 // What is kept of each ray: TracedRays of traced_rays.h. Needs the `camera` block, and the parameters of ray_draw.h.
-#ifndef RESOLVES_RAY_GLSL
-#define RESOLVES_RAY_GLSL
+#ifndef DENOISERS_RAY_GLSL
+#define DENOISERS_RAY_GLSL
 #include "denoisers/traced_pixel.glsl"
 
 buffer directions { vec4 direction_of_ray[]; };

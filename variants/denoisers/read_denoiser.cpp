@@ -4,10 +4,10 @@
 #include "core/path_inside.h"
 #include "variants/common/names.h"
 #include "variants/common/parameter_block.h"
+#include "variants/denoisers/denoiser.h"
 #include "variants/passes/check_frames.h"
 #include "variants/passes/read_passes.h"
 #include "variants/passes/technique_files.h"
-#include "variants/denoisers/denoiser.h"
 
 #include <algorithm>
 

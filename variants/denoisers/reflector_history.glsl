@@ -1,6 +1,6 @@
 // What was reflected at a place of the frame before.
-#ifndef RESOLVES_REFLECTOR_HISTORY_GLSL
-#define RESOLVES_REFLECTOR_HISTORY_GLSL
+#ifndef DENOISERS_REFLECTOR_HISTORY_GLSL
+#define DENOISERS_REFLECTOR_HISTORY_GLSL
 #include "denoisers/place_before.glsl"
 #include "denoisers/same_reflector.glsl"
 

@@ -1,6 +1,6 @@
 // Whether a place of the frame before showed the same surface.
-#ifndef RESOLVES_SAME_REFLECTOR_GLSL
-#define RESOLVES_SAME_REFLECTOR_GLSL
+#ifndef DENOISERS_SAME_REFLECTOR_GLSL
+#define DENOISERS_SAME_REFLECTOR_GLSL
 #include "frostbite_sssr/previous_view.glsl"
 
 uniform sampler2D previous_normal;

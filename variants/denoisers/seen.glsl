@@ -1,6 +1,6 @@
 // What a pixel's ray sees. Needs the parameters of ray_draw.h, misses and previous_frame.
-#ifndef RESOLVES_SEEN_GLSL
-#define RESOLVES_SEEN_GLSL
+#ifndef DENOISERS_SEEN_GLSL
+#define DENOISERS_SEEN_GLSL
 #include "common/mirror_ray.glsl"
 #include "common/screen_probe/lookup.glsl"
 #include "core/shaders/gbuffer/environment.glsl"

@@ -1,5 +1,5 @@
-#ifndef RESOLVES_SOLID_ANGLE_GLSL
-#define RESOLVES_SOLID_ANGLE_GLSL
+#ifndef DENOISERS_SOLID_ANGLE_GLSL
+#define DENOISERS_SOLID_ANGLE_GLSL
 
 // By which the solid angle of an area around a hit shrinks from one origin to another: dA = d^2 dw / |cos|, of the same
 // area for both. `length_ratio`: of the way from the first over that from the second; all vectors unit.

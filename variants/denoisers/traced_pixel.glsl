@@ -1,6 +1,6 @@
 // Which pixels start rays. Needs the `camera` block.
-#ifndef RESOLVES_TRACED_PIXEL_GLSL
-#define RESOLVES_TRACED_PIXEL_GLSL
+#ifndef DENOISERS_TRACED_PIXEL_GLSL
+#define DENOISERS_TRACED_PIXEL_GLSL
 #include "denoisers/first_turn.h"
 
 ivec2 traced_extent() {

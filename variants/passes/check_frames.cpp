@@ -18,7 +18,8 @@ using Uses = std::vector<const DeclaredUse*>;
 /// One frame, of the passes and images that its values leave.
 class FrameCheck {
 public:
-    FrameCheck(const Declaration& declaration, const FrameValues& values) : declaration_(declaration), values_(values) {}
+    FrameCheck(const Declaration& declaration, const FrameValues& values)
+        : declaration_(declaration), values_(values) {}
 
     void run() {
         for (const DeclaredImage* image : in_use(declaration_.images, &DeclaredImage::name, values_.known()))

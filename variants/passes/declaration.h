@@ -1,7 +1,7 @@
 #pragma once
-#include "core/gpu/passes/pass_graph.h"
+#include "core/gpu/passes/pass_list.h"
 #include "variants/common/condition.h"
-#include "variants/common/variant_entry.h"
+#include "variants/common/technique_entry.h"
 #include "variants/tracers/tracers.h"
 
 #include <algorithm>
@@ -80,7 +80,7 @@ struct DeclaredTest {
 
 /// One shader of a pass, and over what it runs.
 struct DeclaredForm {
-    std::string shader;              ///< as PassGraph::compute() and ::fragment() find it
+    std::string shader;              ///< as PassList::compute() and ::fragment() find it
     glm::uvec2 groups{0, 0};         ///< workgroups, if not 0 ...
     glm::uvec2 pixels_per_group{0};  ///< ... or each for so many pixels of the screen ...
     std::string arguments;           ///< ... or as many as this buffer says, if not empty ...
@@ -146,8 +146,8 @@ struct DeclaredPass {
     bool is_compute() const { return forms.front().is_compute(); }
 };
 
-/// What passes find besides their own in a technique with a denoiser: two buffers for its rays. One of its traced pixels
-/// is what DeclaredPass::over can name.
+/// What passes find besides their own in a technique with a denoiser: two buffers for its rays. One of its traced
+/// pixels is what DeclaredPass::over can name.
 inline const std::vector<std::string> ray_buffers = {"directions", "hits"};
 inline const std::string traced_pixels = "traced_pixels";
 /// What passes of a denoiser find besides (variants/denoisers/denoiser.h).
@@ -197,7 +197,7 @@ struct DeclaredPyramid {
 
 struct Declaration {
     std::string name;          ///< of its folder
-    bool is_denoiser = false;   ///< runs in a technique that has traced rays
+    bool is_denoiser = false;  ///< runs in a technique that has traced rays
     bool reads_inputs = true;  ///< has shaders, and so the parameter `repair_inputs`
     std::vector<Parameter> parameters;
     std::vector<TracerSlot> slots;
@@ -211,7 +211,7 @@ struct Declaration {
     std::vector<DeclaredBuffer> buffers;
     std::vector<DeclaredPass> passes;
     std::vector<DeclaredResult> results;
-    VariantLimits limits{};
+    TechniqueLimits limits{};
     Condition draws_random_numbers;  ///< itself, not in its tracers
     std::vector<NotRepeatable> not_repeatable;
     std::vector<RoughnessLimit> reflects;

@@ -8,8 +8,8 @@
 
 std::span<const NamedPyramidMaker> pyramid_makers() {
     static const auto drawn = [](bool has_mip_views) {
-        return [=](PassGraph& graph, const Image& depth, unsigned mips, bool keeps_farthest) {
-            return drawn_pyramid(graph, depth, mips, keeps_farthest, has_mip_views);
+        return [=](PassList& pass_list, const Image& depth, unsigned mips, bool keeps_farthest) {
+            return drawn_pyramid(pass_list, depth, mips, keeps_farthest, has_mip_views);
         };
     };
     static const std::vector<NamedPyramidMaker> makers = {
@@ -33,40 +33,41 @@ std::vector<std::string> slots_of(const std::vector<const DeclaredPass*>& passes
     return slots;
 }
 
-DeclaredPasses::DeclaredPasses(const Declaration& declaration, const ParameterSet& params, KnownValues known, const Around& around,
-                   std::map<std::string, Image> given, std::map<std::string, Buffer> given_buffers)
+DeclaredPasses::DeclaredPasses(const Declaration& declaration, const ParameterSet& params, KnownValues known,
+                               const Around& around, std::map<std::string, Image> given,
+                               std::map<std::string, Buffer> given_buffers)
     : declaration_(declaration),
       params_(params),
       known_(std::move(known)),
       around_(around),
       images_(std::move(given)),
       buffers_(std::move(given_buffers)) {
-    known_.set("device.is_gpu", around.graph.uses_gpu_forms());
+    known_.set("device.is_gpu", around.pass_list.uses_gpu_forms());
     known_.derive(declaration.conditions);
     make_images();
 }
 
 void DeclaredPasses::make_images() {
-    PassGraph& graph = around_.graph;
+    PassList& pass_list = around_.pass_list;
     for (const DeclaredImage* image : in_use(declaration_.images, &DeclaredImage::name, known_)) {
         declared_[image->name] = image;
         if (images_.contains(image->name) || !image->same_as.empty()) continue;
-        const glm::uvec2 extent = image->share.of(graph.extent());
+        const glm::uvec2 extent = image->share.of(pass_list.extent());
         if (image->has_history) {
-            const PassGraph::History history = graph.history(image->name, image->format, extent);
+            const PassList::History history = pass_list.history(image->name, image->format, extent);
             images_[image->name] = history.current, images_[history.previous.name] = history.previous;
         } else {
             images_[image->name] = image->is_kept
-                                       ? graph.image_black_at_first(image->name, image->format, extent)
-                                       : graph.image_of(image->name, image->format, extent, image->mips_of(extent));
+                                       ? pass_list.image_black_at_first(image->name, image->format, extent)
+                                       : pass_list.image_of(image->name, image->format, extent, image->mips_of(extent));
         }
     }
     for (const DeclaredBuffer* buffer : in_use(declaration_.buffers, &DeclaredBuffer::name, known_)) {
         if (buffers_.contains(buffer->name)) continue;
-        const glm::uvec2 extent = buffer->share.of(graph.extent());
+        const glm::uvec2 extent = buffer->share.of(pass_list.extent());
         const size_t times = buffer->times.empty() ? 1 : known_.by_name().at(buffer->times).get<size_t>();
-        buffers_[buffer->name] =
-            graph.buffer(buffer->name, buffer->bytes + size_t(extent.x) * extent.y * times * buffer->bytes_per_pixel);
+        buffers_[buffer->name] = pass_list.buffer(
+            buffer->name, buffer->bytes + size_t(extent.x) * extent.y * times * buffer->bytes_per_pixel);
     }
 }
 
@@ -74,13 +75,13 @@ Image DeclaredPasses::image(const std::string& name, NoiseStage stage) {
     if (const auto own = images_.find(name); own != images_.end()) return own->second;
     if (const auto declared = declared_.find(name); declared != declared_.end())
         return image(declared->second->same_as, stage).as(name);
-    return around_.provided.image(around_.graph, around_.gbuffer, name, params_, stage);
+    return around_.provided.image(around_.pass_list, around_.gbuffer, name, params_, stage);
 }
 
 const Tracers::Images& DeclaredPasses::pyramids() {
     if (!pyramids_)
         pyramids_ =
-            around_.tracers->images(around_.graph, around_.gbuffer.depth, pyramid_maker(declaration_, known_).make,
+            around_.tracers->images(around_.pass_list, around_.gbuffer.depth, pyramid_maker(declaration_, known_).make,
                                     slots_of(declaration_.passes_in_use(known_)));
     return *pyramids_;
 }
@@ -105,16 +106,16 @@ void DeclaredPasses::clear(const DeclaredPass& pass) {
     PushValue value = pass.set.at("value");
     if (!pass.cleared_to.empty()) value = glm::vec4(known_.by_name().at(pass.cleared_to).get<float>());
     if (const auto buffer = buffers_.find(pass.cleared); buffer != buffers_.end())
-        return around_.graph.clear(buffer->second, std::holds_alternative<int>(value) ? std::get<int>(value) : 0);
+        return around_.pass_list.clear(buffer->second, std::holds_alternative<int>(value) ? std::get<int>(value) : 0);
     const auto* color = std::get_if<glm::vec4>(&value);
-    around_.graph.clear(images_.at(pass.cleared), color ? *color : glm::vec4(0));
+    around_.pass_list.clear(images_.at(pass.cleared), color ? *color : glm::vec4(0));
 }
 
 void DeclaredPasses::clear_what_is_written(const DeclaredPass& pass) {
     const auto clear = [&](const std::string& name) {
         const auto declared = declared_.find(name);
         if (declared == declared_.end() || is_cleared_[name] || !declared->second->is_cleared.holds(known_)) return;
-        around_.graph.clear(images_.at(name), declared->second->cleared_to);
+        around_.pass_list.clear(images_.at(name), declared->second->cleared_to);
         is_cleared_[name] = true;
     };
     for (const DeclaredUse* write : in_use(pass.writes, &DeclaredUse::as, known_)) clear(write->image);
@@ -133,7 +134,7 @@ Image DeclaredPasses::used(const DeclaredUse& use, unsigned level, NoiseStage st
 }
 
 void DeclaredPasses::run_for(const DeclaredPass& declared, unsigned level) {
-    PassGraph& graph = around_.graph;
+    PassList& pass_list = around_.pass_list;
     const DeclaredForm& form = declared.form(known_);
     const NoiseStage stage = form.is_compute() ? NoiseStage::compute : NoiseStage::fragment;
     std::vector<std::pair<Image, Sampling>> reads;  // made before the pass, for some are passes themselves
@@ -143,7 +144,7 @@ void DeclaredPasses::run_for(const DeclaredPass& declared, unsigned level) {
             Sampling{.is_linear = read->is_linear.holds(known_), .wrap_u = read->wrap_u, .wrap_v = read->wrap_v});
     if (!declared.tracers.empty()) pyramids();
     clear_what_is_written(declared);
-    PassGraph::Pass pass = form.is_compute() ? graph.compute(form.shader) : graph.fragment(form.shader);
+    PassList::Pass pass = form.is_compute() ? pass_list.compute(form.shader) : pass_list.fragment(form.shader);
     pass.label(declared.stage);
     for (const auto& [image, sampling] : reads) pass.read(image, sampling);
     for (const DeclaredUse* write : in_use(declared.writes, &DeclaredUse::as, known_))
@@ -154,8 +155,8 @@ void DeclaredPasses::run_for(const DeclaredPass& declared, unsigned level) {
         pass.stencil({.mode = test->mode, .value = test->value, .image = image(test->image)});
     for (const std::string& buffer : declared.buffers) pass.use(buffers_.at(buffer).as(buffer));
     for (const DeclaredInclude* include : in_use(declared.includes, &DeclaredInclude::name, known_)) {
-        if (include->needs_half_floats && !graph.device().has_half_floats())
-            fail_machine(include->file, ": the Vulkan device '", graph.device().info().name,
+        if (include->needs_half_floats && !pass_list.device().has_half_floats())
+            fail_machine(include->file, ": the Vulkan device '", pass_list.device().info().name,
                          "' has no half floats in shaders");
         pass.include(include->name, "#include \"" + include->file + "\"\n");
     }
@@ -168,13 +169,13 @@ void DeclaredPasses::run_for(const DeclaredPass& declared, unsigned level) {
     }
     if (declared.has_environment) bind_environment(pass, around_.gbuffer);
     if (declared.tracers.empty()) return dispatch(declared, pass);
-    around_.tracers->run(graph, pass, declared.tracers, pyramids(), around_.ray_probe, rays_of(declared),
-                         [&](PassGraph::Pass& once) { dispatch(declared, once); });
+    around_.tracers->run(pass_list, pass, declared.tracers, pyramids(), around_.ray_probe, rays_of(declared),
+                         [&](PassList::Pass& once) { dispatch(declared, once); });
 }
 
-void DeclaredPasses::dispatch(const DeclaredPass& declared, PassGraph::Pass& once) {
+void DeclaredPasses::dispatch(const DeclaredPass& declared, PassList::Pass& once) {
     const DeclaredForm& form = declared.form(known_);
-    const glm::uvec2 screen = around_.graph.extent();
+    const glm::uvec2 screen = around_.pass_list.extent();
     if (!form.is_compute()) return once.run();
     if (form.groups.x > 0) return once.dispatch_groups({form.groups, 1});
     if (form.pixels_per_group.x > 0)

@@ -1,7 +1,7 @@
 #pragma once
-#include "variants/passes/provided_images.h"
 #include "variants/passes/declaration.h"
-#include "variants/variant.h"
+#include "variants/passes/provided_images.h"
+#include "variants/technique.h"
 
 #include <span>
 
@@ -11,17 +11,17 @@ class DeclaredPasses {
 public:
     /// What lies outside of the declaration. Tracers: null where no pass traces.
     struct Around {
-        PassGraph& graph;
+        PassList& pass_list;
         const GBuffer& gbuffer;
         ProvidedImages& provided;
         const Tracers* tracers = nullptr;
         RayProbe* ray_probe = nullptr;
     };
 
-    /// `params`: the graph's. `known`: of them and of the shot, if that is known. Images and buffers that are `given`
-    /// stand in place of the declared ones of their names. All outlive this.
+    /// `params`: the pass_list's. `known`: of them and of the shot, if that is known. Images and buffers that are
+    /// `given` stand in place of the declared ones of their names. All outlive this.
     DeclaredPasses(const Declaration& declaration, const ParameterSet& params, KnownValues known, const Around& around,
-             std::map<std::string, Image> given = {}, std::map<std::string, Buffer> given_buffers = {});
+                   std::map<std::string, Image> given = {}, std::map<std::string, Buffer> given_buffers = {});
 
     void run_all();
     void run(const DeclaredPass& pass);
@@ -41,7 +41,7 @@ private:
     void clear_what_is_written(const DeclaredPass& pass);
     void run_for(const DeclaredPass& pass, unsigned level);
     Image used(const DeclaredUse& use, unsigned level, NoiseStage stage);
-    void dispatch(const DeclaredPass& pass, PassGraph::Pass& once);
+    void dispatch(const DeclaredPass& pass, PassList::Pass& once);
     unsigned rays_of(const DeclaredPass& pass) const;
 
     const Declaration& declaration_;

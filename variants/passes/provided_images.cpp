@@ -66,30 +66,30 @@ std::string ProvidedImages::stage_of(const std::string& name) {
 
 bool ProvidedImages::is_depth_layer(const std::string& name) { return name == "second_depth" || name == "back_depth"; }
 
-Image ProvidedImages::image(PassGraph& graph, const GBuffer& gbuffer, const std::string& name,
+Image ProvidedImages::image(PassList& pass_list, const GBuffer& gbuffer, const std::string& name,
                             const ParameterSet& params, NoiseStage stage) {
     const auto [entry, is_new] = made_.try_emplace(name);
-    if (is_new) entry->second = make(graph, gbuffer, name, params, stage);
+    if (is_new) entry->second = make(pass_list, gbuffer, name, params, stage);
     return entry->second;
 }
 
-Image ProvidedImages::make(PassGraph& graph, const GBuffer& gbuffer, const std::string& name,
+Image ProvidedImages::make(PassList& pass_list, const GBuffer& gbuffer, const std::string& name,
                            const ParameterSet& params, NoiseStage stage) {
     if (const auto member = of_gbuffer.find(name); member != of_gbuffer.end()) return gbuffer.*member->second;
-    if (name == "lit_before") return lit_.previous(graph, gbuffer.lit);
+    if (name == "lit_before") return lit_.previous(pass_list, gbuffer.lit);
     constexpr unsigned all_mips = 32;  // depth_pyramid() makes no more than there are
-    if (name == "nearest_depths") return depth_pyramid(graph, gbuffer.depth, all_mips, false);
-    if (name == "farthest_depths") return depth_pyramid(graph, gbuffer.depth, all_mips, true);
+    if (name == "nearest_depths") return depth_pyramid(pass_list, gbuffer.depth, all_mips, false);
+    if (name == "farthest_depths") return depth_pyramid(pass_list, gbuffer.depth, all_mips, true);
     if (const auto noise = noises.find(name); noise != noises.end())
-        return noise_.render(graph, noise->second.shift, noise->second.precision, stage);
-    if (name == "noise_table") return noise_.table(graph);
-    if (name == "split_sum") return split_sum_.on(graph);
-    if (name == "below_horizon") return horizon_.on(graph, params);
-    if (name == "black") return graph.image_black_at_first("black", Format::rgba8, {1, 1});
+        return noise_.render(pass_list, noise->second.shift, noise->second.precision, stage);
+    if (name == "noise_table") return noise_.table(pass_list);
+    if (name == "split_sum") return split_sum_.on(pass_list);
+    if (name == "below_horizon") return horizon_.on(pass_list, params);
+    if (name == "black") return pass_list.image_black_at_first("black", Format::rgba8, {1, 1});
     if (name != "blue_noise_texture") fail("no image '", name, "' is provided");
-    const Image texture = graph.image_of(name, Format::rgba8, glm::uvec2(blue_noise_texture_width));
+    const Image texture = pass_list.image_of(name, Format::rgba8, glm::uvec2(blue_noise_texture_width));
     if (uploaded_texture_.lock() != texture.storage) {
-        graph.upload_rgba8(texture, blue_noise_texture());
+        pass_list.upload_rgba8(texture, blue_noise_texture());
         uploaded_texture_ = texture.storage;
     }
     return texture;

@@ -1,7 +1,7 @@
 #pragma once
 #include "core/gbuffer/gbuffer.h"
 #include "core/gbuffer/split_sum_image.h"
-#include "core/gpu/passes/pass_graph.h"
+#include "core/gpu/passes/pass_list.h"
 #include "variants/common/blue_noise.h"
 #include "variants/common/horizon_image.h"
 #include "variants/common/lit_history.h"
@@ -30,17 +30,17 @@ public:
     /// The stage that makes it; "" where none does.
     static std::string stage_of(const std::string& name);
 
-    /// Whether it is of the layers of depth behind the visible surfaces (Variant::needs_depth_layers()).
+    /// Whether it is of the layers of depth behind the visible surfaces (Technique::needs_depth_layers()).
     static bool is_depth_layer(const std::string& name);
 
     /// The image of that name, made at its first use of a frame, for a pass of `stage`. `params`: of the technique.
-    Image image(PassGraph& graph, const GBuffer& gbuffer, const std::string& name, const ParameterSet& params,
+    Image image(PassList& pass_list, const GBuffer& gbuffer, const std::string& name, const ParameterSet& params,
                 NoiseStage stage = NoiseStage::compute);
 
     void begin_frame() { made_.clear(); }
 
 private:
-    Image make(PassGraph& graph, const GBuffer& gbuffer, const std::string& name, const ParameterSet& params,
+    Image make(PassList& pass_list, const GBuffer& gbuffer, const std::string& name, const ParameterSet& params,
                NoiseStage stage);
 
     std::map<std::string, Image> made_;  // of this frame

@@ -304,9 +304,9 @@ RoughnessLimit read_limit(JsonObject object, const Declaration& declaration, con
     return limit;
 }
 
-VariantLimits read_limits(JsonObject object, const KnownValues& known) {
+TechniqueLimits read_limits(JsonObject object, const KnownValues& known) {
     know_keys(object, {"api", "lifted_by"});
-    VariantLimits limits;
+    TechniqueLimits limits;
     object.any("api");
     limits.api = object.value_of<Limits>("api", {{"webgl2", Limits::webgl2}});
     if (object.has("lifted_by")) {

@@ -10,7 +10,7 @@ struct TracerNeeds {
     bool exact_hits = false;     ///< RayProbe::exact_hits of core/ray_probe.h
 };
 
-/// Why results depend on the order in which threads ran, as of Variant::not_repeatable(), where `when` holds.
+/// Why results depend on the order in which threads ran, as of Technique::not_repeatable(), where `when` holds.
 struct NotRepeatable {
     Condition when;
     std::string because;

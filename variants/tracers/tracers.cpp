@@ -74,8 +74,8 @@ std::string glsl_of(const TracerSlot& slot, const TracerEntry& tracer, const Sha
            ";\n    record(ray, end);\n    return end;\n}\n";
 }
 
-std::vector<RayRecord> download_records(PassGraph& graph, const Buffer& buffer) {
-    const std::vector<std::byte> bytes = graph.download(buffer);
+std::vector<RayRecord> download_records(PassList& pass_list, const Buffer& buffer) {
+    const std::vector<std::byte> bytes = pass_list.download(buffer);
     std::vector<RayRecord> rays(bytes.size() / sizeof(RayRecord));
     std::memcpy(rays.data(), bytes.data(), rays.size() * sizeof(RayRecord));
     return rays;
@@ -165,42 +165,42 @@ TracerNeeds Tracers::needs(const std::vector<std::string>& slots) const {
     return all;
 }
 
-Tracers::Images Tracers::images(PassGraph& graph, const Image& depth, const PyramidMaker& make,
+Tracers::Images Tracers::images(PassList& pass_list, const Image& depth, const PyramidMaker& make,
                                 const std::vector<std::string>& slots) const {
     const PyramidMaker maker = make ? make : PyramidMaker(depth_pyramid);
     const TracerNeeds all = slots.empty() ? needs() : needs(slots);
     Images images;
-    if (all.nearest_mips > 0) images.nearest = maker(graph, depth, all.nearest_mips, false);
-    if (all.farthest_mips > 0) images.farthest = maker(graph, depth, all.farthest_mips, true);
+    if (all.nearest_mips > 0) images.nearest = maker(pass_list, depth, all.nearest_mips, false);
+    if (all.farthest_mips > 0) images.farthest = maker(pass_list, depth, all.farthest_mips, true);
     return images;
 }
 
-void Tracers::run(PassGraph& graph, const PassGraph::Pass& pass, const std::vector<std::string>& slots,
+void Tracers::run(PassList& pass_list, const PassList::Pass& pass, const std::vector<std::string>& slots,
                   const Images& images, RayProbe* probe, unsigned rays_per_pixel,
-                  const std::function<void(PassGraph::Pass&)>& run) const {
+                  const std::function<void(PassList::Pass&)>& run) const {
     const TracerNeeds needed = needs(slots);
     const bool has_asked = asks_for_some(slots);
     if (needed.exact_hits && (!probe || !(has_asked ? bool(probe->answers) : bool(probe->exact_hits))))
         fail(
             "the tracer exact_scene, and exact_rays, use scene data, which only ssrlab's commands provide, and not for "
             "captures");
-    if (needed.depth_layers && !graph.has_input("second_depth"))
+    if (needed.depth_layers && !pass_list.has_input("second_depth"))
         fail(
             "the chosen tracer reads the layer behind the visible surfaces: captures lack it, and scenes' frames have "
             "it only if the technique's needs_depth_layers() returns true");
-    const size_t rays = size_t(graph.extent().x) * graph.extent().y * rays_per_pixel;
-    const auto buffer = [&] { return graph.buffer("ray_records", rays * sizeof(RayRecord)); };
+    const size_t rays = size_t(pass_list.extent().x) * pass_list.extent().y * rays_per_pixel;
+    const auto buffer = [&] { return pass_list.buffer("ray_records", rays * sizeof(RayRecord)); };
     const RecordedRays* replayed = nullptr;
     if (probe)
         for (const RecordedRays& recorded : probe->replayed)
             if (recorded.stage == pass.stage() && recorded.rays.size() == rays) replayed = &recorded;
     const ShaderTracing include{needed, rays_per_pixel, replayed != nullptr, has_asked};
-    const Buffer answers = needed.exact_hits ? graph.buffer("exact_hits", rays * sizeof(ExactHit)) : Buffer();
+    const Buffer answers = needed.exact_hits ? pass_list.buffer("exact_hits", rays * sizeof(ExactHit)) : Buffer();
     const auto recorded = [&]() -> RecordedRays {
-        return {pass.stage(), rays_per_pixel, download_records(graph, buffer())};
+        return {pass.stage(), rays_per_pixel, download_records(pass_list, buffer())};
     };
     const auto run_as = [&](Including what) {
-        PassGraph::Pass tracing = pass;
+        PassList::Pass tracing = pass;
         for (const TracerSlot& slot : slots_)
             if (std::ranges::count(slots, slot.name))
                 tracing.include(slot.name, glsl_of(slot, chosen(slot.name), include, what));
@@ -209,27 +209,27 @@ void Tracers::run(PassGraph& graph, const PassGraph::Pass& pass, const std::vect
         if (traces && needed.farthest_mips > 0) tracing.read(images.farthest);
         if (traces && needed.exact_hits) tracing.use(answers);
         if (traces && replayed) {
-            const Buffer replaying = graph.buffer("replayed_rays", rays * sizeof(RayRecord));
-            graph.upload(replaying, std::as_bytes(std::span(replayed->rays)));
+            const Buffer replaying = pass_list.buffer("replayed_rays", rays * sizeof(RayRecord));
+            pass_list.upload(replaying, std::as_bytes(std::span(replayed->rays)));
             tracing.use(replaying);
         }
         if (what != Including::trace) {
-            graph.clear(buffer(), 0);
+            pass_list.clear(buffer(), 0);
             tracing.use(buffer());
         }
         run(tracing);
     };
     if (has_asked) {
         const std::vector<ExactHit> none(rays, ExactHit{.outcome = outcome_unanswered});
-        graph.upload(answers, std::as_bytes(std::span(none)));
+        pass_list.upload(answers, std::as_bytes(std::span(none)));
         run_as(Including::record);
         const std::vector<ExactHit> found = probe->answers(
             recorded(), {value_of(params_, "exact_rays"), value_of(params_, "exact_share").get<float>()});
-        graph.upload(answers, std::as_bytes(std::span(found)));
+        pass_list.upload(answers, std::as_bytes(std::span(found)));
     } else if (needed.exact_hits) {
         run_as(Including::rays_only);
         const std::vector<ExactHit> hits = probe->exact_hits(recorded());
-        graph.upload(answers, std::as_bytes(std::span(hits)));
+        pass_list.upload(answers, std::as_bytes(std::span(hits)));
     }
     if (probe && probe->is_recording) {
         run_as(Including::record);

@@ -1,6 +1,6 @@
 #pragma once
 #include "core/gbuffer/gbuffer.h"
-#include "core/gpu/passes/pass_graph.h"
+#include "core/gpu/passes/pass_list.h"
 #include "core/gpu/pipelines/shader.h"
 #include "core/ray_probe.h"
 #include "variants/tracers/tracer.h"
@@ -23,7 +23,7 @@ bool is_of_chosen_tracer(const ParameterSet& params, const std::string& name);
 
 /// How a technique makes pyramids of depth (common/depth_pyramid.h): of at most so many levels, of the nearest or of
 /// the farthest depths.
-using PyramidMaker = std::function<Image(PassGraph&, const Image& depth, unsigned mips, bool keeps_farthest)>;
+using PyramidMaker = std::function<Image(PassList&, const Image& depth, unsigned mips, bool keeps_farthest)>;
 
 /// The place of a tracer in a technique: the parameter `name`, which chooses one. Shaders write `#include "<name>"` and
 /// call `function`.
@@ -52,16 +52,16 @@ public:
         Image nearest, farthest;  ///< pyramids; without storage where no tracer needs them
     };
     /// Of all slots, if none is named.
-    Images images(PassGraph& graph, const Image& depth, const PyramidMaker& make = {},
+    Images images(PassList& pass_list, const Image& depth, const PyramidMaker& make = {},
                   const std::vector<std::string>& slots = {}) const;
 
     /// Runs `pass`, whose shader includes `slots`, by `run` (over all pixels); before that once or twice more, with a
     /// probe that needs it, to get at its rays. Each pixel traces at most `rays_per_pixel` rays, of different
     /// TraceRay::number. Fails if exact hits are needed and `probe` has none.
     void run(
-        PassGraph& graph, const PassGraph::Pass& pass, const std::vector<std::string>& slots, const Images& images,
+        PassList& pass_list, const PassList::Pass& pass, const std::vector<std::string>& slots, const Images& images,
         RayProbe* probe, unsigned rays_per_pixel = 1,
-        const std::function<void(PassGraph::Pass&)>& run = [](PassGraph::Pass& pass) { pass.run(); }) const;
+        const std::function<void(PassList::Pass&)>& run = [](PassList::Pass& pass) { pass.run(); }) const;
 
     /// What the slots' names stand for in shaders, for whoever compiles them outside of run().
     ShaderIncludes includes() const;

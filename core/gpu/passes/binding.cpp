@@ -1,4 +1,4 @@
-#include "core/gpu/passes/pass_graph_impl.h"
+#include "core/gpu/passes/pass_list_impl.h"
 #include "core/gpu/resources.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ vk::SamplerAddressMode address_mode(Wrap wrap) {
 
 }  // namespace
 
-const vk::raii::Sampler& PassGraph::Impl::sampler(const Sampling& s) {
+const vk::raii::Sampler& PassList::Impl::sampler(const Sampling& s) {
     const auto [entry, is_new] = samplers.try_emplace({int(s.is_linear), int(s.wrap_u), int(s.wrap_v)}, nullptr);
     const vk::Filter filter = s.is_linear ? vk::Filter::eLinear : vk::Filter::eNearest;
     if (is_new)
@@ -33,8 +33,8 @@ const vk::raii::Sampler& PassGraph::Impl::sampler(const Sampling& s) {
     return entry->second;
 }
 
-const Image* PassGraph::Impl::find_image(const Pass& pass, const Draw* draw, const std::string& name,
-                                         Sampling& sampling) {
+const Image* PassList::Impl::find_image(const Pass& pass, const Draw* draw, const std::string& name,
+                                        Sampling& sampling) {
     for (const std::vector<Read>* reads : {draw ? &draw->reads : nullptr, &pass.reads_}) {
         if (!reads) continue;
         for (const Read& read : *reads)
@@ -49,7 +49,7 @@ const Image* PassGraph::Impl::find_image(const Pass& pass, const Draw* draw, con
     return input == inputs.end() ? nullptr : &input->second;
 }
 
-const Buffer* PassGraph::Impl::find_buffer(const Pass& pass, const Draw* draw, const std::string& name) {
+const Buffer* PassList::Impl::find_buffer(const Pass& pass, const Draw* draw, const std::string& name) {
     for (const std::vector<Buffer>* buffers : {draw ? &draw->buffers : nullptr, &pass.buffers_}) {
         if (!buffers) continue;
         for (const Buffer& buffer : *buffers)
@@ -58,7 +58,7 @@ const Buffer* PassGraph::Impl::find_buffer(const Pass& pass, const Draw* draw, c
     return nullptr;
 }
 
-void PassGraph::Impl::fail_missing(const Pass& pass, const std::string& name) {
+void PassList::Impl::fail_missing(const Pass& pass, const std::string& name) {
     std::vector<std::string> provided;
     for (const Read& read : pass.reads_) provided.push_back(read.image.name);
     for (const Image& image : pass.writes_) provided.push_back(image.name);
@@ -71,7 +71,7 @@ void PassGraph::Impl::fail_missing(const Pass& pass, const std::string& name) {
 }
 
 /// Fails where a pass names something that its shader ignores, or reads something that is not written.
-void PassGraph::Impl::check(const Pass& pass, const ShaderInterface& interface) {
+void PassList::Impl::check(const Pass& pass, const ShaderInterface& interface) {
     const auto is_used = [&](const std::string& name) {
         return interface.outputs.contains(name) ||
                std::ranges::any_of(interface.resources, [&](const auto& r) { return r.name == name; });
@@ -92,14 +92,13 @@ void PassGraph::Impl::check(const Pass& pass, const ShaderInterface& interface) 
 }
 
 /// Not every device can do everything with every format. `what`: that it is asked to do, as in "filter it".
-void PassGraph::Impl::require(const Image& image, vk::FormatFeatureFlagBits feature, const char* what) {
+void PassList::Impl::require(const Image& image, vk::FormatFeatureFlagBits feature, const char* what) {
     if (!(image.storage->features & feature))
         fail_machine("image '", image.name, "' has the format ", vk::to_string(vulkan_format(image.format)),
                      ", and the Vulkan device '", gpu.info.name, "' cannot ", what);
 }
 
-void PassGraph::Impl::allow_uses(const Pass& pass, const ShaderInterface& interface,
-                                 const std::vector<Image>& targets) {
+void PassList::Impl::allow_uses(const Pass& pass, const ShaderInterface& interface, const std::vector<Image>& targets) {
     using Use = vk::ImageUsageFlagBits;
     using Feature = vk::FormatFeatureFlagBits;
     for (const Image& target : targets) {
@@ -118,8 +117,8 @@ void PassGraph::Impl::allow_uses(const Pass& pass, const ShaderInterface& interf
     }
 }
 
-void PassGraph::Impl::bind(const vk::raii::CommandBuffer& commands, const Pass& pass, const Draw* draw,
-                           const Pipeline& pipeline) {
+void PassList::Impl::bind(const vk::raii::CommandBuffer& commands, const Pass& pass, const Draw* draw,
+                          const Pipeline& pipeline) {
     using Kind = ShaderInterface::Kind;
     std::vector<vk::DescriptorImageInfo> image_infos;
     std::vector<vk::DescriptorBufferInfo> buffer_infos;

@@ -23,27 +23,27 @@ double milliseconds_of(const std::vector<PassTime>& times, const std::string& st
     return found == times.end() ? 0.0 : found->milliseconds;
 }
 
-void add_work(PassGraph& graph, bool is_compute, int iterations, const std::string& label) {
-    const Image result = graph.image("result", Format::rgba32f);
-    auto pass = is_compute ? graph.compute("clock/work.comp") : graph.fragment("clock/work.frag");
+void add_work(PassList& pass_list, bool is_compute, int iterations, const std::string& label) {
+    const Image result = pass_list.image("result", Format::rgba32f);
+    auto pass = is_compute ? pass_list.compute("clock/work.comp") : pass_list.fragment("clock/work.frag");
     pass.write(result).set("iterations", iterations).label(label).run();
 }
 
 /// The shortest of `repeats` times of each pass, each frame running all of them. Other load only ever adds to work that
 /// is always the same, so the shortest time is the one to compare.
-std::vector<double> shortest_times(PassGraph& graph, const std::string& kind, const std::vector<int>& iterations) {
+std::vector<double> shortest_times(PassList& pass_list, const std::string& kind, const std::vector<int>& iterations) {
     const ParameterSet none;
     std::vector<double> shortest(iterations.size(), INFINITY);
     for (unsigned repeat = 0; repeat <= repeats; ++repeat) {
-        graph.begin_frame({}, none, {});
+        pass_list.begin_frame({}, none, {});
         for (size_t i = 0; i < iterations.size(); ++i) {
             // Work just before: a stamp that comes out one pass late would show it. It also wakes the threads of a
             // software device, which the first pass of a frame else waits for: 0.13 ms in place of 0.06, by which all
             // others seemed shorter.
-            add_work(graph, kind != "fragment", iterations.back() / 3, "before");
-            add_work(graph, kind == "compute", iterations[i], "work " + std::to_string(i));
+            add_work(pass_list, kind != "fragment", iterations.back() / 3, "before");
+            add_work(pass_list, kind == "compute", iterations[i], "work " + std::to_string(i));
         }
-        const std::vector<PassTime> times = graph.times();
+        const std::vector<PassTime> times = pass_list.times();
         if (repeat == 0) continue;  // compiles
         for (size_t i = 0; i < iterations.size(); ++i)
             shortest[i] = std::min(shortest[i], milliseconds_of(times, "work " + std::to_string(i)));
@@ -52,19 +52,19 @@ std::vector<double> shortest_times(PassGraph& graph, const std::string& kind, co
 }
 
 /// How often the shaders' loops must run on this device to take `unit_ms`.
-int iterations_of_unit(PassGraph& graph, const std::string& kind) {
+int iterations_of_unit(PassList& pass_list, const std::string& kind) {
     constexpr int tried = 80;
-    const std::vector<double> times = shortest_times(graph, kind, {0, tried});
+    const std::vector<double> times = shortest_times(pass_list, kind, {0, tried});
     const double milliseconds = std::max(times[1] - times[0], 1e-3);
     return int(std::clamp(tried * unit_ms / milliseconds, 1.0, 1e6));
 }
 
 ClockCheck check(Device& device, Clock clock, const std::string& kind, const CpuTimesReader& cpu_times) {
     ClockCheck check{.stage_kind = kind};
-    PassGraph graph(device, extent, clock);
-    const int unit = iterations_of_unit(graph, kind);
+    PassList pass_list(device, extent, clock);
+    const int unit = iterations_of_unit(pass_list, kind);
     const CpuTimes before = cpu_times();
-    const std::vector<double> times = shortest_times(graph, kind, {0, unit, 10 * unit, 100 * unit});
+    const std::vector<double> times = shortest_times(pass_list, kind, {0, unit, 10 * unit, 100 * unit});
     check.foreign_load = foreign_load(before, cpu_times());
     for (size_t i = 1; i < times.size(); ++i) check.measured_ms.push_back(std::max(times[i] - times[0], 0.0));
     judge(check);
@@ -85,13 +85,13 @@ ClockCheck repeated_check(Device& device, Clock clock, const std::string& kind, 
 
 /// The median time of a pass that does nothing.
 double measure_empty(Device& device, Clock clock) {
-    PassGraph graph(device, {1, 1}, clock);
+    PassList pass_list(device, {1, 1}, clock);
     const ParameterSet none;
     std::vector<double> samples;
     for (unsigned repeat = 0; repeat < 31; ++repeat) {
-        graph.begin_frame({}, none, {});
-        add_work(graph, true, 0, "empty");
-        samples.push_back(milliseconds_of(graph.times(), "empty"));
+        pass_list.begin_frame({}, none, {});
+        add_work(pass_list, true, 0, "empty");
+        samples.push_back(milliseconds_of(pass_list.times(), "empty"));
     }
     return median(samples);
 }

@@ -1,6 +1,6 @@
 #pragma once
 #include "core/cpu_times.h"
-#include "core/gpu/passes/pass_graph.h"
+#include "core/gpu/passes/pass_list.h"
 
 #include <optional>
 #include <string>

@@ -1,4 +1,4 @@
-#include "core/gpu/passes/pass_graph_impl.h"
+#include "core/gpu/passes/pass_list_impl.h"
 #include "core/gpu/resources.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ constexpr uint32_t max_stages = 2048;  // per frame, on a GPU: two time stamps e
 
 }  // namespace
 
-PassGraph::Impl::Impl(Device& d, glm::uvec2 e, Clock c)
+PassList::Impl::Impl(Device& d, glm::uvec2 e, Clock c)
     : device(d),
       gpu(d.impl()),
       extent(e),
@@ -30,15 +30,15 @@ PassGraph::Impl::Impl(Device& d, glm::uvec2 e, Clock c)
                vk::QueryPoolCreateInfo{.queryType = vk::QueryType::eTimestamp, .queryCount = 2 * max_stages}};
 }
 
-PassGraph::Impl::~Impl() {
+PassList::Impl::~Impl() {
     try {
-        flush();  // images may outlive the graph
+        flush();  // images may outlive the pass_list
     } catch (const std::exception& error) {
         std::fprintf(stderr, "%s\n", error.what());
     }
 }
 
-void PassGraph::begin_frame(const CameraData& camera, const ParameterSet& params, std::span<const Image> inputs) {
+void PassList::begin_frame(const CameraData& camera, const ParameterSet& params, std::span<const Image> inputs) {
     impl_->flush();
     impl_->times.clear();
     impl_->frame_milliseconds = 0;
@@ -51,7 +51,7 @@ void PassGraph::begin_frame(const CameraData& camera, const ParameterSet& params
     if (impl_->watcher) impl_->watcher->begin_frame();
 }
 
-void PassGraph::set_params(const ParameterSet& params) {
+void PassList::set_params(const ParameterSet& params) {
     impl_->params = &params;
     if (std::ranges::count(impl_->params_of_frame, &params)) return;
     if (impl_->params_of_frame.size() == max_params_of_frame)
@@ -60,21 +60,21 @@ void PassGraph::set_params(const ParameterSet& params) {
     impl_->write_params();
 }
 
-const ParameterSet& PassGraph::params() const { return *impl_->params; }
+const ParameterSet& PassList::params() const { return *impl_->params; }
 
-void PassGraph::set_constants(Constants constants) { impl_->constants = std::move(constants); }
+void PassList::set_constants(Constants constants) { impl_->constants = std::move(constants); }
 
-void PassGraph::set_inputs(std::span<const Image> inputs) {
+void PassList::set_inputs(std::span<const Image> inputs) {
     impl_->inputs.clear();
     for (const Image& image : inputs) impl_->inputs[image.name] = image;
 }
 
-size_t PassGraph::Impl::params_place() const {
+size_t PassList::Impl::params_place() const {
     const auto found = std::ranges::find(params_of_frame, params);
     return params_offset + params_size * size_t(found - params_of_frame.begin());
 }
 
-void PassGraph::Impl::write_params() {
+void PassList::Impl::write_params() {
     size_t offset = params_place();  // std140 packs scalars one after the other
     const size_t end = offset + params_size;
     for (const Parameter& p : *params)
@@ -86,17 +86,17 @@ void PassGraph::Impl::write_params() {
         }
 }
 
-std::vector<PassTime> PassGraph::times() {
+std::vector<PassTime> PassList::times() {
     impl_->flush();
     return impl_->times;
 }
 
-double PassGraph::frame_milliseconds() {
+double PassList::frame_milliseconds() {
     impl_->flush();
     return impl_->frame_milliseconds;
 }
 
-void PassGraph::Impl::add_time(const std::string& stage, double milliseconds) {
+void PassList::Impl::add_time(const std::string& stage, double milliseconds) {
     const auto found = std::ranges::find(times, stage, &PassTime::stage);
     if (found == times.end())
         times.push_back({stage, milliseconds});
@@ -106,8 +106,8 @@ void PassGraph::Impl::add_time(const std::string& stage, double milliseconds) {
 
 /// One barrier in front of each stage, which holds for all that was submitted before: a stage starts when the one
 /// before has ended, so that its time is its own.
-void PassGraph::Impl::execute(const std::string& stage,
-                              const std::function<void(const vk::raii::CommandBuffer&)>& record) {
+void PassList::Impl::execute(const std::string& stage,
+                             const std::function<void(const vk::raii::CommandBuffer&)>& record) {
     if (recorded.empty() && gpu.flush_recording) gpu.flush_recording();
     if (clock == Clock::host_fence) {
         gpu.commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
@@ -147,7 +147,7 @@ void PassGraph::Impl::execute(const std::string& stage,
     recorded.push_back(stage);
 }
 
-void PassGraph::Impl::flush() {
+void PassList::Impl::flush() {
     if (recorded.empty()) return;
     gpu.flush_recording = nullptr;
     commands.end();

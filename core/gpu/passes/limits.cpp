@@ -1,7 +1,7 @@
 #include "core/gpu/passes/limits.h"
 
 #include "core/gpu/format.h"
-#include "core/gpu/passes/pass_graph_impl.h"
+#include "core/gpu/passes/pass_list_impl.h"
 
 namespace {
 
@@ -69,12 +69,12 @@ const char* name_of(Limits limits) {
     fail("no name for Limits ", int(limits));
 }
 
-LimitScope::LimitScope(PassGraph& graph, Limits limits) : graph_(graph), before_(graph.impl_->limits) {
-    graph_.impl_->limits = limits;
+LimitScope::LimitScope(PassList& pass_list, Limits limits) : pass_list_(pass_list), before_(pass_list.impl_->limits) {
+    pass_list_.impl_->limits = limits;
 }
-LimitScope::~LimitScope() { graph_.impl_->limits = before_; }
+LimitScope::~LimitScope() { pass_list_.impl_->limits = before_; }
 
-void PassGraph::Impl::check_limits(const Pass& pass, const Shader& shader, const std::vector<Image>& targets) {
+void PassList::Impl::check_limits(const Pass& pass, const Shader& shader, const std::vector<Image>& targets) {
     if (limits == Limits::none) return;
     if (pass.is_compute_) refuse(pass.label_, "has vertex and fragment shaders only", "is a compute shader");
     if (!pass.vertex_shader_.empty())
@@ -90,8 +90,8 @@ void PassGraph::Impl::check_limits(const Pass& pass, const Shader& shader, const
     }
 }
 
-void PassGraph::Impl::check_resources(const Pass& pass, const ShaderInterface& interface,
-                                      const std::vector<Image>& drawn) {
+void PassList::Impl::check_resources(const Pass& pass, const ShaderInterface& interface,
+                                     const std::vector<Image>& drawn) {
     using Kind = ShaderInterface::Kind;
     size_t textures = 0;
     for (const ShaderInterface::Resource& r : interface.resources) {
@@ -110,13 +110,13 @@ void PassGraph::Impl::check_resources(const Pass& pass, const ShaderInterface& i
         refuse(pass.label_, "guarantees " + std::to_string(max_texture_image_units), "reads ", textures, " textures");
 }
 
-void PassGraph::Impl::check_limits(const Buffer& buffer) {
+void PassList::Impl::check_limits(const Buffer& buffer) {
     if (limits == Limits::webgl2)
         fail("the storage buffer '", buffer.name, "' lies outside the limits of WebGL 2, which has no such buffers");
 }
 
 /// The texels of depth with stencil, FLOAT_32_UNSIGNED_INT_24_8_REV, are a type for which WebGL 2 takes no data.
-void PassGraph::Impl::check_upload_limits(const Image& image) {
+void PassList::Impl::check_upload_limits(const Image& image) {
     if (limits == Limits::webgl2 && image.format == Format::d32f_s8)
         fail("the upload to '", image.name,
              "' of format DEPTH32F_STENCIL8 lies outside the limits of WebGL 2, which only draws and clears such "

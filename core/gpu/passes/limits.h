@@ -1,8 +1,8 @@
 #pragma once
 
-class PassGraph;
+class PassList;
 
-/// An API that a technique is made for. The graph refuses what the API does not have.
+/// An API that a technique is made for. The pass_list refuses what the API does not have.
 ///
 /// webgl2: WebGL 2 with EXT_color_buffer_float, no more than every implementation must offer.
 /// - Passes are fragment shaders over the whole image, valid as GLSL ES 3.00; push_constant blocks stand for uniforms.
@@ -21,16 +21,16 @@ enum class Limits { none, webgl2 };
 /// "WebGL 2 with EXT_color_buffer_float"; "" for none.
 const char* name_of(Limits limits);
 
-/// Holds the passes, clears and uploads of a graph to the limits while it lives; what lies outside is an Error that
+/// Holds the passes, clears and uploads of a pass_list to the limits while it lives; what lies outside is an Error that
 /// names pass, resource, and what is allowed.
 class LimitScope {
 public:
-    LimitScope(PassGraph& graph, Limits limits);
+    LimitScope(PassList& pass_list, Limits limits);
     ~LimitScope();
     LimitScope(const LimitScope&) = delete;
     LimitScope& operator=(const LimitScope&) = delete;
 
 private:
-    PassGraph& graph_;
+    PassList& pass_list_;
     const Limits before_;
 };

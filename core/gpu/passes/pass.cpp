@@ -1,4 +1,4 @@
-#include "core/gpu/passes/pass_graph_impl.h"
+#include "core/gpu/passes/pass_list_impl.h"
 #include "core/gpu/resources.h"
 
 #include <algorithm>
@@ -17,67 +17,67 @@ vk::CullModeFlags cull_mode(Draw::Cull cull) {
 
 }  // namespace
 
-PassGraph::Pass::Pass(PassGraph::Impl& graph, std::string shader, bool is_compute)
-    : graph_(graph), shader_(std::move(shader)), label_(stage_of(shader_)), is_compute_(is_compute) {}
+PassList::Pass::Pass(PassList::Impl& pass_list, std::string shader, bool is_compute)
+    : pass_list_(pass_list), shader_(std::move(shader)), label_(stage_of(shader_)), is_compute_(is_compute) {}
 
-PassGraph::Pass PassGraph::compute(const std::string& shader) { return {*impl_, shader, true}; }
-PassGraph::Pass PassGraph::fragment(const std::string& shader) { return {*impl_, shader, false}; }
-PassGraph::Pass PassGraph::draw(const std::string& vertex_shader, const std::string& fragment_shader,
-                                std::vector<Draw> draws) {
+PassList::Pass PassList::compute(const std::string& shader) { return {*impl_, shader, true}; }
+PassList::Pass PassList::fragment(const std::string& shader) { return {*impl_, shader, false}; }
+PassList::Pass PassList::draw(const std::string& vertex_shader, const std::string& fragment_shader,
+                              std::vector<Draw> draws) {
     Pass pass{*impl_, fragment_shader, false};
     pass.vertex_shader_ = vertex_shader;
     pass.draws_ = std::move(draws);
     return pass;
 }
 
-PassGraph::Pass& PassGraph::Pass::read(const Image& image, Sampling sampling) {
+PassList::Pass& PassList::Pass::read(const Image& image, Sampling sampling) {
     return reads_.push_back({image, sampling}), *this;
 }
-PassGraph::Pass& PassGraph::Pass::write(const Image& image) { return writes_.push_back(image), *this; }
-PassGraph::Pass& PassGraph::Pass::use(const Buffer& buffer) { return buffers_.push_back(buffer), *this; }
-PassGraph::Pass& PassGraph::Pass::stencil(Stencil stencil) { return stencil_ = std::move(stencil), *this; }
-PassGraph::Pass& PassGraph::Pass::depth(DepthTest test) { return depth_ = std::move(test), *this; }
-PassGraph::Pass& PassGraph::Pass::include(const std::string& name, std::string glsl) {
+PassList::Pass& PassList::Pass::write(const Image& image) { return writes_.push_back(image), *this; }
+PassList::Pass& PassList::Pass::use(const Buffer& buffer) { return buffers_.push_back(buffer), *this; }
+PassList::Pass& PassList::Pass::stencil(Stencil stencil) { return stencil_ = std::move(stencil), *this; }
+PassList::Pass& PassList::Pass::depth(DepthTest test) { return depth_ = std::move(test), *this; }
+PassList::Pass& PassList::Pass::include(const std::string& name, std::string glsl) {
     return includes_[name] = std::move(glsl), *this;
 }
-PassGraph::Pass& PassGraph::Pass::label(std::string stage) { return label_ = std::move(stage), *this; }
-PassGraph::Pass& PassGraph::Pass::set(const std::string& name, float value) {
+PassList::Pass& PassList::Pass::label(std::string stage) { return label_ = std::move(stage), *this; }
+PassList::Pass& PassList::Pass::set(const std::string& name, float value) {
     return pushes_.push_back({name, {value}, 4}), *this;
 }
-PassGraph::Pass& PassGraph::Pass::set(const std::string& name, int value) {
+PassList::Pass& PassList::Pass::set(const std::string& name, int value) {
     return pushes_.push_back({name, {std::bit_cast<float>(value)}, 4}), *this;
 }
-PassGraph::Pass& PassGraph::Pass::set(const std::string& name, unsigned value) {
+PassList::Pass& PassList::Pass::set(const std::string& name, unsigned value) {
     return pushes_.push_back({name, {std::bit_cast<float>(value)}, 4}), *this;
 }
-PassGraph::Pass& PassGraph::Pass::set(const std::string& name, glm::vec4 value) {
+PassList::Pass& PassList::Pass::set(const std::string& name, glm::vec4 value) {
     return pushes_.push_back({name, {value.x, value.y, value.z, value.w}, 16}), *this;
 }
 
-void PassGraph::Pass::run() {
-    if (!is_compute_) return graph_.run(*this, {}, nullptr, 0);
+void PassList::Pass::run() {
+    if (!is_compute_) return pass_list_.run(*this, {}, nullptr, 0);
     if (writes_.empty()) fail("pass ", label_, " writes no image, so run() needs an extent");
     run(writes_.front().extent);
 }
 
-void PassGraph::Pass::run(glm::uvec2 extent) {
-    const Shader& shader =
-        graph_.pipelines.shader(shader_, vertex_shader_, *graph_.params, includes_, graph_.changes_of(*this));
+void PassList::Pass::run(glm::uvec2 extent) {
+    const Shader& shader = pass_list_.pipelines.shader(shader_, vertex_shader_, *pass_list_.params, includes_,
+                                                       pass_list_.changes_of(*this));
     const auto local = shader.interface.local_size;
     dispatch_groups({(extent.x + local[0] - 1) / local[0], (extent.y + local[1] - 1) / local[1], 1});
 }
 
-void PassGraph::Pass::dispatch_groups(glm::uvec3 groups) { graph_.run(*this, groups, nullptr, 0); }
-void PassGraph::Pass::dispatch(const Buffer& arguments, size_t offset) { graph_.run(*this, {}, &arguments, offset); }
+void PassList::Pass::dispatch_groups(glm::uvec3 groups) { pass_list_.run(*this, groups, nullptr, 0); }
+void PassList::Pass::dispatch(const Buffer& arguments, size_t offset) { pass_list_.run(*this, {}, &arguments, offset); }
 
-glm::uvec2 PassGraph::Impl::area_of(const Pass& pass, const std::vector<Image>& attachments) {
+glm::uvec2 PassList::Impl::area_of(const Pass& pass, const std::vector<Image>& attachments) {
     return !attachments.empty()        ? attachments.front().extent
            : pass.depth_.image.storage ? pass.depth_.image.extent
                                        : pass.stencil_.image.extent;
 }
 
-void PassGraph::Impl::draw(const vk::raii::CommandBuffer& commands, const Pass& pass, const Pipeline& pipeline,
-                           const std::vector<Image>& attachments) {
+void PassList::Impl::draw(const vk::raii::CommandBuffer& commands, const Pass& pass, const Pipeline& pipeline,
+                          const std::vector<Image>& attachments) {
     const bool has_depth = bool(pass.depth_.image.storage), has_stencil = pass.stencil_.mode != Stencil::Mode::off;
     const glm::uvec2 area = area_of(pass, attachments);
     const auto attachment = [](vk::ImageView view) {
@@ -119,7 +119,7 @@ void PassGraph::Impl::draw(const vk::raii::CommandBuffer& commands, const Pass& 
     commands.endRendering();
 }
 
-std::vector<std::byte> PassGraph::Impl::push_block(const Pass& pass, const ShaderInterface& interface) {
+std::vector<std::byte> PassList::Impl::push_block(const Pass& pass, const ShaderInterface& interface) {
     std::vector<std::byte> block(interface.push_size);
     for (const auto& push : pass.pushes_)
         std::memcpy(block.data() + interface.push_offsets.at(push.name), push.bits.data(), push.size);
@@ -127,7 +127,7 @@ std::vector<std::byte> PassGraph::Impl::push_block(const Pass& pass, const Shade
 }
 
 /// Says only what differs from the shader as it is, which is not made a second time then.
-ShaderChanges PassGraph::Impl::changes_of(const Pass& pass) const {
+ShaderChanges PassList::Impl::changes_of(const Pass& pass) const {
     ShaderChanges result;
     if (changes.glsl_of)
         if (std::optional<GlslChange> change = changes.glsl_of(pass.label_)) result.glsl.push_back(*std::move(change));
@@ -139,8 +139,8 @@ ShaderChanges PassGraph::Impl::changes_of(const Pass& pass) const {
     return result;
 }
 
-void PassGraph::Impl::run(Pass& pass, std::optional<glm::uvec3> groups, const Buffer* arguments,
-                          size_t arguments_offset) {
+void PassList::Impl::run(Pass& pass, std::optional<glm::uvec3> groups, const Buffer* arguments,
+                         size_t arguments_offset) {
     const ShaderChanges changed = changes_of(pass);
     const Shader& shader = pipelines.shader(pass.shader_, pass.vertex_shader_, *params, pass.includes_, changed);
     check(pass, shader.interface);

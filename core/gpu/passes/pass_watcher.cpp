@@ -1,13 +1,13 @@
 #include "core/gpu/passes/pass_watcher.h"
 
-#include "core/gpu/passes/pass_graph_impl.h"
+#include "core/gpu/passes/pass_list_impl.h"
 #include "core/gpu/resources.h"
 
-void PassGraph::watch(PassWatcher* watcher) { impl_->watcher = watcher; }
+void PassList::watch(PassWatcher* watcher) { impl_->watcher = watcher; }
 
-bool PassGraph::Impl::run_watched(Pass& pass, ShaderChanges changes, const PipelineState& state,
-                                  const std::vector<Image>& targets, const std::function<glm::uvec3()>& groups,
-                                  const Recording& record) {
+bool PassList::Impl::run_watched(Pass& pass, ShaderChanges changes, const PipelineState& state,
+                                 const std::vector<Image>& targets, const std::function<glm::uvec3()>& groups,
+                                 const Recording& record) {
     changes.is_for_gpu = true;
     if (const GlslChange* change = watcher->glsl_change()) changes.glsl.push_back(*change);
     const Shader& seen = pipelines.shader(pass.shader_, pass.vertex_shader_, *params, pass.includes_, changes);

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/gpu/passes/pass_graph.h"
+#include "core/gpu/passes/pass_list.h"
 
 /// One run of a pass, with all that another API needs to run it again. What it points to lives until the watcher
 /// returns.
@@ -13,7 +13,7 @@ struct PassRun {
     bool draws_meshes = false;
     const ParameterSet& params;  ///< of its prelude and of its block `Params`
     const ShaderIncludes& includes;
-    const Constants& constants;          ///< of PassGraph::set_constants()
+    const Constants& constants;          ///< of PassList::set_constants()
     PipelineRecipe recipe;               ///< in the form for GPUs
     std::vector<BoundImage> samplers;    ///< all that its shader declares; of meshes those of the first
     std::vector<BoundImage> images;      ///< storage images, the same
@@ -36,8 +36,8 @@ struct InstrumentedPipeline {
     std::vector<std::byte> begin;  ///< of its content when the pass starts; zeros follow
 };
 
-/// Hears of all that changes the images of a graph, in its order: of clears and uploads after they were done. Watched
-/// passes give the same bits, in other times.
+/// Hears of all that changes the images of a pass_list, in its order: of clears and uploads after they were done.
+/// Watched passes give the same bits, in other times.
 class PassWatcher {
 public:
     virtual ~PassWatcher() = default;

@@ -24,7 +24,7 @@ public:
     /// That of the device, shared by all graphs: compiling costs 0.1 s and more per shader.
     static PipelineCache& of(Device::Impl& gpu);
 
-    /// `params`: the variant's; their declarations are part of the shader, the values of constants part of the
+    /// `params`: the technique's; their declarations are part of the shader, the values of constants part of the
     /// pipeline, the includes that the pass decides part of both. `constants` take the place of parameters' values.
     const Shader& shader(const std::string& file, const std::string& vertex_file, const ParameterSet& params,
                          const ShaderIncludes& includes, const ShaderChanges& changes = {});

@@ -1,6 +1,7 @@
 #include "core/gpu/pipelines/shader_files.h"
 
 #include "core/error.h"
+#include "core/former_names.h"
 #include "core/path_inside.h"
 
 #include <fstream>
@@ -79,7 +80,7 @@ ShaderFile read_shader(const std::string& name, const std::string& includer, con
 std::string included_by(const std::string& line) {
     static constexpr std::string_view include = "#include \"";
     if (!line.starts_with(include)) return {};
-    return line.substr(include.size(), line.rfind('"') - include.size());
+    return present_path(line.substr(include.size(), line.rfind('"') - include.size()));
 }
 
 std::vector<ShaderInclude> includes_of(const std::string& text) {

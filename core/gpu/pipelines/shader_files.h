@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-/// The folders under which shaders and their includes are found: variants, core/shaders, tests/shaders, the project
+/// The folders under which shaders and their includes are found: techniques, core/shaders, tests/shaders, the project
 /// itself.
 const std::vector<std::filesystem::path>& shader_roots();
 

@@ -35,7 +35,7 @@ def scene_folder(shot, study, ssrlab, out):
 
 def external_folders(study, file, engines):
     """Those of the study that `engines` (empty: all) render."""
-    folders = [os.path.normpath(os.path.join(os.path.dirname(file), v["external"])) for v in study["variants"] if "external" in v]
+    folders = [os.path.normpath(os.path.join(os.path.dirname(file), v["external"])) for v in study["techniques"] if "external" in v]
     for folder in folders:
         if "." not in os.path.basename(folder):
             raise ResultsError(f"{file}: '{folder}' must be called ENGINE.POINT")

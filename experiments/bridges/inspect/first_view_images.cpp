@@ -45,10 +45,10 @@ bool has_other_normal(glm::vec3 a, glm::vec3 b) {
 FirstViewImages rasterised_first_view(Device& device, const Scene& scene, const FirstView& view) {
     Rasterizer rasterizer(device, scene, {.extent = view.extent, .is_still = true});
     const GBuffer gbuffer = rasterizer.render(scene.camera(""), {.extent = view.extent});
-    PassGraph& graph = rasterizer.graph();
-    const HostImage depth = graph.download(gbuffer.depth), base = graph.download(gbuffer.base_color),
-                    emission = graph.download(gbuffer.emission), normal = graph.download(gbuffer.normal),
-                    material = graph.download(gbuffer.material_id);
+    PassList& pass_list = rasterizer.pass_list();
+    const HostImage depth = pass_list.download(gbuffer.depth), base = pass_list.download(gbuffer.base_color),
+                    emission = pass_list.download(gbuffer.emission), normal = pass_list.download(gbuffer.normal),
+                    material = pass_list.download(gbuffer.material_id);
     FirstViewImages images = images_of(view.extent);
     for (size_t i = 0; i < depth.pixel_count(); ++i) {
         images.material.values[i] = material.values[i];

@@ -21,8 +21,8 @@ private:
 };
 
 /// For each block the nearest other one that all ways from the start to it pass; size(): there is none.
-std::vector<unsigned> nearest_dominators(const FlowGraph& graph);
+std::vector<unsigned> nearest_dominators(const FlowGraph& pass_list);
 /// For each block the nearest other one that all ways from it to an end pass; size(): there is none.
-std::vector<unsigned> nearest_postdominators(const FlowGraph& graph);
+std::vector<unsigned> nearest_postdominators(const FlowGraph& pass_list);
 /// For each block how many loops it is in. A loop is all that leads from a block back to it.
-std::vector<unsigned> loop_depths(const FlowGraph& graph);
+std::vector<unsigned> loop_depths(const FlowGraph& pass_list);

@@ -2,8 +2,8 @@
 #include "core/gpu/passes/pass_watcher.h"
 #include "experiments/gpu_costs/waves/traced_shader.h"
 
-/// Lets the passes of a graph write down what their lanes decide. Passes take the forms that
-/// PassGraph::use_gpu_forms() says.
+/// Lets the passes of a pass_list write down what their lanes decide. Passes take the forms that
+/// PassList::use_gpu_forms() says.
 class PassTracer : public PassWatcher {
 public:
     using Observer = std::function<void(const PassTrace& trace)>;

@@ -12,7 +12,7 @@
 #include "experiments/study/config/shots/scene_warnings.h"
 #include "experiments/study/measuring/frames/frame_source.h"
 #include "experiments/study/measuring/measure.h"
-#include "experiments/study/measuring/render_variant.h"
+#include "experiments/study/measuring/render_technique.h"
 #include "groundtruth/reference/reference_cache.h"
 #include "metrics/score.h"
 
@@ -43,9 +43,9 @@ HostImage image_of(const Mask& mask, glm::uvec2 extent) {
 }
 
 /// What frames of a shot are compared with: the mask where errors are measured, and nothing else.
-Config measuring_config(const VariantConfig& point) {
+Config measuring_config(const PointConfig& point) {
     Config config;
-    config.variants = {point};
+    config.techniques = {point};
     config.masks = {"reflective"};
     return config;
 }
@@ -77,15 +77,15 @@ public:
           source_(scene_source(device, shot, config_, true)),
           store_(*source_, shot.config, 0),
           renderer_(device, shot.config.extent, settings.point),
-          recorder_(*renderer_.graph, texels_, known_reads, settings.has_passes) {
-        renderer_.variant->limits = Limits::webgl2;
+          recorder_(*renderer_.pass_list, texels_, known_reads, settings.has_passes) {
+        renderer_.technique->limits = Limits::webgl2;
     }
 
     void add(const FrameStep& step) {
         const Reference reference = obtain_reference(shot_, step.frame, settings_);
         const FrameStore::Frame frame = store_.frame(step, reference.diffuse.mean);
         const HostGBuffer host =
-            download_gbuffer(source_->graph(), frame.gbuffer, frame.camera, shot_.config.depth_format);
+            download_gbuffer(source_->pass_list(), frame.gbuffer, frame.camera, shot_.config.depth_format);
         const FrameTruth truth = frame_truth(
             std::make_shared<PoseTruth>(pose_truth(reference, config_, shot_.camera.exposure_ev, {})), host, config_);
         CameraData camera = frame.camera;
@@ -97,7 +97,7 @@ public:
         const Composite composite = renderer_.compositor->render(frame.gbuffer, reflections);
         const HostImage& specular = reference.specular.mean;
         errors.push_back(
-            error_of(specular, channels_of(renderer_.graph->download(composite.specular), 0, 3), truth.masks[0]));
+            error_of(specular, channels_of(renderer_.pass_list->download(composite.specular), 0, 3), truth.masks[0]));
         entry["number"] = step.frame;
         entry["camera"] = words_of(camera);
         entry["error"] = errors.back();
@@ -107,7 +107,7 @@ public:
         entry["truth"] = texels_.add_rounded(specular, truth_significand_bits);
         entry["mask"] = texels_.add(image_of(truth.masks[0], host.extent()));
         if (settings_.has_results || settings_.has_passes)
-            entry["result"] = texels_.add(renderer_.graph->download(reflections.radiance));
+            entry["result"] = texels_.add(renderer_.pass_list->download(reflections.radiance));
         frames_.push_back(std::move(entry));
     }
 
@@ -142,7 +142,7 @@ json facts_of(const Shot& shot, const RecordSettings& settings, const Device& de
     const std::string commit = build.value("commit", "");
     return {{"scene", shot.scene.name},
             {"camera", shot.camera.name},
-            {"technique", settings.point.variant},
+            {"technique", settings.point.technique},
             {"point", settings.point.point},
             {"width", shot.config.extent.x},
             {"height", shot.config.extent.y},
@@ -185,7 +185,7 @@ RecordedPage record_page(Device& device, const RecordSettings& settings) {
     for (const json& parameter : recording["parameters"])
         if (parameter["is_slider"]) result.sliders.push_back(parameter["name"]);
     const std::string page =
-        page_of(recording, made.texts(), settings.point.variant + " in " + shot.scene.name + ", replayed by WebGL 2");
+        page_of(recording, made.texts(), settings.point.technique + " in " + shot.scene.name + ", replayed by WebGL 2");
     result.bytes = page.size();
     write_text(settings.page, page);
     return result;

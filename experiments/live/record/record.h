@@ -11,7 +11,7 @@ class Device;
 /// A technique in some frames of a shot, for a page that does its passes again in a browser.
 struct RecordSettings {
     ShotConfig shot;           ///< frames in a row, each rendered once
-    VariantConfig point;       ///< with one seed
+    PointConfig point;         ///< with one seed
     unsigned samples = 256;    ///< of the truth, per pixel
     bool has_results = false;  ///< also what the Vulkan device rendered, so that the page can compare
     bool has_passes = false;   ///< also what each pass wrote there

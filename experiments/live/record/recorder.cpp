@@ -63,13 +63,13 @@ size_t RecordedTexels::add_rounded(const HostImage& rgb, unsigned significand_bi
     return keep({{"width", rgb.extent.x}, {"height", rgb.extent.y}, {"significand_bits", significand_bits}}, bytes);
 }
 
-Recorder::Recorder(PassGraph& graph, RecordedTexels& texels, KnownReads& reads, bool keeps_passes)
-    : graph_(graph), texels_(texels), known_reads_(reads), keeps_passes_(keeps_passes) {}
+Recorder::Recorder(PassList& pass_list, RecordedTexels& texels, KnownReads& reads, bool keeps_passes)
+    : pass_list_(pass_list), texels_(texels), known_reads_(reads), keeps_passes_(keeps_passes) {}
 Recorder::~Recorder() { stop(); }
 
 void Recorder::stop() {
-    graph_.watch(nullptr);
-    if (keeps_passes_) graph_.observe({});
+    pass_list_.watch(nullptr);
+    if (keeps_passes_) pass_list_.observe({});
 }
 
 void Recorder::begin_frame(const GBuffer& gbuffer) {
@@ -77,13 +77,13 @@ void Recorder::begin_frame(const GBuffer& gbuffer) {
     inputs_now_.clear();
     for (const Image& image : gbuffer.images()) inputs_now_.try_emplace(image.storage.get(), image.name);
     if (keeps_passes_)
-        graph_.observe([this](const std::string& stage, std::span<const Image> written) {
+        pass_list_.observe([this](const std::string& stage, std::span<const Image> written) {
             for (const Image& image : written)
                 commands_.push_back({{"check", {image_of(image), image.first_mip}},
                                      {"stage", stage},
-                                     {"texels", texels_.add(graph_.download(image))}});
+                                     {"texels", texels_.add(pass_list_.download(image))}});
         });
-    graph_.watch(this);
+    pass_list_.watch(this);
 }
 
 void Recorder::cleared(const Image& image, glm::vec4 value) {
@@ -94,7 +94,7 @@ void Recorder::cleared(const Image& image, glm::vec4 value) {
 
 void Recorder::uploaded(const Image& image) {
     const size_t place = image_of(image);
-    commands_.push_back({{"upload", place}, {"texels", texels_.add(graph_.download(image))}});
+    commands_.push_back({{"upload", place}, {"texels", texels_.add(pass_list_.download(image))}});
 }
 
 json Recorder::end_frame(const Reflections& reflections) {
@@ -122,7 +122,7 @@ size_t Recorder::image_of(const Image& image) {
     const auto known = known_.find(image.storage.get());
     if (known != known_.end()) return known->second;
     kept_.push_back(image);
-    const std::string asked = graph_.asked_name(image);
+    const std::string asked = pass_list_.asked_name(image);
     const size_t place = described(image, asked.empty() ? image.name : asked);
     known_[image.storage.get()] = place;
     return place;
@@ -134,13 +134,13 @@ size_t Recorder::texture_of(const Image& image) {
     const auto input = inputs_now_.find(image.storage.get());
     if (input == inputs_now_.end()) {
         const size_t place = image_of(image);
-        images_[place]["texels"] = texels_.add(graph_.download(image));
+        images_[place]["texels"] = texels_.add(pass_list_.download(image));
         return place;
     }
     const auto [place, is_new] = input_places_.try_emplace(input->second, images_.size());
     if (is_new) described(image, input->second);
     const std::string key = std::to_string(place->second);
-    if (!inputs_.contains(key)) inputs_[key] = texels_.add(graph_.download(image));
+    if (!inputs_.contains(key)) inputs_[key] = texels_.add(pass_list_.download(image));
     return place->second;
 }
 
@@ -163,7 +163,7 @@ std::optional<InstrumentedPipeline> Recorder::before(const PassRun& pass) {
     if (pass.recipe.is_compute || pass.draws_meshes)
         fail("pass ", pass.stage, " cannot be recorded: it is no fragment shader over a whole image");
     if (!pass.constants.empty())
-        fail("pass ", pass.stage, " cannot be recorded: its graph sets constants, which sources do not hold");
+        fail("pass ", pass.stage, " cannot be recorded: its pass_list sets constants, which sources do not hold");
     const size_t program = program_of(pass);
     json command = {{"program", program}, {"textures", json::array()}, {"targets", json::array()}};
     for (const PassRun::BoundImage& texture : pass.samplers)

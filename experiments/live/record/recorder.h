@@ -2,7 +2,7 @@
 #include "core/gbuffer/gbuffer.h"
 #include "core/gpu/passes/pass_watcher.h"
 #include "experiments/gpu_costs/spirv/shader_reads.h"
-#include "variants/variant.h"
+#include "variants/technique.h"
 
 #include <map>
 #include <nlohmann/json.hpp>
@@ -29,14 +29,14 @@ private:
 /// What shaders look at, by their texts: it takes a while to find out.
 using KnownReads = std::map<std::string, ShaderReads>;
 
-/// Writes down what a technique does to the images of a graph, frame by frame, as page/record/replay.js does it again:
-/// its images, programs in GLSL ES 3.00, and lists of commands. A compute pass or a draw of meshes fails with Error
-/// (Limits::webgl2 refuses them before they run), and so does a pass while constants are set.
+/// Writes down what a technique does to the images of a pass_list, frame by frame, as page/record/replay.js does it
+/// again: its images, programs in GLSL ES 3.00, and lists of commands. A compute pass or a draw of meshes fails with
+/// Error (Limits::webgl2 refuses them before they run), and so does a pass while constants are set.
 class Recorder : private PassWatcher {
 public:
     /// `keeps_passes`: also what each pass has written, as commands {"check": [image, mip], "stage", "texels"} behind
     /// it, so that each can be compared by itself.
-    Recorder(PassGraph& graph, RecordedTexels& texels, KnownReads& reads, bool keeps_passes = false);
+    Recorder(PassList& pass_list, RecordedTexels& texels, KnownReads& reads, bool keeps_passes = false);
     ~Recorder() override;
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
@@ -64,7 +64,7 @@ private:
     size_t texture_of(const Image& image);  ///< that a pass reads
     size_t described(const Image& image, const std::string& name);
 
-    PassGraph& graph_;
+    PassList& pass_list_;
     RecordedTexels& texels_;
     KnownReads& known_reads_;
     const bool keeps_passes_;

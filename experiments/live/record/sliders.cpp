@@ -5,7 +5,7 @@
 #include "core/gpu/device.h"
 #include "core/gpu/pipelines/shader_error.h"
 #include "experiments/study/measuring/rehearsal.h"
-#include "experiments/study/measuring/render_variant.h"
+#include "experiments/study/measuring/render_technique.h"
 #include "variants/registry.h"
 
 #include <algorithm>
@@ -15,13 +15,13 @@ namespace {
 using nlohmann::json;
 
 /// All that two frames of an empty G-buffer do, as text, but for the values of parameters.
-std::string commands_of(Device& device, const VariantConfig& point, glm::uvec2 extent, KnownReads& reads) {
+std::string commands_of(Device& device, const PointConfig& point, glm::uvec2 extent, KnownReads& reads) {
     const HostGBuffer empty = empty_gbuffer(extent);
     const Renderer renderer(device, extent, point);
-    renderer.variant->limits = Limits::webgl2;
+    renderer.technique->limits = Limits::webgl2;
     RecordedTexels texels;
-    Recorder recorder(*renderer.graph, texels, reads);
-    PassGraph inputs(device, extent);
+    Recorder recorder(*renderer.pass_list, texels, reads);
+    PassList inputs(device, extent);
     json frames = json::array();
     for (unsigned index = 0; index < 2; ++index) {
         const GBuffer gbuffer = upload_gbuffer(inputs, empty);
@@ -31,7 +31,7 @@ std::string commands_of(Device& device, const VariantConfig& point, glm::uvec2 e
         const Reflections reflections = renderer.render(camera, point.seeds.front(), gbuffer);
         frames.push_back(recorder.end_frame(reflections));
     }
-    renderer.graph->times();  // waits, so that the images outlive the work
+    renderer.pass_list->times();  // waits, so that the images outlive the work
     if (recorder.programs().empty()) return {};
     return json{frames, recorder.images(), recorder.programs(), recorder.command_lists(), texels.texts()}.dump();
 }
@@ -50,23 +50,23 @@ json slider_json(const Parameter& p) {
             {"initial", p.initial}, {"min", p.min},        {"max", p.max},   {"choices", p.choices}};
 }
 
-json recorded_parameters(Device& device, const VariantConfig& point, glm::uvec2 extent, const std::set<unsigned>& read,
+json recorded_parameters(Device& device, const PointConfig& point, glm::uvec2 extent, const std::set<unsigned>& read,
                          KnownReads& known_reads) {
-    const std::unique_ptr<Variant> variant = make_variant(point.variant, point.parameters, point.preset);
+    const std::unique_ptr<Technique> technique = make_technique(point.technique, point.parameters, point.preset);
     const std::string as_recorded = commands_of(device, point, extent, known_reads);
     json all = json::array(), compiled_in = json::array();
     unsigned place = 0;
-    for (const Parameter& p : variant->params) {
+    for (const Parameter& p : technique->params) {
         json one = slider_json(p);
         one["is_slider"] = false;
         one["is_uniform"] = p.use == Use::uniform;
         if (p.use == Use::constant) {
             one["why_not"] = "compiled into the shaders";
-            if (is_read(variant->params, p.name)) compiled_in.push_back(std::move(one));
+            if (is_read(technique->params, p.name)) compiled_in.push_back(std::move(one));
             continue;
         }
         const auto changes_more = [&](const json& value) {
-            VariantConfig changed = point;
+            PointConfig changed = point;
             changed.parameters[p.name] = value;
             return commands_of(device, changed, extent, known_reads) != as_recorded;
         };
@@ -82,9 +82,9 @@ json recorded_parameters(Device& device, const VariantConfig& point, glm::uvec2 
     return all;
 }
 
-void require_replayable(Device& device, const VariantConfig& point) {
-    make_variant(point.variant, point.parameters, point.preset);  // what is wrong with these is said as it is
-    const std::string name = point.variant + (point.preset.empty() ? "" : " (" + point.preset + ")");
+void require_replayable(Device& device, const PointConfig& point) {
+    make_technique(point.technique, point.parameters, point.preset);  // what is wrong with these is said as it is
+    const std::string name = point.technique + (point.preset.empty() ? "" : " (" + point.preset + ")");
     std::string commands;
     try {
         KnownReads reads;

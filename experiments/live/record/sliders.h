@@ -17,9 +17,9 @@ nlohmann::json slider_json(const Parameter& p);
 /// places of those that one does). Whether a parameter decides more is found by rendering with its least and its
 /// largest value. Then the parameters that the chosen parts of the technique have compiled in, which have no slider
 /// either.
-nlohmann::json recorded_parameters(Device& device, const VariantConfig& point, glm::uvec2 extent,
+nlohmann::json recorded_parameters(Device& device, const PointConfig& point, glm::uvec2 extent,
                                    const std::set<unsigned>& read, KnownReads& known_reads);
 
 /// Renders two frames of an empty G-buffer. Fails with Error, naming the pass, if WebGL 2 cannot do what the technique
 /// does, or if it has no passes.
-void require_replayable(Device& device, const VariantConfig& point);
+void require_replayable(Device& device, const PointConfig& point);

@@ -18,7 +18,7 @@ std::string name_of(const std::string& technique, size_t place) { return techniq
 }  // namespace
 
 WatchedPoint KeptVersion::point() const {
-    return {.variant = std::string("./") + watch_folder::versions + "/" + name,
+    return {.technique = std::string("./") + watch_folder::versions + "/" + name,
             .preset = preset,
             .label = name,
             .parameters = parameters};

@@ -31,9 +31,9 @@ nlohmann::json PageImages::add(const std::filesystem::path& exr, bool is_of_verd
     return description;
 }
 
-std::optional<WatchAnswer> PageImages::find(const std::string& name) const {
+std::optional<WatchReply> PageImages::find(const std::string& name) const {
     const std::lock_guard lock(mutex_);
     const auto found = kept_.find(name);
     if (found == kept_.end()) return {};
-    return WatchAnswer{.type = "application/octet-stream", .body = found->second.bytes};
+    return WatchReply{.type = "application/octet-stream", .body = found->second.bytes};
 }

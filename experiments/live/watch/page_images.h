@@ -14,7 +14,7 @@ public:
     nlohmann::json add(const std::filesystem::path& exr, bool is_of_verdicts = false);
 
     /// Of a name that add() gave; none of others, and of images that are long gone. Any thread may ask.
-    std::optional<WatchAnswer> find(const std::string& name) const;
+    std::optional<WatchReply> find(const std::string& name) const;
 
 private:
     struct Kept {

@@ -5,7 +5,7 @@
 #include "experiments/gpu_costs/chips/model_range.h"
 #include "experiments/results/cells/image_path.h"
 #include "experiments/results/verdicts/judgement.h"
-#include "experiments/results/verdicts/study_tables.h"
+#include "experiments/results/verdicts/study_results.h"
 #include "experiments/study/measuring/rays/error_causes.h"
 #include "experiments/study/shots/result_images.h"
 
@@ -24,10 +24,11 @@ const PrimaryComparisons primary;
 
 template <class Row>
 PointName name_of(const Row& row) {
-    return {row.variant, row.point};
+    return {row.technique, row.point};
 }
 
-json verdict_on(const StudyTables& tables, const PointName& point, const PointName& against, const std::string& label) {
+json verdict_on(const StudyResults& tables, const PointName& point, const PointName& against,
+                const std::string& label) {
     json said = {{"label", label}, {"verdict", ""}, {"why", ""}, {"views", json::array()}};
     if (measure_alike(tables.seeds, point, against)) {
         said["verdict"] = judgement::identical;
@@ -61,7 +62,7 @@ json images_of(const fs::path& results, const json& manifest, const std::string&
         if (entry.value("shot", "") != shot || (target != "image" && target != "specular")) continue;
         std::string label = kind == "reference" ? "truth" : "";
         if (kind == "result")
-            if (const auto known = labels.find({entry.value("variant", ""), entry.value("point", "")});
+            if (const auto known = labels.find({entry.value("technique", ""), entry.value("point", "")});
                 known != labels.end())
                 label = known->second;
         if (label.empty()) continue;
@@ -74,7 +75,7 @@ json images_of(const fs::path& results, const json& manifest, const std::string&
 
 json page_numbers(const fs::path& results, const WatchedPoint& point, const std::vector<WatchedPoint>& against,
                   PageImages& images) {
-    const StudyTables tables = read_study_tables(results);
+    const StudyResults tables = read_study_results(results);
     const PointName name = point.name();
     std::map<PointName, std::string> labels = {{name, "now"}, {no_reflections, "no reflections"}};
     json verdicts = json::array();
@@ -95,7 +96,7 @@ json page_numbers(const fs::path& results, const WatchedPoint& point, const std:
 }
 
 json page_why(const fs::path& results, const WatchedPoint& point, PageImages& images) {
-    const StudyTables tables = read_study_tables(results);
+    const StudyResults tables = read_study_results(results);
     const PointName name = point.name();
     json why = {{"causes", json::array()}, {"rays", json::array()}, {"hits", json::object()}};
     if (const fs::path hits = results / "hits.csv"; fs::exists(hits))
@@ -109,13 +110,13 @@ json page_why(const fs::path& results, const WatchedPoint& point, PageImages& im
         }
     for (const json& entry : tables.manifest.value("images", json::array()))
         if (entry.value("kind", "") == "hits" &&
-            PointName(entry.value("variant", ""), entry.value("point", "")) == name)
+            PointName(entry.value("technique", ""), entry.value("point", "")) == name)
             why["hits"][entry.value("target", "")] = images.add(image_path(results, entry.value("exr", "")), true);
     return why;
 }
 
 json page_times(const fs::path& results, const WatchedPoint& point, const std::vector<WatchedPoint>& against) {
-    const StudyTables tables = read_study_tables(results);
+    const StudyResults tables = read_study_results(results);
     const PointName name = point.name();
     json times = {{"stages", json::array()},
                   {"effects", json::array()},
@@ -126,7 +127,7 @@ json page_times(const fs::path& results, const WatchedPoint& point, const std::v
     for (const TimeEffectRow& t : tables.time_effects) {
         if (name_of(t) != name || t.stage != "total") continue;
         for (const WatchedPoint& other : against)
-            if (other.name() == PointName(t.against_variant, t.against_point)) {
+            if (other.name() == PointName(t.against_technique, t.against_point)) {
                 times["effects"].push_back(row_json(t));
                 times["effects"].back()["label"] = other.label;
             }

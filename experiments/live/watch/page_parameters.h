@@ -6,4 +6,4 @@
 /// is what the preset ("": none) gives, `value` that with `values` in its place; is_read: is_read() of the registry.
 /// Values that the technique does not declare, as it did before somebody changed it, are taken out of `values`; those
 /// that it refuses are Errors.
-nlohmann::json page_parameters(const std::string& technique, const std::string& preset, nlohmann::json& values);
+nlohmann::json page_parameters(const std::string& name, const std::string& preset, nlohmann::json& values);

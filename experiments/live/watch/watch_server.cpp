@@ -103,7 +103,7 @@ struct WatchServer::Parts {
 
     void get(const httplib::Request& request, httplib::Response& response) {
         const std::string name = name_in(request), of_images = "image/";
-        std::optional<WatchAnswer> answer;
+        std::optional<WatchReply> answer;
         if (name == "news")
             answer = news_after(request.get_param_value("after"));
         else if (name.starts_with(of_images))
@@ -126,7 +126,7 @@ struct WatchServer::Parts {
     }
 
     /// At once if there are other news than `known`, else as soon as there are, or after a while those that are known.
-    WatchAnswer news_after(const std::string& known) {
+    WatchReply news_after(const std::string& known) {
         std::unique_lock lock(mutex);
         changed.wait_for(lock, longest_wait,
                          [&] { return is_ending || (number > 0 && std::to_string(number) != known); });

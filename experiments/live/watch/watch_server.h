@@ -7,16 +7,16 @@
 #include <string>
 
 /// What a request is answered with.
-struct WatchAnswer {
+struct WatchReply {
     std::string type;  ///< of the body, as MIME names it
     std::string body;
 };
 
 /// All that the server has to give. It opens no file itself: a name is looked up, and is no path.
 struct WatchPages {
-    std::map<std::string, WatchAnswer> files;  ///< by name; "" is the page itself
+    std::map<std::string, WatchReply> files;  ///< by name; "" is the page itself
     /// Of a name that the news gave; none of any other. Called by several threads.
-    std::function<std::optional<WatchAnswer>(const std::string& name)> image;
+    std::function<std::optional<WatchReply>(const std::string& name)> image;
     /// What the page asks to be done; the answer is "", or a sentence that says why it is not. Called by several
     /// threads.
     std::function<std::string(const std::string& what, const nlohmann::json& value)> take;

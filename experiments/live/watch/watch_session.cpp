@@ -59,7 +59,7 @@ WatchSettings with_absolute_paths(WatchSettings settings) {
 }
 
 /// The page with its script and style, by the names that it asks for.
-std::map<std::string, WatchAnswer> page_files() {
+std::map<std::string, WatchReply> page_files() {
     return {{"", {"text/html; charset=utf-8", template_file("watch.html")}},
             {"watch.js", {"text/javascript; charset=utf-8", built_file("watch.js")}},
             {"watch.css", {"text/css; charset=utf-8", built_file("watch.css")}}};
@@ -150,7 +150,7 @@ std::string WatchSession::keep() {
 std::string WatchSession::set_values(const json& values) {
     if (!values.is_object()) return "the page sent no values of parameters";
     if (values == values_) return "";
-    if (is_valid_) make_variant(settings_.name(), values, settings_.preset);  // says what is wrong with one
+    if (is_valid_) make_technique(settings_.name(), values, settings_.preset);  // says what is wrong with one
     values_ = values;
     begin(Clock::now());
     return "";
@@ -197,7 +197,7 @@ void WatchSession::give_up(const std::string& error) {
 }
 
 WatchedPoint WatchSession::point() const {
-    return {.variant = std::string("./") + watch_folder::technique + "/" + settings_.name(),
+    return {.technique = std::string("./") + watch_folder::technique + "/" + settings_.name(),
             .preset = settings_.preset,
             .label = settings_.name(),
             .parameters = values_,

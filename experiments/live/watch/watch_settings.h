@@ -13,7 +13,7 @@ struct WatchSettings {
     std::string camera;               ///< "": each scene's first
     glm::uvec2 extent{480, 270};
     std::vector<unsigned> frames{0};       ///< in a row; the last is measured
-    std::string against;                   ///< NAME or NAME:PRESET, as configs name a variant; "": nothing
+    std::string against;                   ///< NAME or NAME:PRESET, as configs name a technique; "": nothing
     unsigned samples = 256, seeds = 0;     ///< of the truth, per pixel; of points that depend on them, 0: as studies do
     double patience = 30;                  ///< seconds without a sign of life, after which rendering is ended
     std::filesystem::path out;             ///< folder of kept versions and of all that is rendered

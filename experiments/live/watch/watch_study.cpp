@@ -11,7 +11,7 @@ namespace {
 constexpr const char* best_point = "frostbite_sssr:best";
 
 json entry_of(const WatchedPoint& point) {
-    json entry = {{"variant", point.variant}, {"baseline", point.is_baseline}, {"label", point.label}};
+    json entry = {{"technique", point.technique}, {"baseline", point.is_baseline}, {"label", point.label}};
     if (!point.preset.empty()) entry["preset"] = point.preset;
     if (!point.parameters.empty()) entry["parameters"] = point.parameters;
     return entry;
@@ -31,9 +31,9 @@ json shots_of(const WatchSettings& settings, size_t scenes) {
 }
 
 json study_of(const WatchSettings& settings, const std::vector<WatchedPoint>& points, size_t scenes) {
-    json variants = {{{"variant", "none"}, {"baseline", true}}};
-    for (const WatchedPoint& point : points) variants.push_back(entry_of(point));
-    json study = {{"title", settings.name()}, {"shots", shots_of(settings, scenes)}, {"variants", variants}};
+    json techniques = {{{"technique", "none"}, {"baseline", true}}};
+    for (const WatchedPoint& point : points) techniques.push_back(entry_of(point));
+    json study = {{"title", settings.name()}, {"shots", shots_of(settings, scenes)}, {"techniques", techniques}};
     if (settings.seeds > 0) study["seeds"] = settings.seeds;
     return study;
 }
@@ -41,21 +41,21 @@ json study_of(const WatchSettings& settings, const std::vector<WatchedPoint>& po
 }  // namespace
 
 PointName WatchedPoint::name() const {
-    return {std::filesystem::path(variant).filename().string(), preset.empty() ? "default" : preset};
+    return {std::filesystem::path(technique).filename().string(), preset.empty() ? "default" : preset};
 }
 
 WatchedPoint point_against(const std::string& asked) {
     const std::string against = asked == "best" ? best_point : asked;
     const size_t colon = against.rfind(':');
     const bool has_preset = colon != std::string::npos && against.find('/', colon) == std::string::npos;
-    WatchedPoint point{.variant = against.substr(0, has_preset ? colon : against.size()),
+    WatchedPoint point{.technique = against.substr(0, has_preset ? colon : against.size()),
                        .preset = has_preset ? against.substr(colon + 1) : "",
                        .label = against};
-    if (point.variant.find('/') != std::string::npos) {
-        add_technique_folder(point.variant);
-        point.variant = std::filesystem::absolute(point.variant).lexically_normal().string();
+    if (point.technique.find('/') != std::string::npos) {
+        add_technique_folder(point.technique);
+        point.technique = std::filesystem::absolute(point.technique).lexically_normal().string();
     }
-    make_variant(point.name().first, json::object(), point.preset);  // says what is wrong with either
+    make_technique(point.name().first, json::object(), point.preset);  // says what is wrong with either
     return point;
 }
 
@@ -76,7 +76,7 @@ json numbers_study(const WatchSettings& settings, const std::vector<WatchedPoint
 
 json why_study(const WatchSettings& settings, const WatchedPoint& point) {
     json study = numbers_study(settings, {point}, 1, settings.samples, false);
-    study["variants"].erase(0);  // no reflections, of which nothing is asked
+    study["techniques"].erase(0);  // no reflections, of which nothing is asked
     study["seeds"] = 1;
     study["hits"] = json::object();
     return study;
@@ -84,7 +84,7 @@ json why_study(const WatchSettings& settings, const WatchedPoint& point) {
 
 json times_study(const WatchSettings& settings, const std::vector<WatchedPoint>& points) {
     json study = numbers_study(settings, points, 1, settings.samples, false);
-    study["variants"].erase(0);
+    study["techniques"].erase(0);
     study["seeds"] = 1;
     study["costs"] = true;
     study["gpu_compilers"] = {"navi21"};

@@ -4,7 +4,7 @@
 
 /// A technique as a study that is written for a watch has it.
 struct WatchedPoint {
-    std::string variant;  ///< as configs in WatchSettings::out name it
+    std::string technique;  ///< as configs in WatchSettings::out name it
     std::string preset, label;
     nlohmann::json parameters = nlohmann::json::object();
     bool is_baseline = true;  ///< that the others are compared with

@@ -6,7 +6,7 @@ import {compareCells} from "../elements/tables.js";
 import {pointKey, pointLabel} from "../study/data.js";
 import {isOneSeed} from "../study/mistakes.js";
 import {
-    allPoints, comparedPoints, groupOf, markName, mostNamed, parametersOf, places, pointGroups, shownPoints, variants
+    allPoints, comparedPoints, groupOf, markName, mostNamed, parametersOf, places, pointGroups, shownPoints, techniques
 } from "../study/points.js";
 import {grouped, unique} from "../values.js";
 
@@ -32,7 +32,7 @@ function parameterStyle(name, value) {
 export function styleOf(row) {
     const by = shownPoints.colourBy;
     if (by === "point") return seriesStyle(places.get(pointKey(row)));
-    if (by === "variant") return seriesStyle(variants.indexOf(row.variant));
+    if (by === "technique") return seriesStyle(techniques.indexOf(row.technique));
     if (by === "group") return seriesStyle(pointGroups.indexOf(groupOf(row)));
     return parameterStyle(by, parametersOf(row)[by]);
 }
@@ -41,11 +41,11 @@ export function styleOf(row) {
 export function legendGroups(rows) {
     const points = [...new Map(rows.map(r => [pointKey(r), r])).values()], by = shownPoints.colourBy;
     const name = p => by === "point" ? pointLabel(p) :
-        by === "variant"             ? p.variant :
+        by === "technique"             ? p.technique :
         by === "group"               ? groupOf(p) || "no group" :
         by in parametersOf(p)        ? `${by} = ${JSON.stringify(parametersOf(p)[by])}` :
                                        `without ${by}`;
-    const ordered = ["point", "variant", "group"].includes(by) ?
+    const ordered = ["point", "technique", "group"].includes(by) ?
         points :
         [...points].sort((a, b) => compareCells(parametersOf(a)[by] ?? null, parametersOf(b)[by] ?? null, true));
     return [...grouped(ordered, name)].map(
@@ -59,7 +59,7 @@ export function pointMark(row, more) {
         ...styleOf(row),
         isHollow: isOneSeed(row),
         name: isNamed ? markName(row) : null,
-        data: {variant: row.variant, point: row.point, value: row.value},
+        data: {technique: row.technique, point: row.point, value: row.value},
         ...more
     };
 }

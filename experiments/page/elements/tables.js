@@ -58,7 +58,7 @@ export const valueCell = (row, digits) =>
     cell(row.value, number(row.value, digits), " ", h("small", {}, interval(row, digits)));
 
 /// A text of a table as spreadsheets take it: what begins like a formula and is more than a number, a percentage or an interval stands behind
-/// an apostrophe, as in ssrlab's own files (experiments/results/tables/csv.h).
+/// an apostrophe, as in ssrlab's own files (experiments/results/files/csv.h).
 const inCells = text => /^'*[=+\-@]/.test(text) && !/^[+-][\d.,e\s%[\]+-]*$/.test(text) ? `'${text}` : text;
 
 /// Buttons that copy a table as it is shown, for a spreadsheet, and save it under the name that `name` gives.

@@ -117,8 +117,8 @@ function timeTable(shot) {
 }
 
 /// The pictures, the marks and the reason follow the choice.
-export function choosePoint({variant, point}) {
-    answerChoice.point = {variant, point};
+export function choosePoint({technique, point}) {
+    answerChoice.point = {technique, point};
     return drawChosenPoint();
 }
 

@@ -125,7 +125,7 @@ function budgetRows(kind, byMetric) {
         });
         return h("tr", {}, i === 0 ? head : "",
                  h("td", {}, h("button", {
-                       "data-variant": row.variant,
+                       "data-technique": row.technique,
                        "data-point": row.point,
                        title: pointText(row),
                        click: () => choosePoint(row)

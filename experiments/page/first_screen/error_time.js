@@ -28,7 +28,7 @@ const frontOf = timed =>
 /// beside each other. None is a line alone: its time and error would push all others together. Null where no row is
 /// shown.
 export function errorTimeChart(shot, all, {width = 440, height = 320, open = openPoint} = {}) {
-    const shown = chartedRows(all).filter(r => r.value !== null), none = shown.find(r => r.variant === "none");
+    const shown = chartedRows(all).filter(r => r.value !== null), none = shown.find(r => r.technique === "none");
     const rows = shown.length > 1 ? shown.filter(r => r !== none) : shown;
     if (!rows.length) return null;
     const {metric, target, mask} = rows[0], isLog = better(metric) === "lower";

@@ -12,14 +12,14 @@ import {better} from "../study/errors.js";
 import {isOneSeed} from "../study/mistakes.js";
 import {
     choice, comparedPoints, filteredRows, mostNamed, pointGroups, shownPoints, singleChangeKeys, sweptParameters,
-    variants
+    techniques
 } from "../study/points.js";
 import {unique} from "../values.js";
 
 const matchText = (shown, all) => shown === all ? `${all} points` : `${shown} of ${all} points`;
 
 export function showExplorer() {
-    const swept = unique(variants.flatMap(v => sweptParameters.get(v)));
+    const swept = unique(techniques.flatMap(v => sweptParameters.get(v)));
     const changed = key => value => {
         shownPoints[key] = value;
         pointsChanged();
@@ -37,7 +37,7 @@ export function showExplorer() {
           {type: "checkbox", id: key, checked: shownPoints[key], change: event => changed(key)(event.target.checked)}),
         label);
     const colours = [
-        ...(comparedPoints.length <= mostNamed ? [["point", "points"]] : []), ["variant", "variants"],
+        ...(comparedPoints.length <= mostNamed ? [["point", "points"]] : []), ["technique", "techniques"],
         ...(pointGroups.length > 1 ? [["group", "groups"]] : []), ...swept.map(name => [name, name])
     ];
     const costs = [["time", "time"], ...Object.entries(costKinds).map(([key, {name}]) => [key, name])];
@@ -48,8 +48,8 @@ export function showExplorer() {
     const singles = `${singleChangeKeys.size} points that change one parameter of a baseline, too`;
     at("points-choice").append(...[
         h("label", {}, "Filter", filter), choose("Sort by", "sort", Object.entries(sortKeys)),
-        box("group by variant", "isGrouped"),
-        variants.includes("none") &&
+        box("group by technique", "isGrouped"),
+        techniques.includes("none") &&
             choose("Cells relative to", "relativeTo", [["best", "the least"], ["none", "none"]]),
         choose("Colours and shapes stand for", "colourBy", colours),
         report.costs.length > 0 && choiceBox("Charts against", costAxis, "kind", costs, drawCharts),

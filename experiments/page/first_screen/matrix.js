@@ -23,9 +23,9 @@ function columnReference(rows) {
     const positive = rows.filter(r => r.value > 0 && !isOneSeed(r));
     if (!positive.length || (!rows[0].isTime && better(rows[0].metric) !== "lower")) return null;
     if (rows[0].isTime)
-        return positive.filter(r => r.variant !== "none")
+        return positive.filter(r => r.technique !== "none")
             .reduce((least, r) => r.value < least?.value ? r : least ?? r, null);
-    if (shownPoints.relativeTo === "none") return positive.find(r => r.variant === "none") ?? null;
+    if (shownPoints.relativeTo === "none") return positive.find(r => r.technique === "none") ?? null;
     return positive.reduce((least, r) => r.value < least.value ? r : least);
 }
 
@@ -64,13 +64,13 @@ export function matrix(groups, order) {
         buttons.push(button);
         return h("td", {style, class: column.isFirst ? "first" : null}, button);
     };
-    const groupHead = variant =>
-        h("tr", {class: "variant"}, h("th", {scope: "rowgroup", colspan: columns.length + 1}, variant));
+    const groupHead = technique =>
+        h("tr", {class: "technique"}, h("th", {scope: "rowgroup", colspan: columns.length + 1}, technique));
     const lines = order.flatMap((point, i) => {
-        const isFirst = shownPoints.isGrouped && (i === 0 || order[i - 1].variant !== point.variant);
+        const isFirst = shownPoints.isGrouped && (i === 0 || order[i - 1].technique !== point.technique);
         const name = h("th", {scope: "row", title: pointText(point)}, icon(styleOf(point)), pointLabel(point));
         const line = h("tr", {}, name, columns.map(column => cellOf(point, column)));
-        return isFirst ? [groupHead(point.variant), line] : [line];
+        return isFirst ? [groupHead(point.technique), line] : [line];
     });
     const element = h(
         "table", {class: columns.length > mostWideColumns ? "matrix dense" : "matrix"},
@@ -169,8 +169,8 @@ export function sortedPoints(rows) {
                         .sort((a, b) => compareCells(a.key, b.key, true));
     const result = ordered.map(o => o.point);
     if (!shownPoints.isGrouped) return result;
-    const first = new Map(result.map(p => p.variant).reverse().map((v, i) => [v, -i]));
+    const first = new Map(result.map(p => p.technique).reverse().map((v, i) => [v, -i]));
     return result.map((p, i) => [p, i])
-        .sort(([a, i], [b, j]) => first.get(a.variant) - first.get(b.variant) || i - j)
+        .sort(([a, i], [b, j]) => first.get(a.technique) - first.get(b.technique) || i - j)
         .map(([p]) => p);
 }

@@ -41,7 +41,7 @@ function errorCell(row, isBest) {
 function summaryRow(row, rows, best, others, otherBest) {
     const ratio = againstNone(row, rows), time = totalTime(row), other = others.find(o => isSamePoint(o, row));
     return [
-        shotName(row.shot), row.variant, cell(row.point, ownLabel(row) ?? row.point, " ", badges(mistakesOfError(row))),
+        shotName(row.shot), row.technique, cell(row.point, ownLabel(row) ?? row.point, " ", badges(mistakesOfError(row))),
         errorCell(row, best.has(row)), ...(others.length ? [other ? errorCell(other, otherBest.has(other)) : ""] : []),
         numberCell(row.floor),
         ...(rows.some(isLitNoisy) ? [cell(row.litNoise ?? null, number(row.litNoise))] : []),
@@ -65,7 +65,7 @@ export function showSummary() {
     const best = bestRows(chosen), otherBest = bestRows(otherRows());
     const name = choice.metric.split("|")[0];
     const columns = [
-        "Shot", "Variant", "Point", ...numbers(name),
+        "Shot", "Technique", "Point", ...numbers(name),
         ...(others.length ? numbers(others[0].metric) : []), ...numbers("Noise floor"),
         ...(rows.some(isLitNoisy) ? numbers("Lit noise") : []), ...numbers("× none", "Total ms", "Seeds", "Pixels"),
         "Made by"

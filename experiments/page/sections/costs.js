@@ -27,6 +27,6 @@ export function costTable(shot) {
         h("p", {class: "note"}, howCounted,
           " Idle are invocations that write nothing; unique bytes count what a pass reads or writes of an image or buffer no more than once."),
         table(
-            ["Variant", "Stage", ...numbers(...names)], sorted.map(row),
+            ["Technique", "Stage", ...numbers(...names)], sorted.map(row),
             {groupBy: 0}));
 }

@@ -23,12 +23,12 @@ const hiddenShots = new Set();  // by the legend
 const errorParts = {bias_squared: "bias²", variance: "variance"};  // what a mean squared error is the sum of
 const scales = {all: "all ratios", "1.5": "2/3 to 1.5", "1.1": "0.91 to 1.1", "1.01": "0.99 to 1.01"};
 
-const effectsShown = () => report.effects.filter(e => e.variant === e.againstVariant);
+const effectsShown = () => report.effects.filter(e => e.technique === e.againstTechnique);
 const effectShots = () => unique([
                               ...manifestShots().map(s => s.shot), ...effectsShown().map(e => e.shot)
                           ]).filter(shot => effectsShown().some(e => e.shot === shot));
-const againstLabel = e => e.against === "baseline" ? pointLabel({variant: e.againstVariant, point: e.againstPoint}) :
-                                                     `${e.variant} with ${e.against} and otherwise the same`;
+const againstLabel = e => e.against === "baseline" ? pointLabel({technique: e.againstTechnique, point: e.againstPoint}) :
+                                                     `${e.technique} with ${e.against} and otherwise the same`;
 
 export function showEffects() {
     const rows = effectsShown();
@@ -71,7 +71,7 @@ function effectGroups(rows) {
     const docs = report.manifest.parameter_docs ?? {};
     const singles = report.singleChanges.map(c => ({
                                                  label: `${c.parameter} = ${JSON.stringify(c.value)}`,
-                                                 doc: docs[c.variant]?.[c.parameter] ?? "",
+                                                 doc: docs[c.technique]?.[c.parameter] ?? "",
                                                  rows: of(pointKey(c)).filter(isChangeOfBaseline)
                                              }));
     const wholes = unique(rows.filter(e => !isChangeOfBaseline(e)).map(pointKey))
@@ -171,9 +171,9 @@ function effectScale(rows, hasIntervals) {
 /// run to run only where the same seed gives the same result again.
 function whyNotRepeatable(e) {
     if (e.low !== null) return null;
-    const reason = (variant, point) =>
-        list(report.manifest.variants).find(v => v.variant === variant && v.point === point)?.not_repeatable;
-    return reason(e.variant, e.point) || reason(e.againstVariant, e.againstPoint) || null;
+    const reason = (technique, point) =>
+        list(report.manifest.techniques).find(v => v.technique === technique && v.point === point)?.not_repeatable;
+    return reason(e.technique, e.point) || reason(e.againstTechnique, e.againstPoint) || null;
 }
 
 const isSignificant = e => e.verdict === "less" || e.verdict === "more";
@@ -224,10 +224,10 @@ function pooledCells(rows, others) {
 /// Why there is no ratio: no pairs, an error without a value, or one that is 0 or that the reference's noise hides.
 function whyNoRatio(e) {
     if (!e.seeds) return "no seed in common";
-    const error = (variant, point) => report.errors.find(
-        r => r.shot === e.shot && r.variant === variant && r.point === point && r.target === e.target &&
+    const error = (technique, point) => report.errors.find(
+        r => r.shot === e.shot && r.technique === technique && r.point === point && r.target === e.target &&
             metricKey(r) === metricKey(e) && r.mask === e.mask);
-    const lacking = [error(e.variant, e.point), error(e.againstVariant, e.againstPoint)].find(r => r?.value === null);
+    const lacking = [error(e.technique, e.point), error(e.againstTechnique, e.againstPoint)].find(r => r?.value === null);
     return lacking ? `no value for ${lacking.point}: ${whyMissing(lacking)}` :
                     `${errorParts[e.metric] ?? "an error"} is not above 0`;
 }

@@ -18,7 +18,7 @@ export function showHead() {
     const shots = list(manifest.shots).length;
     const parts = [
         `${shots} ${shots === 1 ? "shot" : "shots"}`,
-        `${allPoints.length} variant ${allPoints.length === 1 ? "point" : "points"}`,
+        `${allPoints.length} technique ${allPoints.length === 1 ? "point" : "points"}`,
         ...unique(makers.map(m => m.device?.name)), makers.map(m => m.started).sort()[0]
     ];
     at("subtitle").textContent = parts.filter(Boolean).join(" · ");
@@ -87,7 +87,7 @@ export function showNeeds() {
     }
 }
 
-/// Names the points if others of the variant have no limits.
+/// Names the points if others of the technique have no limits.
 function limitsNote(points) {
     const limited = points.filter(p => p.limits);
     if (!limited.length) return null;
@@ -96,11 +96,11 @@ function limitsNote(points) {
 }
 
 export function showParameters() {
-    for (const name of unique(list(report.manifest.variants).map(v => v.variant))) {
-        const points = report.manifest.variants.filter(v => v.variant === name && !isSingleChange(v));
+    for (const name of unique(list(report.manifest.techniques).map(v => v.technique))) {
+        const points = report.manifest.techniques.filter(v => v.technique === name && !isSingleChange(v));
         if (!points.length) continue;
         const first = points[0],
-              stages = unique(report.times.filter(t => t.variant === name && t.stage !== "total").map(t => t.stage));
+              stages = unique(report.times.filter(t => t.technique === name && t.stage !== "total").map(t => t.stage));
         const about = [first.source, stages.length && "Stages: " + stages.join(", "), limitsNote(points)];
         at("parameters").append(
                 h("div", {}, h("h3", {}, first.title ?? name),
@@ -114,13 +114,13 @@ const parameterText = value => value === undefined ? "–" :
                                                      JSON.stringify(value);
 const mostColumns = 8;  // of points; more of them are rows
 
-/// What differs among the points of a variant, then what is equal for all of them.
-function parameterTables(points, variant) {
+/// What differs among the points of a technique, then what is equal for all of them.
+function parameterTables(points, technique) {
     const keys = unique(points.flatMap(p => Object.keys(p.parameters ?? {})));
     if (!keys.length) return [];
     const differs = key => unique(points.map(p => JSON.stringify(p.parameters?.[key]))).length > 1;
     const differing = keys.filter(differs), equal = keys.filter(key => !differs(key));
-    const name = key => h("span", {title: report.manifest.parameter_docs?.[variant]?.[key] ?? null}, key);
+    const name = key => h("span", {title: report.manifest.parameter_docs?.[technique]?.[key] ?? null}, key);
     const value = (p, key) => parameterText(p.parameters?.[key]);
     const areRows = points.length > mostColumns;
     const columns = areRows ? ["Point", ...numbers(...differing)] :

@@ -25,7 +25,7 @@ export function showHits() {
 function hitGroups(shot) {
     const own = filteredRows(report.hits).filter(
         r => r.shot === shot && r.mask === hitChoice.mask && r.stage !== errorStage);
-    return [...grouped(own, r => [r.variant, r.point, r.stage, r.frame].join("|")).values()].map(
+    return [...grouped(own, r => [r.technique, r.point, r.stage, r.frame].join("|")).values()].map(
         rows => ({first: rows[0], by: new Map(rows.map(r => [r.quantity, r]))}));
 }
 

@@ -49,7 +49,7 @@ export function showStability() {
             svg("svg", {viewBox: "-7 -7 14 14", "aria-hidden": "true"}, verdictMark(v, 0, 0, 5)),
             `${verdict.name} (${count})`);
     }));
-    const isMetric = row => row.variant === "metrics";
+    const isMetric = row => row.technique === "metrics";
     at("stability-matrix").replaceChildren(...[data.rows.filter(row => !isMetric(row)), data.rows.filter(isMetric)]
                              .filter(own => own.length)
                              .map(stabilityMatrix));
@@ -69,7 +69,7 @@ const verdictMark = (verdict, x, y, size) => svg("path", {
 /// Of the rows `own` of stability.csv: techniques as rows, the cases that they were in as columns.
 function stabilityMatrix(own) {
     const techniques = unique(own.map(pointKey)), columns = unique(own.map(row => row.case));
-    const group = c => stabilityCases.get(c).group, variant = t => t.split("|")[0];
+    const group = c => stabilityCases.get(c).group, technique = t => t.split("|")[0];
     const longest = (names, size) => Math.ceil(Math.max(...names.map(name => name.length)) * size * 0.56) + 10;
     const cellWidth = Math.max(9, Math.min(16, Math.floor(900 / columns.length))), cellHeight = 13;
     const left = longest(techniques.map(t => techniqueNames.get(t)), 10.5), top = longest(columns, 9),
@@ -88,7 +88,7 @@ function stabilityMatrix(own) {
         i => svg("text", {transform: upright(i * cellWidth + 9, height + 6), ...atEnd}, group(columns[i])));
     const lines = [
         ...places(columns, group).map(i => ({x1: i * cellWidth, x2: i * cellWidth, y1: -6, y2: height + 6})),
-        ...places(techniques, variant).map(i => ({x1: -6, x2: width, y1: i * cellHeight, y2: i * cellHeight}))
+        ...places(techniques, technique).map(i => ({x1: -6, x2: width, y1: i * cellHeight, y2: i * cellHeight}))
     ].map(ends => svg("line", {class: "axis", ...ends}));
     const marks = own.map(row => {
         const [x, y] = [columns.indexOf(row.case) * cellWidth, techniques.indexOf(pointKey(row)) * cellHeight];
@@ -157,7 +157,7 @@ function failureTable() {
     const names = (some, ...before) =>
         h("details", {}, h("summary", {}, ...before, String(some.length)), some.join(", "));
     const line = f =>
-        [names(f.points, `${f.variant}, presets: `), f.place, names(f.cases), `${f.nan}, ${f.infinite}`,
+        [names(f.points, `${f.technique}, presets: `), f.place, names(f.cases), `${f.nan}, ${f.infinite}`,
          f.first ? String(f.first) : "passed on",
          [...f.explanations.map(e => e.operation), ...(f.unexplained ? [`unexplained in ${f.unexplained}`] : [])].join(
              "; or "),

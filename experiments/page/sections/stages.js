@@ -44,28 +44,28 @@ function stagesText() {
 
 function stagesOf(shot) {
     const times = report.times.filter(t => t.shot === shot);
-    const own = filteredRows(times.filter(t => t.variant !== "")), shared = times.filter(t => t.variant === "");
+    const own = filteredRows(times.filter(t => t.technique !== "")), shared = times.filter(t => t.technique === "");
     const stages = unique(own.filter(t => t.stage !== "total").map(t => t.stage));
     const points = unique(own.map(pointLabel));
     const columns = [
-        "Variant", "Stage", ...numbers("Median ms", "95 % interval", "Frames"), "Clock"
+        "Technique", "Stage", ...numbers("Median ms", "95 % interval", "Frames"), "Clock"
     ];
     const sorted = [...own].sort((a, b) => points.indexOf(pointLabel(a)) - points.indexOf(pointLabel(b)));
-    const swatch = t => t.stage === "total" || t.variant === "" ? null : textureSwatch(lookOf(stageName(t.stage)));
+    const swatch = t => t.stage === "total" || t.technique === "" ? null : textureSwatch(lookOf(stageName(t.stage)));
     const row = t =>
-        [t.variant === "" ? "–" : pointLabel(t),
+        [t.technique === "" ? "–" : pointLabel(t),
          t.stage === "total" ? h("b", {}, "total") : h("span", {}, swatch(t), t.stage), numberCell(t.value),
          interval(t), String(t.frames), t.clock.replaceAll("_", " ")];
     const barRows = stageChoice.bars in costKinds ? costRows(shot, stageChoice.bars) : own;
     if (!times.length) return [stageBars(barRows), costTable(shot)];
     return [
         stages.length ? stageBars(barRows) :
-                        h("p", {class: "note"}, "No variant of this shot has a stage: all were skipped."),
+                        h("p", {class: "note"}, "No technique of this shot has a stage: all were skipped."),
         savedNote(shot), floorNote(shot), formNote(own), costTable(shot),
         h("details", {open: own.length <= longTable}, h("summary", {}, "All stages as numbers"),
           table(columns, sorted.map(row), {groupBy: 0})),
         ...(shared.length ?
-                [h("h3", {}, "Shared by all variants: G-buffer and lit colour"), table(columns, shared.map(row))] :
+                [h("h3", {}, "Shared by all techniques: G-buffer and lit colour"), table(columns, shared.map(row))] :
                 [])
     ];
 }
@@ -73,7 +73,7 @@ function stagesOf(shot) {
 const lastPart = stage => stage.split("/").pop();
 /// What two stages of one technique end in.
 const stageRows = [...report.times, ...report.costs.map(c => ({...c, value: 0}))];  // looks go by times
-const ambiguousParts = new Set(unique(stageRows.filter(t => t.stage !== "total").map(t => `${t.variant}|${t.stage}`))
+const ambiguousParts = new Set(unique(stageRows.filter(t => t.stage !== "total").map(t => `${t.technique}|${t.stage}`))
                                    .map(key => [key.split("|")[0], lastPart(key.split("|")[1])].join("|"))
                                    .filter((key, i, all) => all.indexOf(key) !== i)
                                    .map(key => key.split("|")[1]));
@@ -84,10 +84,10 @@ export const stageName = stage => (ambiguousParts.has(lastPart(stage)) ? stage :
 /// looks, and none ever has that shares a technique with it as long as a technique has no more stages than there are
 /// looks. The plain ones go to those that take longest.
 export function stageLooks(times) {
-    const own = times.filter(t => t.stage !== "total" && t.variant !== ""), longest = new Map(), together = new Map();
+    const own = times.filter(t => t.stage !== "total" && t.technique !== ""), longest = new Map(), together = new Map();
     for (const t of own) longest.set(stageName(t.stage), Math.max(longest.get(stageName(t.stage)) ?? 0, t.value));
-    for (const variant of unique(own.map(t => t.variant))) {
-        const names = unique(own.filter(t => t.variant === variant).map(t => stageName(t.stage)));
+    for (const technique of unique(own.map(t => t.technique))) {
+        const names = unique(own.filter(t => t.technique === technique).map(t => stageName(t.stage)));
         for (const name of names) together.set(name, [...together.get(name) ?? [], ...names]);
     }
     const looks = new Map(), all = Array.from({length: 8 * textures.length}, (_, i) => i);
@@ -154,7 +154,7 @@ function savedNote(shot) {
 /// but what their name says.
 function formNote(times) {
     const isTimed = v => times.some(t => pointKey(t) === pointKey(v));
-    const lines = list(report.manifest.variants)
+    const lines = list(report.manifest.techniques)
                       .filter(v => isTimed(v) && !isSingleChange(v))
                       .map(v => [pointLabel(v), formText(v)])
                       .filter(([, text]) => text);
@@ -164,9 +164,9 @@ function formNote(times) {
     return lines.length > longList ? folded("What was timed", note) : note;
 }
 
-/// The forms a point chose, and what else it changes of its variant's defaults.
-function formText({variant, parameters}) {
-    const entries = Object.entries(parameters ?? {}), defaults = report.defaults[variant];
+/// The forms a point chose, and what else it changes of its technique's defaults.
+function formText({technique, parameters}) {
+    const entries = Object.entries(parameters ?? {}), defaults = report.defaults[technique];
     const show = some => some.map(([name, value]) => `${name} = ${JSON.stringify(value)}`).join(", ");
     const isForm = ([, value]) => typeof value === "string", forms = show(entries.filter(isForm));
     if (!defaults || !entries.length) return forms;

@@ -81,9 +81,9 @@ function temporalCell(row) {
 /// A shot may have no pixel under a mask.
 const disoccludedCell = row => row?.pixels ? temporalCell(row) : cell(null, h("small", {}, "no such pixel"));
 
-/// The reason, from the manifest's notes: "<shot>: <variant> <point>: no <metric>: <reason> (<masks>)".
+/// The reason, from the manifest's notes: "<shot>: <technique> <point>: no <metric>: <reason> (<masks>)".
 export function whyMissing(row) {
-    const start = `${row.shot}: ${row.variant} ${row.point}: no ${row.metric}: `;
+    const start = `${row.shot}: ${row.technique} ${row.point}: no ${row.metric}: `;
     const note =
         list(report.manifest.notes)
             .find(n => n.startsWith(start) && n.slice(n.lastIndexOf("(") + 1, -1).split(", ").includes(row.mask));

@@ -4,7 +4,7 @@ import {pointLabel, report} from "./data.js";
 
 export const answerChoice = {
     shot: null,
-    point: null,   // {variant, point}; null: the best of the shot
+    point: null,   // {technique, point}; null: the best of the shot
     request: null  // the last drawing of pictures, so that a slow one does not replace a later one
 };
 

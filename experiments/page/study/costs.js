@@ -45,5 +45,5 @@ export const aaFloor = shot => report.manifest.clock?.aa_floors?.[shot];
 
 /// Total times of the points in a shot, by ascending time.
 export const timesOf = shot =>
-    report.times.filter(t => t.shot === shot && t.stage === "total" && t.variant && t.variant !== "none")
+    report.times.filter(t => t.shot === shot && t.stage === "total" && t.technique && t.technique !== "none")
         .sort((a, b) => a.value - b.value);

@@ -38,7 +38,7 @@ function readData() {
         diff: raw.diff ?? null,  // of the page that `ssrlab diff --page` writes: experiments/report/diff_page.cpp
         manifest: raw.manifest,
         metrics: raw.metrics,
-        defaults: raw.defaults,          // variant to {parameter: value}, of those that this build knows
+        defaults: raw.defaults,          // technique to {parameter: value}, of those that this build knows
         headline: raw.headline ?? null,  // of studies, as their answers: experiments/results/answers/answers.h
         answers: raw.answers ?? [],
         inTheseScenes: raw.in_these_scenes ?? "",
@@ -46,9 +46,9 @@ function readData() {
         warnings: raw.warnings,
         notes: raw.notes,
         images: raw.images,
-        singleChanges: (raw.manifest.variants ?? [])
+        singleChanges: (raw.manifest.techniques ?? [])
                            .filter(v => v.single_change)
-                           .map(v => ({variant: v.variant, point: v.point, ...v.single_change})),
+                           .map(v => ({technique: v.technique, point: v.point, ...v.single_change})),
         errors: rows(raw.errors).map(error),  // those that represent their shot
         frames: rows(raw.frames).map(error),  // those of each frame, where the ones above are over all of them
         splits: rows(raw.splits).map(split),
@@ -68,17 +68,17 @@ export const manifestShots = () => list(report.manifest.shots);
 
 /// How the study names points and shots, where it does.
 const pointLabels =
-    new Map(list(report.manifest.variants).filter(v => v.label).map(v => [`${v.variant}|${v.point}`, v.label]));
+    new Map(list(report.manifest.techniques).filter(v => v.label).map(v => [`${v.technique}|${v.point}`, v.label]));
 
 const shotLabels = new Map(list(report.manifest.shots).filter(s => s.label).map(s => [s.shot, s.label]));
-export const ownLabel = row => pointLabels.get(`${row.variant}|${row.point}`);
+export const ownLabel = row => pointLabels.get(`${row.technique}|${row.point}`);
 
 export const pointLabel = row =>
-    ownLabel(row) ?? row.variant + (row.point && row.point !== "default" ? " · " + row.point : "");
+    ownLabel(row) ?? row.technique + (row.point && row.point !== "default" ? " · " + row.point : "");
 
 export const shotLabel = shot => shotLabels.get(shot) ?? shot;
 export const shotName = shot => h("span", {class: "shot-name"}, breakable(shotLabel(shot)));
-export const pointKey = row => row.variant + "|" + row.point;
+export const pointKey = row => row.technique + "|" + row.point;
 export const isSamePoint = (a, b) => a.shot === b.shot && pointKey(a) === pointKey(b);
 
 /// Names of shots as short as they still differ: their scenes, or without the parts that all of them share.

@@ -47,7 +47,7 @@ export const bestRows = rows => new Set(rows.filter(r => r.standing === "best"))
 
 /// The row of `none` over the same frames.
 const noneLike = (row, rows) => [...rows, ...report.frames].find(
-    r => r.shot === row.shot && r.variant === "none" && r.frame === row.frame && r.target === row.target &&
+    r => r.shot === row.shot && r.technique === "none" && r.frame === row.frame && r.target === row.target &&
         r.mask === row.mask && metricKey(r) === metricKey(row));
 
 /// value / none with the worst case of both intervals; only where a quotient of errors makes sense.

@@ -12,7 +12,7 @@ export const ladderOf = (shot, {target, metricKey: key, mask}) =>
     list(manifestShots().find(s => s.shot === shot)?.truth_ladder)
         .filter(r => r.target === target && metricKey(r) === key && r.mask === mask);
 
-/// Errors of the rungs against the chosen target, under the chosen mask, as rows like those of variants; of the last
+/// Errors of the rungs against the chosen target, under the chosen mask, as rows like those of techniques; of the last
 /// frame alone.
 export function ladderRows(key) {
     return manifestShots().flatMap(
@@ -22,7 +22,7 @@ export function ladderRows(key) {
                              shot: shot.shot,
                              frame: String(shot.frame),
                              isRanked: false,
-                             variant: "truth ladder",
+                             technique: "truth ladder",
                              point: r.rung + (list(shot.frames).length > 1 ? ", last frame" : ""),
                              floor: null,
                              corrected: better(r.metric) === "lower",

@@ -6,9 +6,9 @@ import {list} from "../values.js";
 
 export const makers = list(report.manifest.provenance);
 
-/// "<shot>: <variant> <point>" to {maker, cell}.
+/// "<shot>: <technique> <point>" to {maker, cell}.
 const cellsMade = new Map(makers.flatMap((maker, m) => list(maker.cells).map(cell => [cell.what, {maker: m, cell}])));
-const madeBy = row => cellsMade.get(`${row.shot}: ${row.variant} ${row.point}`);
+const madeBy = row => cellsMade.get(`${row.shot}: ${row.technique} ${row.point}`);
 
 /// For tips: when, by which commit and on which device.
 export function madeText(row) {

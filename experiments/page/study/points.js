@@ -7,19 +7,19 @@ export const singleChangeKeys = new Set(report.singleChanges.map(pointKey));
 export const isSingleChange = row => singleChangeKeys.has(pointKey(row));
 
 /// Of a capture without truth, which has no errors, those that it ran.
-export const allPoints = [...new Map((report.errors.length ? report.errors : list(report.manifest.variants))
-                                  .map(r => [pointKey(r), {variant: r.variant, point: r.point}]))
+export const allPoints = [...new Map((report.errors.length ? report.errors : list(report.manifest.techniques))
+                                  .map(r => [pointKey(r), {technique: r.technique, point: r.point}]))
                        .values()];
 export const comparedPoints = allPoints.filter(p => !isSingleChange(p));
 export const places = new Map(allPoints.map((p, i) => [pointKey(p), i]));
-export const variants = unique(allPoints.map(p => p.variant));
+export const techniques = unique(allPoints.map(p => p.technique));
 export const mostNamed = 30;  // more names than that cover each other
 /// The point's name at a mark, no longer than it takes to differ from the others.
 export const markName = (() => {
-    const count = variant => comparedPoints.filter(p => p.variant === variant).length;
-    const techniques = variants.filter(v => v !== "none");
+    const count = technique => comparedPoints.filter(p => p.technique === technique).length;
+    const techniques = techniques.filter(v => v !== "none");
     return row => ownLabel(row) ??
-        (count(row.variant) === 1    ? row.variant :
+        (count(row.technique) === 1    ? row.technique :
              techniques.length === 1 ? row.point :
                                        pointLabel(row));
 })();
@@ -30,34 +30,34 @@ export const shownPoints = {
     sort: "study",
     isGrouped: false,
     relativeTo: "best",  // or none: what cells of the matrix are divided by
-    colourBy: comparedPoints.length <= mostNamed ? "point" : "variant",
+    colourBy: comparedPoints.length <= mostNamed ? "point" : "technique",
     // A grid has holes without them; a list of changes to a baseline is shown by its effects.
     hasSingleChanges: comparedPoints.some(p => (p.point.match(/=/g) ?? []).length > 1),
     hidden: new Set()
 };
 
-const parametersByPoint = new Map(list(report.manifest.variants).map(v => [pointKey(v), v.parameters ?? {}]));
+const parametersByPoint = new Map(list(report.manifest.techniques).map(v => [pointKey(v), v.parameters ?? {}]));
 export const parametersOf = row => parametersByPoint.get(pointKey(row)) ?? {};
-const groupsByPoint = new Map(list(report.manifest.variants).map(v => [pointKey(v), v.group ?? ""]));
+const groupsByPoint = new Map(list(report.manifest.techniques).map(v => [pointKey(v), v.group ?? ""]));
 export const groupOf = row => groupsByPoint.get(pointKey(row)) ?? "";
 export const pointGroups = unique(allPoints.map(groupOf));
 
-/// Names of parameters in which points of one variant differ.
+/// Names of parameters in which points of one technique differ.
 export const sweptParameters = (() => {
     const swept = new Map();
-    for (const variant of variants) {
-        const all = allPoints.filter(p => p.variant === variant).map(parametersOf);
+    for (const technique of techniques) {
+        const all = allPoints.filter(p => p.technique === technique).map(parametersOf);
         const names = unique(all.flatMap(Object.keys));
-        swept.set(variant, names.filter(name => unique(all.map(p => JSON.stringify(p[name]))).length > 1));
+        swept.set(technique, names.filter(name => unique(all.map(p => JSON.stringify(p[name]))).length > 1));
     }
     return swept;
 })();
 
 const mostParameters = 8;  // in a tip
-/// For tips: the parameters that differ among the points of the variant; a swept point's name has them already.
+/// For tips: the parameters that differ among the points of the technique; a swept point's name has them already.
 export function parameterLines(row) {
     if (row.point.includes("=")) return [];
-    const names = sweptParameters.get(row.variant) ?? [], parameters = parametersOf(row);
+    const names = sweptParameters.get(row.technique) ?? [], parameters = parametersOf(row);
     const shown = names.slice(0, mostParameters), rest = names.length - shown.length;
     return [
         ...shown.map(name => `${name} = ${JSON.stringify(parameters[name])}`),
@@ -69,7 +69,7 @@ export const pointText = row => [pointLabel(row), ...parameterLines(row)].join("
 export const mayShow = row => shownPoints.hasSingleChanges || !isSingleChange(row);
 /// By what is read, and by what results are keyed by.
 const matchesFilter = row => {
-    const names = `${pointLabel(row)} ${row.variant} ${row.point} ${groupOf(row)}`.toLowerCase();
+    const names = `${pointLabel(row)} ${row.technique} ${row.point} ${groupOf(row)}`.toLowerCase();
     return shownPoints.filter.toLowerCase().split(/\s+/).every(word => names.includes(word));
 };
 /// Rows of the points that the reader has not filtered out.

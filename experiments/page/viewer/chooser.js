@@ -70,13 +70,13 @@ function chooser() {
             change: event => choose([method.key], event.target.checked)
         }),
         hasShortName && method.shot === viewer.shot ? method.point || method.label : method.label);
-    const groups = unique(viewer.methods.map(m => m.variant)).map(variant => {
-        const own = viewer.methods.filter(m => m.variant === variant);
+    const groups = unique(viewer.methods.map(m => m.technique)).map(technique => {
+        const own = viewer.methods.filter(m => m.technique === technique);
         const click = () => choose(listedKeys(own), !listedKeys(own).every(key => viewer.chosen.includes(key)));
-        const all = h("button", {click, "aria-label": `all / none of ${variant}`}, "all / none");
+        const all = h("button", {click, "aria-label": `all / none of ${technique}`}, "all / none");
         return h(
             "fieldset", {class: own.length > manyPoints ? "many" : null},
-            h("legend", {}, variant === truthKey ? "truth" : variant, " ", own.length > 1 ? all : ""),
+            h("legend", {}, technique === truthKey ? "truth" : technique, " ", own.length > 1 ? all : ""),
             own.map(method => box(method, own.length > 1)));
     });
     const input = event => filterChooser(event.target.value), listed = () => listedKeys(viewer.methods);

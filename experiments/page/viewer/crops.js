@@ -80,7 +80,7 @@ export function moveCropBox(dx, dy, isSizing) {
 /// The current box with all that its figure is to show.
 function currentCrop() {
     const points = shownOfShot().filter(s => s.method.key !== truthKey)
-                       .map(s => ({variant: s.method.variant, point: s.method.point}));
+                       .map(s => ({technique: s.method.technique, point: s.method.point}));
     return {
         shot: viewer.shot,
         frame: viewer.frame,

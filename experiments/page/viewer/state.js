@@ -64,13 +64,13 @@ export const baseOf = method => resultOf(baseMethod(method)) ?? truth();
 export const hasBase = ({method, image}) => baseOf(method) !== undefined && image !== baseOf(method);
 export const frameOf = image => image.frame ?? 0;
 
-/// All images of a shot's frame by method: {shot, own: its key in the shot, key: its key in the viewer, label, variant,
+/// All images of a shot's frame by method: {shot, own: its key in the shot, key: its key in the viewer, label, technique,
 /// point, results: {target: index}, confidence: index, verdicts: [{stage, index}], roughness: index}.
 export function methodsOf(shot, frame) {
     const methods = new Map();
     report.images.forEach((image, index) => {
         if (image.shot !== shot || frameOf(image) !== frame) return;
-        const isTruth = image.variant === truthKey;
+        const isTruth = image.technique === truthKey;
         const key = isTruth ? truthKey : pointKey(image);
         if (!methods.has(key))
             methods.set(key, {
@@ -78,7 +78,7 @@ export function methodsOf(shot, frame) {
                 own: key,
                 key,
                 label: isTruth ? "truth" : pointLabel(image),
-                variant: image.variant,
+                technique: image.technique,
                 point: image.point,
                 results: {},
                 verdicts: []

@@ -1,4 +1,4 @@
-"""CSV as ssrlab writes and reads it (experiments/results/tables/csv.h): RFC 4180, a header first. A text that a spreadsheet would take for a formula
+"""CSV as ssrlab writes and reads it (experiments/results/files/csv.h): RFC 4180, a header first. A text that a spreadsheet would take for a formula
 is written behind an apostrophe, which reading takes away again; numbers stay as they are."""
 
 import csv

@@ -34,12 +34,12 @@ GAP = 12
 
 
 def values_of(results):
-    """{shot: {(variant, point): {metric: shortfall}}} of the reflection, of the pixels that reflect."""
+    """{shot: {(technique, point): {metric: shortfall}}} of the reflection, of the pixels that reflect."""
     found = {}
     for row in results.errors:
         if row["target"] == "specular" and row["mask"] == "reflective" and row["metric"] in METRICS and row["value"]:
             points = found.setdefault(row["shot"], {})
-            points.setdefault((row["variant"], row["point"]), {})[row["metric"]] = results.shortfall(row["metric"], number(row, "value"))
+            points.setdefault((row["technique"], row["point"]), {})[row["metric"]] = results.shortfall(row["metric"], number(row, "value"))
     return found
 
 

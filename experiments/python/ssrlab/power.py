@@ -63,7 +63,7 @@ def error_of_seeds(a, b):
 def shot_pairs(folder):
     """By metric: the standard error of the seeds, that of the rest, and the number of seeds, of each pair with a shot's best."""
     seeds = defaultdict(list)
-    key = ("shot", "frame", "variant", "point", "target", "metric", "mask")
+    key = ("shot", "frame", "technique", "point", "target", "metric", "mask")
     for row in rows_of(os.path.join(folder, "results.csv")):
         if row["value"]:
             seeds[tuple(row[k] for k in key)].append(float(row["value"]))

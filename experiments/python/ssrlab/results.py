@@ -19,11 +19,11 @@ _SHOT = {
     **{"warm_up?": (int, None), "change?": (int, None), "exposure_ev?": _NUMBER, "truth_ladder?": [_RUNG], "references?": [{"hash": (str, int)}]},
     "reference?": ({"samples_median?": _NUMBER, "relative_error?": ({"median?": _NUMBER, "p95?": _NUMBER}, None)}, None),
 }
-_VARIANT = {
-    **{"variant": str, "point": str, "label?": _TEXT, "group?": _TEXT, "parameters?": dict, "uses_scene_data?": bool},
+_TECHNIQUE = {
+    **{"technique": str, "point": str, "label?": _TEXT, "group?": _TEXT, "parameters?": dict, "uses_scene_data?": bool},
     "single_change?": {"parameter": str, "value": (bool, float, str)},
 }
-_IMAGE = {"shot?": _TEXT, "target?": _TEXT, "kind?": _TEXT, "variant": str, "point?": _TEXT, "frame?": (int, None), "seed?": (int, None), "exr?": _TEXT}
+_IMAGE = {"shot?": _TEXT, "target?": _TEXT, "kind?": _TEXT, "technique": str, "point?": _TEXT, "frame?": (int, None), "seed?": (int, None), "exr?": _TEXT}
 _CLOCK = {
     "proofs?": [{"verdict": str, "shots?": [str]}],
     "load?": [{"shot": str, "host?": {"name?": _TEXT}}],
@@ -40,7 +40,7 @@ TABLE = {  # an entry of the config's "tables"
     **{"over?": _TEXT, "sort?": _TEXT, "best?": (str, None), "labels?": {"*": str}},
 }
 MANIFEST = {
-    **{"shots?": [_SHOT], "variants?": [_VARIANT], "images?": [_IMAGE], "clock?": _CLOCK, "provenance?": [_MAKER], "title?": str, "is_complete?": bool},
+    **{"shots?": [_SHOT], "techniques?": [_TECHNIQUE], "images?": [_IMAGE], "clock?": _CLOCK, "provenance?": [_MAKER], "title?": str, "is_complete?": bool},
     **{"study?": {"name": str, "config": str}, "metrics?": {"*": {"better": str}}, "config?": ({"tables?": [TABLE]}, None)},
     **{"primary?": {"metric": str, "mask": str, "target": str}, "written?": {"ssrlab?": {"commit?": _TEXT}}},
 }
@@ -65,7 +65,7 @@ BEST, TIED, EQUIVALENT, BEHIND = "best", "tied", "equivalent", "behind"  # exper
 LIKE_BEST = (TIED, EQUIVALENT)  # neither better than all others nor behind
 # Which values of a metric are good, to how far a value is from the best one.
 DIRECTIONS = {"lower": lambda v: v, "higher": lambda v: -v, "near_zero": abs, "near_one": lambda v: abs(v - 1)}
-EVALUATED = {"summary.csv": ("represents_shot", "standing", "dominated"), "effects.csv": ("verdict",), "time_summary.csv": ("fits_from_ms",)}  # columns that decide; older versions wrote none
+EVALUATED = {"summary.csv": ("technique", "represents_shot", "standing", "dominated"), "effects.csv": ("verdict",), "time_summary.csv": ("fits_from_ms",)}  # columns that decide; older versions wrote none
 
 
 @dataclass
@@ -84,8 +84,8 @@ class Measured:
         return [[max(self.value - self.low, 0.0)], [max(self.high - self.value, 0.0)]]
 
 
-def label(variant, point):
-    return variant if point in ("", "default") else f"{variant} {point}"
+def label(technique, point):
+    return technique if point in ("", "default") else f"{technique} {point}"
 
 
 def rounded(text):
@@ -128,23 +128,23 @@ class Results:
         self.estimates = self.read_csv("estimates.csv", is_optional=True)
         self.single_changes = self._single_changes()
         self.hidden = set(self.single_changes)  # of figures of whole points: these have figures of their own
-        self.colors = {}  # (variant, point) to "#rrggbb", before those of the palette
+        self.colors = {}  # (technique, point) to "#rrggbb", before those of the palette
         self.rounds_names = False  # those of points, in figures; tables and answers have all digits
         self.labels = {}  # names of points and shots to what stands in their place, before the study's own labels
-        self.variants = {(v["variant"], v["point"]): v for v in self.manifest.get("variants", [])}
+        self.techniques = {(v["technique"], v["point"]): v for v in self.manifest.get("techniques", [])}
         self.shot_entries = {s.get("shot"): s for s in self.manifest.get("shots", [])}
 
-    def own_label(self, variant, point):
+    def own_label(self, technique, point):
         """The display name that somebody gave a point; None without one."""
-        return self.labels.get(label(variant, point)) or self.variants.get((variant, point), {}).get("label")
+        return self.labels.get(label(technique, point)) or self.techniques.get((technique, point), {}).get("label")
 
-    def point_label(self, variant, point):
+    def point_label(self, technique, point):
         """How a point is called in tables and figures."""
-        return self.own_label(variant, point) or label(variant, self.point_name(variant, point))
+        return self.own_label(technique, point) or label(technique, self.point_name(technique, point))
 
-    def point_name(self, variant, point):
-        """Rounded in figures, unless another point of the variant then has the same name."""
-        if not self.rounds_names or any(v == variant and p != point and rounded(p) == rounded(point) for v, p in self.variants):
+    def point_name(self, technique, point):
+        """Rounded in figures, unless another point of the technique then has the same name."""
+        if not self.rounds_names or any(v == technique and p != point and rounded(p) == rounded(point) for v, p in self.techniques):
             return point
         return rounded(point)
 
@@ -152,9 +152,9 @@ class Results:
         """Of a parameter, as schema.json says; "" without one."""
         return next((field.get("unit", "") for field in read_schema(self.folder).get("parameters", []) if field["name"] == parameter), "")
 
-    def point_group(self, variant, point):
-        """What a point is counted with: its group's display name, else its variant's."""
-        return self.variants.get((variant, point), {}).get("group") or self.labels.get(variant, variant)
+    def point_group(self, technique, point):
+        """What a point is counted with: its group's display name, else its technique's."""
+        return self.techniques.get((technique, point), {}).get("group") or self.labels.get(technique, technique)
 
     def shot_label(self, shot):
         return self.labels.get(shot) or self.shot_entries.get(shot, {}).get("label") or shot
@@ -169,20 +169,20 @@ class Results:
         entry = self.shot_entries.get(shot, {})
         return entry.get("group") or entry.get("scene") or shot
 
-    def parameters_of(self, variant, point):
+    def parameters_of(self, technique, point):
         """Name to value of all parameters of a point."""
-        return self.variants.get((variant, point), {}).get("parameters", {})
+        return self.techniques.get((technique, point), {}).get("parameters", {})
 
     def narrowed(self, shots=None, points=None):
-        """The same results of these shots and (variant, point) alone, in this order; None: all, in the study's. Points that
+        """The same results of these shots and (technique, point) alone, in this order; None: all, in the study's. Points that
         are named are shown, single changes or not."""
         view = copy.copy(self)
 
         def kept(rows):
             if points is not None:
                 place = {key: i for i, key in enumerate(points)}
-                rows = [r for r in rows if (r["variant"], r["point"]) in place]
-                rows.sort(key=lambda r: place[r["variant"], r["point"]])
+                rows = [r for r in rows if (r["technique"], r["point"]) in place]
+                rows.sort(key=lambda r: place[r["technique"], r["point"]])
             if shots is not None:
                 place_of_shot = {shot: i for i, shot in enumerate(shots)}
                 rows = [r for r in rows if r["shot"] in place_of_shot]
@@ -213,16 +213,16 @@ class Results:
         return rows
 
     def _single_changes(self):
-        """(variant, point) to (parameter, value) of the swept points that differ from a baseline in one parameter."""
+        """(technique, point) to (parameter, value) of the swept points that differ from a baseline in one parameter."""
         return {
-            (v["variant"], v["point"]): (v["single_change"]["parameter"], v["single_change"]["value"])
-            for v in self.manifest.get("variants", [])
+            (v["technique"], v["point"]): (v["single_change"]["parameter"], v["single_change"]["value"])
+            for v in self.manifest.get("techniques", [])
             if "single_change" in v
         }
 
     def points(self):
-        """The compared (variant, point), in the order of the study; single changes have a figure of their own."""
-        every = dict.fromkeys((r["variant"], r["point"]) for r in self.errors)
+        """The compared (technique, point), in the order of the study; single changes have a figure of their own."""
+        every = dict.fromkeys((r["technique"], r["point"]) for r in self.errors)
         return [key for key in every if key not in self.hidden]
 
     def measured(self, row, columns=("value", "low", "high")):
@@ -243,12 +243,12 @@ class Results:
         return DIRECTIONS[self.direction_of(metric)](value)
 
     def error_rows(self, shot, target, metric, mask):
-        """(variant, point) to its row of summary.csv."""
+        """(technique, point) to its row of summary.csv."""
         where = (shot, target, metric, mask)
-        return {(r["variant"], r["point"]): r for r in self.errors if (r["shot"], r["target"], r["metric"], r["mask"]) == where}
+        return {(r["technique"], r["point"]): r for r in self.errors if (r["shot"], r["target"], r["metric"], r["mask"]) == where}
 
     def standings_of(self, shot, target, metric, mask):
-        """(variant, point) to best, tied, equivalent or behind, as ssrlab decided among the points of a shot."""
+        """(technique, point) to best, tied, equivalent or behind, as ssrlab decided among the points of a shot."""
         return {key: row["standing"] for key, row in self.error_rows(shot, target, metric, mask).items()}
 
     def shots(self):
@@ -270,36 +270,36 @@ class Results:
         return primary if primary in found or not found else found[0]
 
     def errors_of(self, target, metric, mask, with_hidden=False):
-        """(shot, variant, point) to Measured, in the order of the file; values that are not finite are left out, and so are single
+        """(shot, technique, point) to Measured, in the order of the file; values that are not finite are left out, and so are single
         changes, unless `with_hidden`."""
         rows = [
             r
             for r in self.errors
             if (r["target"], r["metric"], r["mask"]) == (target, metric, mask)
-            and (with_hidden or (r["variant"], r["point"]) not in self.hidden)
+            and (with_hidden or (r["technique"], r["point"]) not in self.hidden)
         ]
         if not rows:
             found = sorted({f"{r['target']} {r['metric']} {r['mask']}" for r in self.errors})
             raise ResultsError(
                 f"{os.path.join(self.folder, 'summary.csv')} has no rows of target {target}, metric {metric}, mask {mask}; it has: {', '.join(found)}"
             )
-        read = {(r["shot"], r["variant"], r["point"]): self.measured(r) for r in rows}
+        read = {(r["shot"], r["technique"], r["point"]): self.measured(r) for r in rows}
         return {key: value for key, value in read.items() if value is not None}
 
     def times_of(self, shot):
-        """(variant, point) to {stage: Measured} in ms; the G-buffer and the lit colour belong to no variant and are not in it."""
+        """(technique, point) to {stage: Measured} in ms; the G-buffer and the lit colour belong to no technique and are not in it."""
         stages = {}
         for r in self.times:
-            if r["shot"] == shot and r["variant"]:
-                stages.setdefault((r["variant"], r["point"]), {})[r["stage"]] = Measured(*(needed_number(r, c) for c in ("median_ms", "low_ms", "high_ms")))
+            if r["shot"] == shot and r["technique"]:
+                stages.setdefault((r["technique"], r["point"]), {})[r["stage"]] = Measured(*(needed_number(r, c) for c in ("median_ms", "low_ms", "high_ms")))
         return stages
 
     def costs_of(self, shot, quantity):
-        """(variant, point) to {stage: Measured}, whose values are counts: exact, without an interval."""
+        """(technique, point) to {stage: Measured}, whose values are counts: exact, without an interval."""
         stages = {}
         for r in self.costs:
             if r["shot"] == shot and r["quantity"] == quantity:
-                stages.setdefault((r["variant"], r["point"]), {})[r["stage"]] = Measured(needed_number(r, "value"), None, None)
+                stages.setdefault((r["technique"], r["point"]), {})[r["stage"]] = Measured(needed_number(r, "value"), None, None)
         return stages
 
     def estimated_chips(self):
@@ -307,16 +307,16 @@ class Results:
         return list(dict.fromkeys(r["chip"] for r in self.estimates if r["microseconds"]))
 
     def estimates_of(self, shot, chip):
-        """(variant, point) to {stage: Measured} in microseconds; without what has no estimate."""
+        """(technique, point) to {stage: Measured} in microseconds; without what has no estimate."""
         stages = {}
         for r in self.estimates:
             if r["shot"] == shot and r["chip"] == chip and not r["refusal"]:
-                stages.setdefault((r["variant"], r["point"]), {})[r["stage"]] = Measured(*(needed_number(r, c) for c in ("microseconds", "low", "high")))
+                stages.setdefault((r["technique"], r["point"]), {})[r["stage"]] = Measured(*(needed_number(r, c) for c in ("microseconds", "low", "high")))
         return stages
 
     def warnings_of_times(self, shots):
         """What must be known before the times of these shots are believed: sentences without a dot."""
-        shares = [number(r, "disturbed_share") or 0.0 for r in self.times if r["shot"] in shots and r["variant"]]
+        shares = [number(r, "disturbed_share") or 0.0 for r in self.times if r["shot"] in shots and r["technique"]]
         proofs = self.manifest.get("clock", {}).get("proofs", [])
         proven = {shot for proof in proofs if proof["verdict"] == "passed" for shot in proof.get("shots", [])}
         found = [f"other programs disturbed up to {100 * max(shares):.0f} % of the timed frames"] if max(shares, default=0.0) > 0 else []
@@ -337,7 +337,7 @@ class Results:
         return sorted({i.get("frame") or 0 for i in own})
 
     def images_of(self, shot, target, frame=None, keys=None):
-        """(variant, point) to RGB image of the first seed; the reference's key is ("reference", ""). Of the last frame,
+        """(technique, point) to RGB image of the first seed; the reference's key is ("reference", ""). Of the last frame,
         and of all points but single changes, unless others are asked for."""
         frame = self._last_frame(shot) if frame is None else frame
         entries = [
@@ -347,12 +347,12 @@ class Results:
             and i.get("target") == target
             and (i.get("frame") or 0) == frame
             and i.get("kind") in ("result", "reference", "played")
-            and ((i["variant"], i.get("point") or "") in keys if keys else (i["variant"], i.get("point") or "") not in self.hidden)
+            and ((i["technique"], i.get("point") or "") in keys if keys else (i["technique"], i.get("point") or "") not in self.hidden)
         ]
         first = {}
         for entry in sorted(entries, key=lambda i: i.get("seed") or 0):
-            first.setdefault((entry["variant"], entry.get("point") or ""), entry["exr"])
-        order = {(i["variant"], i.get("point") or ""): n for n, i in reversed(list(enumerate(entries)))}
+            first.setdefault((entry["technique"], entry.get("point") or ""), entry["exr"])
+        order = {(i["technique"], i.get("point") or ""): n for n, i in reversed(list(enumerate(entries)))}
         try:
             manifest = os.path.join(self.folder, "manifest.json")
             files = {key: path_inside(self.folder, first[key], f"{manifest}: images: 'exr'") for key in sorted(first, key=order.get)}

@@ -9,7 +9,7 @@ from scipy import stats
 LEAST_SCENES = 4
 MODEL_RANGE = (0.22, 12.8)  # experiments/gpu_costs/chips/model_range.h
 MODEL_RANGE_TEXT = "measured times of stages were {:.3g} to {:.3g} times such estimates (NVIDIA H200, gpu_measured)".format(*MODEL_RANGE)
-COUNTS_SPREAD = 0.025  # relative, of a point's seeds: experiments/results/tables/counts_spread.h
+COUNTS_SPREAD = 0.025  # relative, of a point's seeds: experiments/results/files/counts_spread.h
 
 
 def mean(values):

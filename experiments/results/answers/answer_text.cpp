@@ -18,7 +18,7 @@ std::string interval_text(const std::optional<double>& low, const std::optional<
 
 std::string name_of(const AnswerPoint& p) {
     if (!p.label.empty()) return p.label;
-    return p.point == "default" || p.point.empty() ? p.variant : p.variant + " " + p.point;
+    return p.point == "default" || p.point.empty() ? p.technique : p.technique + " " + p.point;
 }
 
 std::string listed(const std::vector<AnswerPoint>& points, size_t most) {

@@ -3,7 +3,7 @@
 #include "core/number_text.h"
 #include "experiments/results/answers/answer_text.h"
 #include "experiments/results/answers/cause_and_cure.h"
-#include "experiments/results/tables/manifest.h"
+#include "experiments/results/files/manifest.h"
 #include "experiments/results/verdicts/interval.h"
 #include "experiments/results/verdicts/power.h"
 #include "experiments/results/verdicts/standings.h"
@@ -46,7 +46,7 @@ struct Scored {
     bool is_ranked() const { return error->holds_all_noise && error->low && error->high; }
 };
 
-bool is_same(const AnswerPoint& a, const AnswerPoint& b) { return a.variant == b.variant && a.point == b.point; }
+bool is_same(const AnswerPoint& a, const AnswerPoint& b) { return a.technique == b.technique && a.point == b.point; }
 
 /// By the ends of both intervals: wider than one of pairs would be, and so on the safe side.
 Ratio ratio_of(const TimeSummary& a, const TimeSummary& b) {
@@ -142,7 +142,7 @@ std::string limit_sentence(const ShotAnswer& answer) {
 }
 
 std::string gain_clause(const ShotAnswer& answer, const std::vector<Scored>& scored) {
-    if (!answer.baseline || answer.baseline->variant == answer.best->variant || !(answer.baseline->value > 0))
+    if (!answer.baseline || answer.baseline->technique == answer.best->technique || !(answer.baseline->value > 0))
         return "";
     return ", " + shown(inverse(over_best(find(scored, *answer.baseline), *answer.best))) +
            " that of no reflections (none)";
@@ -237,16 +237,16 @@ std::vector<ShotAnswer> shot_answers(const ResultTables& tables, const json& man
         std::vector<const MetricSummary*> judged;  // by all metrics
         for (const MetricSummary& e : tables.errors) {
             if (!e.represents_shot || e.shot != shot || e.mask != headline.mask || e.target != headline.target ||
-                !e.value || left_out.contains({e.variant, e.point}))
+                !e.value || left_out.contains({e.technique, e.point}))
                 continue;
             judged.push_back(&e);
-            const AnswerPoint point{e.variant, e.point, *e.value, e.low, e.high, labels[{e.variant, e.point}]};
+            const AnswerPoint point{e.technique, e.point, *e.value, e.low, e.high, labels[{e.technique, e.point}]};
             if (e.metric == headline.metric) {
                 const auto time = std::ranges::find_if(tables.times, [&](const TimeSummary& t) {
-                    return t.shot == shot && t.variant == e.variant && t.point == e.point && t.stage == "total";
+                    return t.shot == shot && t.technique == e.technique && t.point == e.point && t.stage == "total";
                 });
                 scored.push_back({point, &e, time == tables.times.end() ? nullptr : &*time});
-                if (e.variant == "none" && !answer.baseline) answer.baseline = point;
+                if (e.technique == "none" && !answer.baseline) answer.baseline = point;
             }
             if (e.metric == headline.perceptual_metric) perceived.push_back({point, &e});
         }
@@ -278,7 +278,7 @@ std::vector<ShotAnswer> shot_answers(const ResultTables& tables, const json& man
 
 json answers_json(const std::vector<ShotAnswer>& answers, const Headline& headline) {
     const auto point_json = [](const AnswerPoint& p) {
-        return json{{"variant", p.variant},
+        return json{{"technique", p.technique},
                     {"point", p.point},
                     {"value", p.value},
                     {"low", column_json(p.low)},

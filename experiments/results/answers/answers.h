@@ -16,10 +16,10 @@ Headline headline_of(const nlohmann::json& manifest, std::span<const MetricSumma
 
 /// A point of a study with its error in a shot.
 struct AnswerPoint {
-    std::string variant, point;
+    std::string technique, point;
     double value = 0;
     std::optional<double> low, high;  ///< 95 % interval
-    std::string label = "";           ///< how the study names it; "": by variant and point
+    std::string label = "";           ///< how the study names it; "": by technique and point
 };
 
 /// What a study says of one shot at first sight: which technique, at which cost, and how certain that is, by the

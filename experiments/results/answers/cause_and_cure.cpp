@@ -27,9 +27,9 @@ Cause cause_of(const MetricSummary& e) {
 }
 
 std::string point_name(const MetricSummary& e, const PointLabels& labels) {
-    const auto label = labels.find({e.variant, e.point});
+    const auto label = labels.find({e.technique, e.point});
     return name_of(
-        AnswerPoint{.variant = e.variant, .point = e.point, .label = label == labels.end() ? "" : label->second});
+        AnswerPoint{.technique = e.technique, .point = e.point, .label = label == labels.end() ? "" : label->second});
 }
 
 std::string listed_points(const std::vector<const MetricSummary*>& points, const PointLabels& labels) {
@@ -139,7 +139,7 @@ std::string power_sentence(const JudgedShot& shot) {
     const auto visible = visible_in_shot(ranked, shot.comparisons);
     if (!visible) return "";
     const auto largest = std::ranges::find_if(
-        ranked, [&](const MetricSummary* e) { return PointName(e->variant, e->point) == visible->of_largest; });
+        ranked, [&](const MetricSummary* e) { return PointName(e->technique, e->point) == visible->of_largest; });
     return " Such a study sees a difference of " + share_text(visible->typical) + " to the best in 8 of 10 cases" +
            of_largest_clause(*visible, point_name(**largest, shot.labels)) + ".";
 }

@@ -71,7 +71,7 @@ std::string chances_text(std::vector<const OverScenesRow*> rows, std::optional<d
     Names parts;
     for (const OverScenesRow* r : rows)
         if (r->*chance && (parts.empty() || (parts.size() < most_named && *(r->*chance) >= worth_naming)))
-            parts.push_back(names.at({r->variant, r->point}) + " " + probability(*(r->*chance)));
+            parts.push_back(names.at({r->technique, r->point}) + " " + probability(*(r->*chance)));
     return joined(parts);
 }
 
@@ -116,8 +116,9 @@ std::string in_scenes_like_these(const ResultTables& tables, const json& manifes
     Names near, behind;
     for (const OverScenesRow& row : tables.over_scenes) {
         if (!is_of_headline(row)) continue;
-        const AnswerPoint point{row.variant, row.point, row.ratio, row.low, row.high, labels[{row.variant, row.point}]};
-        const std::string& name = names[{row.variant, row.point}] = name_of(point);
+        const AnswerPoint point{row.technique, row.point, row.ratio,
+                                row.low,       row.high,  labels[{row.technique, row.point}]};
+        const std::string& name = names[{row.technique, row.point}] = name_of(point);
         rows.push_back(&row);
         if (!row.rank || rows.size() == 1) continue;
         if (row.standing == standing::behind) behind.push_back(name);
@@ -134,22 +135,22 @@ std::string in_scenes_like_these(const ResultTables& tables, const json& manifes
     if (scenes.size() == 1)
         return "Of other scenes one scene says nothing: a verdict over scenes takes " + std::to_string(least_scenes) +
                ".";
-    const std::string name = names.at({first.variant, first.point}), count = std::to_string(first.scenes);
+    const std::string name = names.at({first.technique, first.point}), count = std::to_string(first.scenes);
     if (first.scenes < least_scenes)
         return "Of other scenes " + count + (first.scenes == 1 ? " scene says" : " scenes say") +
                " nothing: a verdict over scenes takes " + std::to_string(least_scenes) + ". Here " + name +
                " errs least on average.";
-    const bool is_baseline = first.variant == first.baseline_variant && first.point == first.baseline_point;
-    const AnswerPoint baseline{first.baseline_variant,
+    const bool is_baseline = first.technique == first.baseline_technique && first.point == first.baseline_point;
+    const AnswerPoint baseline{first.baseline_technique,
                                first.baseline_point,
                                1,
                                {},
                                {},
-                               labels[{first.baseline_variant, first.baseline_point}]};
+                               labels[{first.baseline_technique, first.baseline_point}]};
     const std::string gain =
         is_baseline ? ""
                     : ": " + shown(Ratio{first.ratio, first.low, first.high}) + " the " + headline.metric + " of " +
-                          (baseline.variant == "none" ? "no reflections (none)" : name_of(baseline)) +
+                          (baseline.technique == "none" ? "no reflections (none)" : name_of(baseline)) +
                           ", geometric mean over " + count +
                           (first.scenes < scenes.size() ? " of " + std::to_string(scenes.size()) : "") + " scenes";
     std::string text = "In scenes like these " + name;

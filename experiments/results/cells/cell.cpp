@@ -1,7 +1,7 @@
 #include "experiments/results/cells/cell.h"
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SeedPairs, variance, bias_squared)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReferenceNoise, shot, frame, variant, point, target, metric, mask, sums, growth)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReferenceNoise, shot, frame, technique, point, target, metric, mask, sums, growth)
 
 namespace {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include "experiments/gpu_costs/chips/compiled_shader.h"
 #include "experiments/results/cells/reference_noise.h"
-#include "experiments/results/tables/columns.h"
+#include "experiments/results/files/columns.h"
 #include "metrics/seed_pairs.h"
 
 #include <nlohmann/json.hpp>
@@ -14,7 +14,7 @@ struct ResultRow {
     std::string shot, scene, camera;
     std::string frame;  ///< its number, or over_frames
     unsigned width = 0, height = 0;
-    std::string variant, point;
+    std::string technique, point;
     unsigned seed = 0;
     std::string target, metric, formula, mask;
     std::optional<double> value;  ///< none where it is not finite, e.g. the PSNR of equal images
@@ -29,7 +29,7 @@ struct ResultRow {
         return std::tuple(
             Column{"shot", &ResultRow::shot}, Column{"scene", &ResultRow::scene}, Column{"camera", &ResultRow::camera},
             Column{"frame", &ResultRow::frame}, Column{"width", &ResultRow::width},
-            Column{"height", &ResultRow::height}, Column{"variant", &ResultRow::variant},
+            Column{"height", &ResultRow::height}, Column{"technique", &ResultRow::technique},
             Column{"point", &ResultRow::point}, Column{"seed", &ResultRow::seed}, Column{"target", &ResultRow::target},
             Column{"metric", &ResultRow::metric}, Column{"formula", &ResultRow::formula},
             Column{"mask", &ResultRow::mask}, Column{"value", &ResultRow::value},
@@ -43,7 +43,7 @@ struct ResultRow {
 
 /// One row of splits.csv: the bias and the variance of an error.
 struct SplitRow {
-    std::string shot, frame, variant, point, target, mask;
+    std::string shot, frame, technique, point, target, mask;
     unsigned seeds = 0;
     double mse = 0, bias_squared = 0, variance = 0;
     std::optional<double> variance_low, variance_high;
@@ -57,20 +57,21 @@ struct SplitRow {
     std::optional<double> lit_noise, lit_half_width;
 
     static constexpr auto columns() {
-        return std::tuple(
-            Column{"shot", &SplitRow::shot}, Column{"frame", &SplitRow::frame}, Column{"variant", &SplitRow::variant},
-            Column{"point", &SplitRow::point}, Column{"target", &SplitRow::target}, Column{"mask", &SplitRow::mask},
-            Column{"seeds", &SplitRow::seeds}, Column{"mse", &SplitRow::mse},
-            Column{"bias_squared", &SplitRow::bias_squared}, Column{"variance", &SplitRow::variance},
-            Column{"variance_low", &SplitRow::variance_low}, Column{"variance_high", &SplitRow::variance_high},
-            Column{"pixels", &SplitRow::pixels}, Column{"bias_squared_low", &SplitRow::bias_squared_low},
-            Column{"bias_squared_high", &SplitRow::bias_squared_high});
+        return std::tuple(Column{"shot", &SplitRow::shot}, Column{"frame", &SplitRow::frame},
+                          Column{"technique", &SplitRow::technique}, Column{"point", &SplitRow::point},
+                          Column{"target", &SplitRow::target}, Column{"mask", &SplitRow::mask},
+                          Column{"seeds", &SplitRow::seeds}, Column{"mse", &SplitRow::mse},
+                          Column{"bias_squared", &SplitRow::bias_squared}, Column{"variance", &SplitRow::variance},
+                          Column{"variance_low", &SplitRow::variance_low},
+                          Column{"variance_high", &SplitRow::variance_high}, Column{"pixels", &SplitRow::pixels},
+                          Column{"bias_squared_low", &SplitRow::bias_squared_low},
+                          Column{"bias_squared_high", &SplitRow::bias_squared_high});
     }
 };
 
 /// One row of times.csv.
 struct TimeRow {
-    std::string shot, variant, point;
+    std::string shot, technique, point;
     unsigned seed = 0;
     std::string stage;
     unsigned frame = 0;
@@ -80,7 +81,7 @@ struct TimeRow {
     bool is_disturbed = false;                ///< other programs took too much CPU time meanwhile
 
     static constexpr auto columns() {
-        return std::tuple(Column{"shot", &TimeRow::shot}, Column{"variant", &TimeRow::variant},
+        return std::tuple(Column{"shot", &TimeRow::shot}, Column{"technique", &TimeRow::technique},
                           Column{"point", &TimeRow::point}, Column{"seed", &TimeRow::seed},
                           Column{"stage", &TimeRow::stage}, Column{"frame", &TimeRow::frame},
                           Column{"milliseconds", &TimeRow::milliseconds}, Column{"clock", &TimeRow::clock},
@@ -90,7 +91,7 @@ struct TimeRow {
 
 /// One row of hits.csv: how the rays of one pass ended.
 struct HitRow {
-    std::string shot, frame, variant, point;
+    std::string shot, frame, technique, point;
     std::string stage;     ///< the pass
     std::string mask;      ///< of the pixels that they start from
     std::string quantity;  ///< a verdict of judged_hits.h; "correct": the sum of right ones; "miss: " and the outcome
@@ -103,7 +104,7 @@ struct HitRow {
 
     static constexpr auto columns() {
         return std::tuple(
-            Column{"shot", &HitRow::shot}, Column{"frame", &HitRow::frame}, Column{"variant", &HitRow::variant},
+            Column{"shot", &HitRow::shot}, Column{"frame", &HitRow::frame}, Column{"technique", &HitRow::technique},
             Column{"point", &HitRow::point}, Column{"stage", &HitRow::stage}, Column{"mask", &HitRow::mask},
             Column{"quantity", &HitRow::quantity}, Column{"seeds", &HitRow::seeds}, Column{"rays", &HitRow::rays},
             Column{"value", &HitRow::value}, Column{"low", &HitRow::low}, Column{"high", &HitRow::high});
@@ -112,12 +113,12 @@ struct HitRow {
 
 /// One row of costs.csv: what the passes of a stage do in the shot's last frame.
 struct CostRow {
-    std::string shot, variant, point, stage;
+    std::string shot, technique, point, stage;
     std::string quantity;  ///< a name of cost_quantities, experiments/gpu_costs/pass_cost.h
     size_t value = 0;
 
     static constexpr auto columns() {
-        return std::tuple(Column{"shot", &CostRow::shot}, Column{"variant", &CostRow::variant},
+        return std::tuple(Column{"shot", &CostRow::shot}, Column{"technique", &CostRow::technique},
                           Column{"point", &CostRow::point}, Column{"stage", &CostRow::stage},
                           Column{"quantity", &CostRow::quantity}, Column{"value", &CostRow::value});
     }
@@ -125,7 +126,7 @@ struct CostRow {
 
 /// One row of compiled.csv: what a GPU's compiler made of one shader of a stage.
 struct CompiledRow : CompilerNumbers {
-    std::string shot, variant, point, stage;
+    std::string shot, technique, point, stage;
     unsigned pipeline = 0;  ///< a stage may run several, for its mips or materials
     std::string shader;     ///< "compute", "vertex" or "fragment"; "": refused
     std::string chip, driver;
@@ -140,7 +141,7 @@ struct CompiledRow : CompilerNumbers {
             },
             compiler_numbers);
         return std::tuple_cat(
-            std::tuple(Column{"shot", &CompiledRow::shot}, Column{"variant", &CompiledRow::variant},
+            std::tuple(Column{"shot", &CompiledRow::shot}, Column{"technique", &CompiledRow::technique},
                        Column{"point", &CompiledRow::point}, Column{"stage", &CompiledRow::stage},
                        Column{"pipeline", &CompiledRow::pipeline}, Column{"shader", &CompiledRow::shader},
                        Column{"chip", &CompiledRow::chip}, Column{"driver", &CompiledRow::driver},
@@ -153,7 +154,7 @@ struct CompiledRow : CompilerNumbers {
 /// One row of estimates.csv: how long a chip would take for a stage, see gpu_estimates.h. Microseconds; numbers are
 /// missing where there is a refusal.
 struct EstimateRow {
-    std::string shot, variant, point, stage;  ///< stage: also `total`
+    std::string shot, technique, point, stage;  ///< stage: also `total`
     std::string chip, product;
     std::optional<double> microseconds, low, high;
     std::string bound;  ///< the part that takes longest, see ChipTime
@@ -162,7 +163,7 @@ struct EstimateRow {
     std::string refusal;  ///< why there are no numbers
 
     static constexpr auto columns() {
-        return std::tuple(Column{"shot", &EstimateRow::shot}, Column{"variant", &EstimateRow::variant},
+        return std::tuple(Column{"shot", &EstimateRow::shot}, Column{"technique", &EstimateRow::technique},
                           Column{"point", &EstimateRow::point}, Column{"stage", &EstimateRow::stage},
                           Column{"chip", &EstimateRow::chip}, Column{"product", &EstimateRow::product},
                           Column{"microseconds", &EstimateRow::microseconds}, Column{"low", &EstimateRow::low},
@@ -178,7 +179,7 @@ struct EstimateRow {
     }
 };
 
-/// The results of one shot and variant point with all its seeds, of the times of a shot, or of its references: the
+/// The results of one shot and technique point with all its seeds, of the times of a shot, or of its references: the
 /// unit of work that is done once and kept.
 struct Cell {
     std::vector<ResultRow> rows;

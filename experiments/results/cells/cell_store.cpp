@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/former_names.h"
 #include "core/json.h"
 #include "core/path_inside.h"
 #include "experiments/results/cells/image_path.h"
@@ -46,7 +47,9 @@ std::optional<Cell> CellStore::parse(const std::string& name) const {
         notice_("note: " + file.string() + " is damaged, or of another version; it is not used");
         return {};
     }
-    Cell cell = read_cell(json["cell"], file.string() + ": cell");
+    JsonDocument content{.value = std::move(json["cell"]), .places = {}};
+    take_former_names(content, FormerNames::of_study);
+    Cell cell = read_cell(content.value, file.string() + ": cell");
     cell.name = name;
     return cell;
 }

@@ -22,7 +22,7 @@ extern const std::string_view compiled_source_table;  // written by source_table
 
 namespace {
 
-/// Shaders, what they include, and the tables of variants, in an order of their own.
+/// Shaders, what they include, and the tables of techniques, in an order of their own.
 std::vector<fs::path> files_read_at_run_time() {
     const std::vector<std::string> extensions = {".comp", ".frag", ".vert", ".glsl", ".h", ".png"};
     std::vector<fs::path> files;

@@ -17,7 +17,7 @@ std::filesystem::path this_program();
 nlohmann::json build_info();
 
 /// The hash of this executable and of what it reads from the source tree at run time, shaders and the tables of
-/// variants: a result computed by other code is another result.
+/// techniques: a result computed by other code is another result.
 std::string code_hash();
 
 /// The sources that this program was compiled from, but those that it reads when it runs as they lie in the source tree

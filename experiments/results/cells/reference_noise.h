@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-/// What the noise of the reference does to one error of one variant point, so that errors of other points against the
+/// What the noise of the reference does to one error of one technique point, so that errors of other points against the
 /// same reference can be compared with it: their noise is mostly the same, and cancels. Half the error's change when
 /// half A of the reference is believed in place of half B is a sum over pixels, whose terms are as likely of one sign
 /// as of the other and independent of each other. `sums` are those of groups that the pixels fall into by chance, the
 /// same for all points; sum over groups of (x_a / E_a - x_b / E_b)^2 estimates the variance of ln(E_a / E_b). Errors
 /// that cannot be freed of the noise have `growth` in their place, see extrapolated_scatter().
 struct ReferenceNoise {
-    std::string shot, frame, variant, point, target, metric, mask;
+    std::string shot, frame, technique, point, target, metric, mask;
     std::vector<float> sums;
     NoiseGrowth growth = {};
 };
@@ -65,6 +65,6 @@ void add_swapped_errors(SumsOfErrors& noise, const std::string& frame, const std
 /// Adds ReferenceNoise::growth of an error that is extrapolated, as score() gives it.
 void add_growth(SumsOfErrors& noise, const ErrorName& error, const NoiseGrowth& growth);
 
-/// The means over what was added; `shared` holds shot, variant and point. Of quantities that are known over all frames,
-/// those of single frames are left out.
+/// The means over what was added; `shared` holds shot, technique and point. Of quantities that are known over all
+/// frames, those of single frames are left out.
 std::vector<ReferenceNoise> means_of(const SumsOfErrors& noise, const ReferenceNoise& shared);

@@ -33,7 +33,7 @@ std::filesystem::path known_failures_file() {
 const KnownFailure* explanation_of(const StageRow& row, const StabilityCaseName& what,
                                    const std::vector<KnownFailure>& known) {
     const auto found = std::ranges::find_if(known, [&](const KnownFailure& failure) {
-        return names_any(failure.techniques, {row.variant, row.variant + ":" + row.point}) &&
+        return names_any(failure.techniques, {row.technique, row.technique + ":" + row.point}) &&
                names_any(failure.stages, {row.stage, row.stage + ": " + row.image}) &&
                (failure.cases.empty() || names_any(failure.cases, {what.name, what.family, what.group}));
     });

@@ -3,7 +3,7 @@
 
 /// Why a stage of a technique as published holds NaN or Inf, in words: one entry of failures.json.
 struct KnownFailure {
-    std::vector<std::string> techniques;  ///< names of variants, or NAME:PRESET
+    std::vector<std::string> techniques;  ///< names of techniques, or NAME:PRESET
     std::vector<std::string> stages;      ///< as "stage", or "stage: image"
     std::vector<std::string> cases;       ///< names, families or groups of cases; empty: all
     std::string operation;                ///< of the shader, that makes a finite value one that is not, or keeps it

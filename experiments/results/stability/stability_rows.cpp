@@ -59,6 +59,6 @@ std::vector<StageRow> stage_rows(const std::vector<StabilityRow>& rows, bool has
     for (const StabilityRow& row : rows)
         for (const StageFinding& finding : row.stages)
             if (has_all || finding.nan + finding.infinite > 0)
-                all.push_back({finding, row.case_name, row.variant, row.point});
+                all.push_back({finding, row.case_name, row.technique, row.point});
     return all;
 }

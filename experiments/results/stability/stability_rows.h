@@ -1,5 +1,5 @@
 #pragma once
-#include "experiments/results/tables/columns.h"
+#include "experiments/results/files/columns.h"
 
 #include <optional>
 #include <string>
@@ -53,7 +53,7 @@ inline nlohmann::json column_json(Verdict verdict) { return size_t(verdict); }
 
 /// One technique in one case: a row of stability.csv.
 struct StabilityRow : CaseFindings {
-    std::string case_name, group, variant, point;
+    std::string case_name, group, technique, point;
     Verdict verdict = Verdict::ok;
     std::optional<double> error, benign_error, error_ratio;  ///< of means over the seeds
     unsigned seeds = 1;
@@ -70,7 +70,7 @@ struct StabilityRow : CaseFindings {
     static constexpr auto columns() {
         using Row = StabilityRow;
         return std::tuple(
-            Column{"case", &Row::case_name}, Column{"group", &Row::group}, Column{"variant", &Row::variant},
+            Column{"case", &Row::case_name}, Column{"group", &Row::group}, Column{"technique", &Row::technique},
             Column{"point", &Row::point}, Column{"verdict", &Row::verdict}, Column{"error", &Row::error},
             Column{"benign_error", &Row::benign_error}, Column{"error_ratio", &Row::error_ratio},
             Column{"seeds", &Row::seeds}, Column{"non_finite", &Row::non_finite},
@@ -93,11 +93,11 @@ bool is_near_worse(const StabilityRow& row, size_t pixels);
 
 /// What one image of one stage held in one row of stability.csv: a row of stability_stages.csv.
 struct StageRow : StageFinding {
-    std::string case_name, variant, point;
+    std::string case_name, technique, point;
 
     static constexpr auto columns() {
         using Row = StageRow;
-        return std::tuple(Column{"case", &Row::case_name}, Column{"variant", &Row::variant},
+        return std::tuple(Column{"case", &Row::case_name}, Column{"technique", &Row::technique},
                           Column{"point", &Row::point}, Column{"stage", &Row::stage}, Column{"image", &Row::image},
                           Column{"nan", &Row::nan}, Column{"infinite", &Row::infinite},
                           Column{"largest", &Row::largest});

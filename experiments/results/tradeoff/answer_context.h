@@ -31,7 +31,7 @@ inline constexpr size_t most_listed = 4;  ///< names in a sentence
 
 /// What was asked and what was found. All must outlive it.
 struct AnswerContext {
-    AnswerContext(const StudyTables& tables, const PrimaryComparisons& error, const Tradeoff& found,
+    AnswerContext(const StudyResults& tables, const PrimaryComparisons& error, const Tradeoff& found,
                   const BetweenPoints& between, const std::vector<double>& costs, const std::vector<double>& factors);
 
     const nlohmann::json& manifest;

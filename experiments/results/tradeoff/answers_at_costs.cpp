@@ -3,7 +3,7 @@
 #include "core/error.h"
 #include "core/list_text.h"
 #include "core/number_text.h"
-#include "experiments/results/tables/markdown.h"
+#include "experiments/results/files/markdown.h"
 #include "experiments/results/verdicts/standings.h"
 
 namespace {
@@ -80,10 +80,10 @@ struct AtCosts : AnswerContext {
         }
         if (!partly.empty()) text += "Not ranked, since they do not fit everywhere: " + joined(partly, "; ") + ".\n";
         for (const auto& shot : between.shots)
-            for (const auto& [variant, curve] : shot->curves)
-                if (std::ranges::count(absent, variant) == 0 &&
-                    std::ranges::count(rows, variant, &AcrossRow::variant) == 0)
-                    absent.push_back(variant);
+            for (const auto& [technique, curve] : shot->curves)
+                if (std::ranges::count(absent, technique) == 0 &&
+                    std::ranges::count(rows, technique, &AcrossRow::technique) == 0)
+                    absent.push_back(technique);
         std::ranges::sort(absent);
         if (!absent.empty()) text += "In no scene fit " + markdown_text(listed(absent, most_listed)) + ".\n";
         return text + "\n" + ranking("technique", rows, "surely fits in scenes", fitting) +
@@ -101,11 +101,11 @@ struct AtCosts : AnswerContext {
             head.push_back(message_text(group, " (", scenes, ")"));
         }
         std::vector<Names> cells;
-        for (const std::string& variant : distinct(all, &AcrossRow::variant)) {
-            Names& line = cells.emplace_back(Names{variant});
+        for (const std::string& technique : distinct(all, &AcrossRow::technique)) {
+            Names& line = cells.emplace_back(Names{technique});
             for (const std::string& group : groups) {
                 const Rows rows = rows_at(machine, cost, group);
-                const auto row = std::ranges::find(rows, variant, &AcrossRow::variant);
+                const auto row = std::ranges::find(rows, technique, &AcrossRow::technique);
                 const bool is_ahead =
                     row != rows.end() && !(*row)->standing.empty() && (*row)->standing != standing::behind;
                 line.push_back(row == rows.end() ? ""

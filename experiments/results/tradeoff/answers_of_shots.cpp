@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 #include "core/list_text.h"
-#include "experiments/results/tables/markdown.h"
+#include "experiments/results/files/markdown.h"
 
 namespace {
 
@@ -19,7 +19,7 @@ struct OfShots : AnswerContext {
         std::string text;
         if (!machines.empty())
             text =
-                "## Each shot\n\nA technique is its variant: all of its points make its front. Curves between two of "
+                "## Each shot\n\nA technique is its technique: all of its points make its front. Curves between two of "
                 "them are interpolated (logarithmic): nothing was run there.\n\n";
         for (const auto& shot : between.shots)
             if (!shot->curves.empty())
@@ -52,9 +52,9 @@ struct OfShots : AnswerContext {
     /// The curves of more than the baseline alone.
     std::vector<std::pair<std::string, const Curve*>> curves_of(const MeasuredShot& shot) const {
         std::vector<std::pair<std::string, const Curve*>> curves;
-        for (const auto& [variant, curve] : shot.curves)
+        for (const auto& [technique, curve] : shot.curves)
             if (curve.points().size() > 1 || curve.points().front()->name() != found.baseline)
-                curves.emplace_back(variant, &curve);
+                curves.emplace_back(technique, &curve);
         return curves;
     }
 
@@ -62,11 +62,11 @@ struct OfShots : AnswerContext {
         Names head = {"technique", "measured at (" + unit + ")"};
         for (const double cost : costs) head.push_back("error at " + shown_number(cost) + " " + unit);
         std::vector<Names> cells;
-        for (const auto& [variant, curve] : curves_of(shot)) {
-            Names& line =
-                cells.emplace_back(Names{variant, shown_number(curve->start()) + " to " + shown_number(curve->end())});
+        for (const auto& [technique, curve] : curves_of(shot)) {
+            Names& line = cells.emplace_back(
+                Names{technique, shown_number(curve->start()) + " to " + shown_number(curve->end())});
             for (const ErrorAtCostRow& row : between.error_at_cost)
-                if (row.shot == shot.name && row.variant == variant) line.push_back(error_text(row));
+                if (row.shot == shot.name && row.technique == technique) line.push_back(error_text(row));
         }
         return markdown_table(head, cells);
     }
@@ -88,10 +88,10 @@ struct OfShots : AnswerContext {
             head.push_back(unit + " to " + shown_number(factor) + " of " + base + "'s error (" +
                            shown_number(factor * *shot.divisor) + ")");
         std::vector<Names> cells;
-        for (const auto& [variant, curve] : curves_of(shot)) {
-            Names& line = cells.emplace_back(Names{variant});
+        for (const auto& [technique, curve] : curves_of(shot)) {
+            Names& line = cells.emplace_back(Names{technique});
             for (const CostToErrorRow& row : between.cost_to_error)
-                if (row.shot == shot.name && row.variant == variant) line.push_back(cost_text(row));
+                if (row.shot == shot.name && row.technique == technique) line.push_back(cost_text(row));
         }
         return markdown_table(head, cells);
     }
@@ -139,7 +139,7 @@ struct OfShots : AnswerContext {
     std::string fits() const {
         if (between.fits.empty()) return "";
         const auto axis_of = [](const FitRow& row) {
-            return row.variant + (row.fixed.empty() ? "" : " " + row.fixed) + " along " + row.parameter;
+            return row.technique + (row.fixed.empty() ? "" : " " + row.fixed) + " along " + row.parameter;
         };
         std::string text =
             "error = floor + a cost^-b along each axis of quality: the floor is a lower bound along that axis alone, "

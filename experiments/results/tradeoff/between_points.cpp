@@ -22,7 +22,8 @@ bool is_error(const auto& row, const PrimaryComparisons& error) {
 }
 
 /// Of the last frame alone: none where the errors stand for all frames of the shot.
-auto ladder_of(const StudyTables& tables, const json& entry, const std::string& shot, const PrimaryComparisons& error) {
+auto ladder_of(const StudyResults& tables, const json& entry, const std::string& shot,
+               const PrimaryComparisons& error) {
     decltype(MeasuredShot::ladder) ladder;
     for (const MetricSummary& e : tables.errors)
         if (e.represents_shot && e.shot == shot && is_error(e, error) && e.frame.empty()) return ladder;
@@ -39,7 +40,7 @@ auto ladder_of(const StudyTables& tables, const json& entry, const std::string& 
     return ladder;
 }
 
-std::unique_ptr<MeasuredShot> measured_shot(const StudyTables& tables, const PrimaryComparisons& error,
+std::unique_ptr<MeasuredShot> measured_shot(const StudyResults& tables, const PrimaryComparisons& error,
                                             const Tradeoff& found, const FrontRow& first) {
     auto shot = std::make_unique<MeasuredShot>();
     const json& entry = shot_entry(tables.manifest, first.shot);
@@ -62,7 +63,7 @@ std::unique_ptr<MeasuredShot> measured_shot(const StudyTables& tables, const Pri
         if (row.shot != first.shot) continue;
         MeasuredPoint& p = shot->points.emplace_back(MeasuredPoint{.row = row, .seeds = {}, .rounds = {}});
         const auto is_of_point = [&](const auto& other) {
-            return other.shot == row.shot && other.variant == row.variant && other.point == row.point;
+            return other.shot == row.shot && other.technique == row.technique && other.point == row.point;
         };
         for (const ResultRow& r : tables.seeds)
             if (r.represents_shot && r.value && is_of_point(r) && is_error(r, error))
@@ -75,11 +76,11 @@ std::unique_ptr<MeasuredShot> measured_shot(const StudyTables& tables, const Pri
             if (t.stage == "total" && is_of_point(t)) p.disturbed_share = t.disturbed_share;
     }
     std::vector<const MeasuredPoint*> judged;
-    std::vector<std::pair<std::string, std::vector<size_t>>> variants;
+    std::vector<std::pair<std::string, std::vector<size_t>>> techniques;
     for (const MeasuredPoint& p : shot->points) {
         if (!p.is_judged()) continue;
-        auto own = std::ranges::find(variants, p.row.variant, [](const auto& v) { return v.first; });
-        if (own == variants.end()) own = variants.insert(own, {p.row.variant, {}});
+        auto own = std::ranges::find(techniques, p.row.technique, [](const auto& v) { return v.first; });
+        if (own == techniques.end()) own = techniques.insert(own, {p.row.technique, {}});
         own->second.push_back(judged.size());
         judged.push_back(&p);
     }
@@ -87,10 +88,10 @@ std::unique_ptr<MeasuredShot> measured_shot(const StudyTables& tables, const Pri
     // The same deviates whenever a shot is asked about; other ones in each shot.
     const auto* name = reinterpret_cast<const Bytef*>(shot->name.data());
     const Draws draws = draws_of(judged, unsigned(crc32(0, name, uInt(shot->name.size()))));
-    for (const auto& [variant, rows] : variants) {
+    for (const auto& [technique, rows] : techniques) {
         std::vector<const MeasuredPoint*> own;
         for (const size_t row : rows) own.push_back(judged[row]);
-        shot->curves.emplace_back(variant, Curve(std::move(own), draws, rows));
+        shot->curves.emplace_back(technique, Curve(std::move(own), draws, rows));
     }
     return shot;
 }
@@ -103,25 +104,25 @@ Row row_of(const MeasuredShot& shot, const std::string& unit) {
 }
 
 template <class Row>
-Row curve_row(const MeasuredShot& shot, const std::string& unit, const std::string& variant, const Curve& curve) {
+Row curve_row(const MeasuredShot& shot, const std::string& unit, const std::string& technique, const Curve& curve) {
     Row row = row_of<Row>(shot, unit);
-    row.variant = row.label = variant, row.start = curve.start(), row.end = curve.end();
+    row.technique = row.label = technique, row.start = curve.start(), row.end = curve.end();
     return row;
 }
 
 void add_errors_at(const MeasuredShot& shot, const Tradeoff& found, std::span<const double> costs,
                    std::vector<ErrorAtCostRow>& rows) {
-    for (const auto& [variant, curve] : shot.curves)
+    for (const auto& [technique, curve] : shot.curves)
         for (const double cost : costs) {
-            ErrorAtCostRow& row = rows.emplace_back(curve_row<ErrorAtCostRow>(shot, found.unit, variant, curve));
+            ErrorAtCostRow& row = rows.emplace_back(curve_row<ErrorAtCostRow>(shot, found.unit, technique, curve));
             const auto chosen = std::ranges::find_if(found.chosen, [&](const ChosenPoint& c) {
-                return c.shot == shot.name && c.variant == variant && c.cost == cost;
+                return c.shot == shot.name && c.technique == technique && c.cost == cost;
             });
             row.cost = cost, row.fits = chosen->fits, row.status = "before start";
             if (chosen->point.empty()) continue;
             const ReadOff read = curve.error_at(cost);
             const MeasuredPoint& p =
-                *std::ranges::find(shot.points, PointName(variant, chosen->point), &MeasuredPoint::name);
+                *std::ranges::find(shot.points, PointName(technique, chosen->point), &MeasuredPoint::name);
             const bool is_at = std::ranges::count(curve.points(), cost, &MeasuredPoint::cost) > 0;
             row.status = is_at ? "at" : cost > curve.end() ? "past end" : "between";
             row.error = read.value, row.low = read.low, row.high = read.high;
@@ -133,9 +134,9 @@ void add_errors_at(const MeasuredShot& shot, const Tradeoff& found, std::span<co
 void add_costs_to(const MeasuredShot& shot, const Tradeoff& found, std::span<const double> factors,
                   std::vector<CostToErrorRow>& rows) {
     if (!shot.divisor) return;
-    for (const auto& [variant, curve] : shot.curves)
+    for (const auto& [technique, curve] : shot.curves)
         for (const double factor : factors) {
-            CostToErrorRow& row = rows.emplace_back(curve_row<CostToErrorRow>(shot, found.unit, variant, curve));
+            CostToErrorRow& row = rows.emplace_back(curve_row<CostToErrorRow>(shot, found.unit, technique, curve));
             const double error = factor * *shot.divisor;
             const ReadOff read = curve.cost_to(error);
             row.factor = factor, row.error = error, row.share_that_reach = read.share, row.status = "not reached";
@@ -175,7 +176,7 @@ void add_limits(const MeasuredShot& shot, const Tradeoff& found, std::vector<Lim
         if (!least || !has_rung(shot, rung)) continue;
         const FrontRow& p = least->row;
         LimitRow& row = rows.emplace_back(row_of<LimitRow>(shot, found.unit));
-        row.variant = p.variant, row.point = p.point, row.label = p.label, row.cost = p.cost;
+        row.technique = p.technique, row.point = p.point, row.label = p.label, row.cost = p.cost;
         row.error = p.error, row.error_low = p.error_low, row.error_high = p.error_high;
         const OverRung over = over_rung(shot, rung, p.error, p.error_low, p.error_high);
         row.rung = over.rung, row.rung_error = over.error, row.rung_low = over.low, row.rung_high = over.high;
@@ -189,7 +190,7 @@ void add_fits(const MeasuredShot& shot, const Tradeoff& found, const std::map<Po
     for (const QualityAxis& axis : quality_axes(shot.points, parameters)) {
         const auto [points, fit] = fit_axis(axis, shot.floor);
         FitRow& row = rows.emplace_back(row_of<FitRow>(shot, found.unit));
-        row.variant = row.label = axis.variant, row.parameter = axis.parameter, row.fixed = axis.fixed;
+        row.technique = row.label = axis.technique, row.parameter = axis.parameter, row.fixed = axis.fixed;
         row.points = points.size(), row.status = fit.status;
         for (const MeasuredPoint* p : points) {
             row.point_names += (row.point_names.empty() ? "" : "; ") + p->row.point;
@@ -215,11 +216,11 @@ std::string csv_field(const NineDigits& value) {
     return text;
 }
 
-BetweenPoints between_points(const StudyTables& tables, const PrimaryComparisons& error, const Tradeoff& found,
+BetweenPoints between_points(const StudyResults& tables, const PrimaryComparisons& error, const Tradeoff& found,
                              std::span<const double> costs, std::span<const double> factors) {
     std::map<PointName, json> parameters;
-    for (const json& v : tables.manifest.value("variants", json::array()))
-        parameters[{v.value("variant", ""), v.value("point", "")}] = v.value("parameters", json::object());
+    for (const json& v : tables.manifest.value("techniques", json::array()))
+        parameters[{v.value("technique", ""), v.value("point", "")}] = v.value("parameters", json::object());
     BetweenPoints between;
     for (const FrontRow& row : found.front)
         if (std::ranges::none_of(between.shots, [&](const auto& shot) { return shot->name == row.shot; }))

@@ -11,9 +11,9 @@ struct NineDigits : std::optional<double> {
 };
 std::string csv_field(const NineDigits& value);
 
-/// The error that a cost buys: on a variant's curve, and by the point that stands for it there (ChosenPoint).
+/// The error that a cost buys: on a technique's curve, and by the point that stands for it there (ChosenPoint).
 struct ErrorAtCostRow {
-    std::string shot, scene, machine, variant, label;
+    std::string shot, scene, machine, technique, label;
     NineDigits cost;
     std::string unit;
     std::string status;  ///< "between", "at", "past end" or "before start" of the front
@@ -27,18 +27,19 @@ struct ErrorAtCostRow {
     static constexpr auto columns() {
         using Row = ErrorAtCostRow;
         return std::tuple(Column{"shot", &Row::shot}, Column{"scene", &Row::scene}, Column{"machine", &Row::machine},
-                          Column{"variant", &Row::variant}, Column{"label", &Row::label}, Column{"cost", &Row::cost},
-                          Column{"unit", &Row::unit}, Column{"status", &Row::status}, Column{"error", &Row::error},
-                          Column{"low", &Row::low}, Column{"high", &Row::high}, Column{"fits", &Row::fits},
-                          Column{"start", &Row::start}, Column{"end", &Row::end}, Column{"point", &Row::point},
-                          Column{"point_error", &Row::point_error}, Column{"point_low", &Row::point_low},
-                          Column{"point_high", &Row::point_high}, Column{"chosen_on", &Row::chosen_on});
+                          Column{"technique", &Row::technique}, Column{"label", &Row::label},
+                          Column{"cost", &Row::cost}, Column{"unit", &Row::unit}, Column{"status", &Row::status},
+                          Column{"error", &Row::error}, Column{"low", &Row::low}, Column{"high", &Row::high},
+                          Column{"fits", &Row::fits}, Column{"start", &Row::start}, Column{"end", &Row::end},
+                          Column{"point", &Row::point}, Column{"point_error", &Row::point_error},
+                          Column{"point_low", &Row::point_low}, Column{"point_high", &Row::point_high},
+                          Column{"chosen_on", &Row::chosen_on});
     }
 };
 
-/// The cost that an error asks for on a variant's curve.
+/// The cost that an error asks for on a technique's curve.
 struct CostToErrorRow {
-    std::string shot, scene, machine, variant, label;
+    std::string shot, scene, machine, technique, label;
     NineDigits factor, error;  ///< the latter so many times the baseline's
     std::string unit;
     std::string status;  ///< "between", "at", "before start" or "not reached"
@@ -47,7 +48,7 @@ struct CostToErrorRow {
     static constexpr auto columns() {
         using Row = CostToErrorRow;
         return std::tuple(Column{"shot", &Row::shot}, Column{"scene", &Row::scene}, Column{"machine", &Row::machine},
-                          Column{"variant", &Row::variant}, Column{"label", &Row::label},
+                          Column{"technique", &Row::technique}, Column{"label", &Row::label},
                           Column{"factor", &Row::factor}, Column{"error", &Row::error}, Column{"unit", &Row::unit},
                           Column{"status", &Row::status}, Column{"cost", &Row::cost}, Column{"low", &Row::low},
                           Column{"high", &Row::high}, Column{"share_that_reach", &Row::share_that_reach},
@@ -57,7 +58,7 @@ struct CostToErrorRow {
 
 /// A law along a QualityAxis, and its floor beside a rung of the truth ladder.
 struct FitRow {
-    std::string shot, scene, machine, variant, label, parameter, fixed;
+    std::string shot, scene, machine, technique, label, parameter, fixed;
     size_t points = 0;
     std::string point_names;
     NineDigits cost_from, cost_to;
@@ -70,7 +71,7 @@ struct FitRow {
         using Row = FitRow;
         return std::tuple(
             Column{"shot", &Row::shot}, Column{"scene", &Row::scene}, Column{"machine", &Row::machine},
-            Column{"variant", &Row::variant}, Column{"label", &Row::label}, Column{"parameter", &Row::parameter},
+            Column{"technique", &Row::technique}, Column{"label", &Row::label}, Column{"parameter", &Row::parameter},
             Column{"fixed", &Row::fixed}, Column{"points", &Row::points}, Column{"point_names", &Row::point_names},
             Column{"cost_from", &Row::cost_from}, Column{"cost_to", &Row::cost_to}, Column{"unit", &Row::unit},
             Column{"floor", &Row::floor}, Column{"floor_low", &Row::floor_low}, Column{"floor_high", &Row::floor_high},
@@ -87,20 +88,20 @@ struct FitRow {
 struct LimitRow {
     std::string shot, scene, machine, rung;
     NineDigits rung_error, rung_low, rung_high;
-    std::string variant, point, label;
+    std::string technique, point, label;
     NineDigits error, error_low, error_high, over_rung, over_rung_low, over_rung_high, cost;
     std::string unit;
 
     static constexpr auto columns() {
         using Row = LimitRow;
-        return std::tuple(Column{"shot", &Row::shot}, Column{"scene", &Row::scene}, Column{"machine", &Row::machine},
-                          Column{"rung", &Row::rung}, Column{"rung_error", &Row::rung_error},
-                          Column{"rung_low", &Row::rung_low}, Column{"rung_high", &Row::rung_high},
-                          Column{"variant", &Row::variant}, Column{"point", &Row::point}, Column{"label", &Row::label},
-                          Column{"error", &Row::error}, Column{"error_low", &Row::error_low},
-                          Column{"error_high", &Row::error_high}, Column{"over_rung", &Row::over_rung},
-                          Column{"over_rung_low", &Row::over_rung_low}, Column{"over_rung_high", &Row::over_rung_high},
-                          Column{"cost", &Row::cost}, Column{"unit", &Row::unit});
+        return std::tuple(
+            Column{"shot", &Row::shot}, Column{"scene", &Row::scene}, Column{"machine", &Row::machine},
+            Column{"rung", &Row::rung}, Column{"rung_error", &Row::rung_error}, Column{"rung_low", &Row::rung_low},
+            Column{"rung_high", &Row::rung_high}, Column{"technique", &Row::technique}, Column{"point", &Row::point},
+            Column{"label", &Row::label}, Column{"error", &Row::error}, Column{"error_low", &Row::error_low},
+            Column{"error_high", &Row::error_high}, Column{"over_rung", &Row::over_rung},
+            Column{"over_rung_low", &Row::over_rung_low}, Column{"over_rung_high", &Row::over_rung_high},
+            Column{"cost", &Row::cost}, Column{"unit", &Row::unit});
     }
 };
 
@@ -112,7 +113,7 @@ struct MeasuredShot {
     bool is_clock_proven = true;    ///< also of costs that are not timed
     std::vector<MeasuredPoint> points;
     std::vector<std::tuple<std::string, double, std::optional<double>, std::optional<double>>> ladder;  ///< rungs
-    std::vector<std::pair<std::string, Curve>> curves;  ///< by variant, of its judged points
+    std::vector<std::pair<std::string, Curve>> curves;  ///< by technique, of its judged points
 };
 
 /// The rungs of the truth ladder that answers name, the first that a study has before the others.
@@ -128,5 +129,5 @@ struct BetweenPoints {
 };
 
 /// `costs`, and `factors` of the baseline's error: what is asked for.
-BetweenPoints between_points(const StudyTables& tables, const PrimaryComparisons& error, const Tradeoff& found,
+BetweenPoints between_points(const StudyResults& tables, const PrimaryComparisons& error, const Tradeoff& found,
                              std::span<const double> costs, std::span<const double> factors);

@@ -26,12 +26,12 @@ double mean_elsewhere(const PointName& name, const std::vector<const TradeoffSho
 
 }  // namespace
 
-ChosenPoint choose(const TradeoffShot& shot, const std::string& variant, double cost,
+ChosenPoint choose(const TradeoffShot& shot, const std::string& technique, double cost,
                    const std::vector<TradeoffShot>& shots, std::span<const FrozenPoint> frozen) {
-    ChosenPoint choice{.shot = shot.name, .variant = variant, .cost = cost};
+    ChosenPoint choice{.shot = shot.name, .technique = technique, .cost = cost};
     for (const FrozenPoint& f : frozen) {
-        if (f.variant != variant || f.cost != cost) continue;
-        const TradeoffPoint* here = shot.find({variant, f.point});
+        if (f.technique != technique || f.cost != cost) continue;
+        const TradeoffPoint* here = shot.find({technique, f.point});
         if (here && here->has_error())
             choice.point = f.point, choice.chosen_on = "frozen", choice.fits = fits(*here, cost);
         return choice;
@@ -39,7 +39,7 @@ ChosenPoint choose(const TradeoffShot& shot, const std::string& variant, double 
     std::vector<const TradeoffPoint*> fitting;
     const TradeoffPoint* cheapest = nullptr;
     for (const TradeoffPoint& p : shot.points) {
-        if (!p.can_be_chosen() || p.row.variant != variant) continue;
+        if (!p.can_be_chosen() || p.row.technique != technique) continue;
         if (!cheapest || *p.row.cost < *cheapest->row.cost) cheapest = &p;
         if (*p.row.cost <= cost) fitting.push_back(&p);
     }
@@ -67,7 +67,7 @@ std::vector<FrozenPoint> freeze(const std::string& machine, double cost, const s
     std::vector<const TradeoffShot*> counted;
     for (const TradeoffShot& shot : shots)
         if (shot.machine == machine && shot.divisor && shot.is_timed()) counted.push_back(&shot);
-    std::map<std::string, std::pair<double, std::string>> least;  // by variant: error, point
+    std::map<std::string, std::pair<double, std::string>> least;  // by technique: error, point
     if (counted.empty()) return {};
     for (const TradeoffPoint& candidate : counted.front()->points) {
         const PointName name = candidate.name();
@@ -84,7 +84,7 @@ std::vector<FrozenPoint> freeze(const std::string& machine, double cost, const s
         if (!is_first && error < best->second.first) best->second = {error, name.second};
     }
     std::vector<FrozenPoint> points;
-    for (const auto& [variant, best] : least) points.push_back({cost, variant, best.second});
+    for (const auto& [technique, best] : least) points.push_back({cost, technique, best.second});
     return points;
 }
 
@@ -96,8 +96,8 @@ std::vector<FrozenPoint> frozen_points(const json& manifest) {
                  "manifest.json: config.frozen");
     std::vector<FrozenPoint> points;
     for (const json& entry : frozen)
-        for (const auto& [variant, point] : entry["points"].items())
-            points.push_back({entry["cost"].get<double>(), variant, point.get<std::string>()});
+        for (const auto& [technique, point] : entry["points"].items())
+            points.push_back({entry["cost"].get<double>(), technique, point.get<std::string>()});
     return points;
 }
 
@@ -106,7 +106,7 @@ json frozen_json(const std::vector<FrozenPoint>& points) {
     for (const FrozenPoint& p : points) {
         if (entries.empty() || entries.back()["cost"] != p.cost)
             entries.push_back({{"cost", p.cost}, {"points", json::object()}});
-        entries.back()["points"][p.variant] = p.point;
+        entries.back()["points"][p.technique] = p.point;
     }
     return entries;
 }

@@ -17,7 +17,7 @@ struct ReadOff {
 /// points whose place on the front is in doubt and the one that they would leave.
 class Curve {
 public:
-    /// `points`: those of one variant, one or more; `rows`: their places among `draws`.
+    /// `points`: those of one technique, one or more; `rows`: their places among `draws`.
     Curve(std::vector<const MeasuredPoint*> points, const Draws& draws, std::span<const size_t> rows);
 
     /// Past the end no low end: a dearer point would perhaps err less. No value before the start.

@@ -38,8 +38,9 @@ std::vector<std::vector<double>> errors_of(std::span<const MeasuredPoint* const>
     std::vector<double> uniform(count), of_lit_colour(count);
     for (double& u : uniform) u = std::clamp(random.uniform(), 1e-6, 1.0);
     for (double& u : of_lit_colour) u = random.uniform();
-    SharedDeviates<std::pair<std::string, unsigned>> normals(random, count);  // of a seed, or of a variant's reference
-    std::map<size_t, std::vector<double>> chi_by_degrees;  // which makes a normal deviate one of Student's t
+    SharedDeviates<std::pair<std::string, unsigned>> normals(random,
+                                                             count);  // of a seed, or of a technique's reference
+    std::map<size_t, std::vector<double>> chi_by_degrees;             // which makes a normal deviate one of Student's t
     std::vector<std::vector<double>> drawn;
     for (const MeasuredPoint* p : points) {
         const double error = p->error(), high = p->row.error_high.value_or(error),
@@ -63,7 +64,7 @@ std::vector<std::vector<double>> errors_of(std::span<const MeasuredPoint* const>
         const double up = std::max(high - error, 0.0), below = std::max(error - low, 0.0);
         const double rest = std::sqrt(std::max(up * up - of_seeds * of_seeds, 0.0)) / normal_95;
         const double down = low <= 0 ? std::min(below, up) : below;
-        const std::vector<double>& normal = normals[{p->row.variant, 0}];
+        const std::vector<double>& normal = normals[{p->row.technique, 0}];
         std::vector<double>& own = drawn.emplace_back();
         for (size_t i = 0; i < count; ++i) {
             // What the noise of the lit colour adds reaches down alone (LitNoise).

@@ -11,7 +11,7 @@ struct MeasuredPoint {
     std::map<std::pair<unsigned, unsigned>, double> rounds;  ///< seed and frame to ms; none of costs that are not timed
     double disturbed_share = 0;                              ///< of the timed frames
 
-    PointName name() const { return {row.variant, row.point}; }
+    PointName name() const { return {row.technique, row.point}; }
     double error() const { return *row.error; }
     double cost() const { return *row.cost; }
     bool is_ranked() const { return row.verdict != "uses scene data" && row.verdict != "not ranked"; }
@@ -25,7 +25,7 @@ struct MeasuredPoint {
 /// median cost from the binomial distribution of its rank among the rounds, widened by sign_variance_factor(). Points
 /// share the normal deviate of each seed and of each round, so that what seeds and slow frames do to several points at
 /// once stays common. What the interval of an error holds beyond its seeds, the reference's noise, is one deviate for
-/// each variant. Errors move by a factor exp(d / error): never to 0 or below, and further up than down.
+/// each technique. Errors move by a factor exp(d / error): never to 0 or below, and further up than down.
 struct Draws {
     std::vector<std::vector<double>> errors, costs;
 };

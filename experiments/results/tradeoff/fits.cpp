@@ -105,7 +105,7 @@ double squares_of_floor(double floor, const std::vector<std::vector<double>>& po
 std::vector<QualityAxis> quality_axes(std::span<const MeasuredPoint> points,
                                       const std::map<PointName, json>& parameters) {
     struct Group {
-        std::string variant, name;
+        std::string technique, name;
         json rest;  // of the parameters
         std::map<double, const MeasuredPoint*> of_value;
     };
@@ -118,16 +118,17 @@ std::vector<QualityAxis> quality_axes(std::span<const MeasuredPoint> points,
             if (!number) continue;
             json rest = own->second;
             rest.erase(name);
-            auto group = std::ranges::find_if(
-                groups, [&](const Group& g) { return g.variant == p.row.variant && g.name == name && g.rest == rest; });
-            if (group == groups.end()) group = groups.insert(group, {p.row.variant, name, std::move(rest), {}});
+            auto group = std::ranges::find_if(groups, [&](const Group& g) {
+                return g.technique == p.row.technique && g.name == name && g.rest == rest;
+            });
+            if (group == groups.end()) group = groups.insert(group, {p.row.technique, name, std::move(rest), {}});
             group->of_value.emplace(*number, &p);
         }
     }
     std::vector<QualityAxis> axes;
     for (const Group& group : groups) {
         if (group.of_value.size() < least_points) continue;
-        QualityAxis& axis = axes.emplace_back(QualityAxis{.variant = group.variant, .parameter = group.name});
+        QualityAxis& axis = axes.emplace_back(QualityAxis{.technique = group.technique, .parameter = group.name});
         for (const auto& [value, p] : group.of_value) axis.points.push_back(p);
         axis.fixed = fixed_part(axis.points, group.name);
     }

@@ -3,9 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
-/// Points of a variant in one shot that differ in one number alone, four or more.
+/// Points of a technique in one shot that differ in one number alone, four or more.
 struct QualityAxis {
-    std::string variant, parameter;
+    std::string technique, parameter;
     std::string fixed;  ///< what else the points have in common that a sweep or a preset gave them
     std::vector<const MeasuredPoint*> points;  ///< by rising value of the parameter
 };

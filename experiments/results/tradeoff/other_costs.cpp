@@ -20,7 +20,7 @@ std::vector<std::string> names_of(const std::vector<Row>& rows, std::string Row:
 
 }  // namespace
 
-CostKind cost_kind(const StudyTables& tables, const std::string& cost) {
+CostKind cost_kind(const StudyResults& tables, const std::string& cost) {
     if (cost.empty()) return CostKind::timed;
     std::vector<std::string> known = names_of(tables.costs, &CostRow::quantity);
     if (std::ranges::count(known, cost)) return CostKind::counted;
@@ -31,26 +31,26 @@ CostKind cost_kind(const StudyTables& tables, const std::string& cost) {
          known.empty() ? "" : suggestion(cost, known));
 }
 
-std::map<PointName, OtherCost> other_costs(const StudyTables& tables, const std::string& shot,
+std::map<PointName, OtherCost> other_costs(const StudyResults& tables, const std::string& shot,
                                            const std::string& cost) {
     std::map<PointName, OtherCost> found;
     if (cost_kind(tables, cost) == CostKind::estimated) {
         for (const EstimateRow& e : tables.estimates) {
             if (e.shot != shot || e.chip != cost || e.stage != total || !e.microseconds) continue;
             const double low = e.low.value_or(*e.microseconds), high = e.high.value_or(*e.microseconds);
-            found[{e.variant, e.point}] = {.value = *e.microseconds,
-                                           .low = low,
-                                           .high = high,
-                                           .fits_from = high * model_range.high,
-                                           .may_fit_from = low * model_range.low,
-                                           .decides_from = model_decides_from};
+            found[{e.technique, e.point}] = {.value = *e.microseconds,
+                                             .low = low,
+                                             .high = high,
+                                             .fits_from = high * model_range.high,
+                                             .may_fit_from = low * model_range.low,
+                                             .decides_from = model_decides_from};
         }
         return found;
     }
     std::map<PointName, double> sums, totals;  // a stage of that name has the sum of all
     for (const CostRow& c : tables.costs)
         if (c.shot == shot && c.quantity == cost)
-            (c.stage == total ? totals : sums)[{c.variant, c.point}] += double(c.value);
+            (c.stage == total ? totals : sums)[{c.technique, c.point}] += double(c.value);
     for (const auto& [point, sum] : totals) sums[point] = sum;
     const PointSet without_seeds = points_without_seeds(tables.manifest);
     for (const auto& [point, sum] : sums) {
@@ -68,12 +68,12 @@ std::string cost_verdict(const OtherCost& a, const OtherCost& b) {
     return verdict::undecided;
 }
 
-std::vector<RefusedEstimate> refused_estimates(const StudyTables& tables, const std::set<std::string>& shots,
+std::vector<RefusedEstimate> refused_estimates(const StudyResults& tables, const std::set<std::string>& shots,
                                                const std::string& cost) {
     std::vector<RefusedEstimate> found;
     for (const EstimateRow& e : tables.estimates) {
         if (e.chip != cost || e.stage != total || e.refusal.empty() || !shots.contains(e.shot)) continue;
-        const PointName point(e.variant, e.point);
+        const PointName point(e.technique, e.point);
         auto same = std::ranges::find_if(
             found, [&](const RefusedEstimate& other) { return other.point == point && other.refusal == e.refusal; });
         if (same == found.end()) same = found.insert(same, {.point = point, .refusal = e.refusal, .shots = {}});

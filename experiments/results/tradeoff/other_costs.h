@@ -1,7 +1,7 @@
 #pragma once
-#include "experiments/results/tables/counts_spread.h"
+#include "experiments/results/files/counts_spread.h"
 #include "experiments/results/verdicts/effects/over_scenes.h"
-#include "experiments/results/verdicts/study_tables.h"
+#include "experiments/results/verdicts/study_results.h"
 
 #include <map>
 #include <set>
@@ -13,7 +13,7 @@
 enum class CostKind { timed, counted, estimated };
 
 /// Of "", a quantity of costs.csv, or a chip of estimates.csv; fails with Error for what is none of these.
-CostKind cost_kind(const StudyTables& tables, const std::string& cost);
+CostKind cost_kind(const StudyResults& tables, const std::string& cost);
 
 /// A cost with what is not known of it.
 struct OtherCost {
@@ -30,7 +30,8 @@ constexpr double counts_decide_from(std::string_view quantity) { return 1 + 2 * 
 
 /// The points' costs in a shot: sums over their stages of a quantity, or a chip's estimated `total`, microseconds. None
 /// for a point whose estimate was refused.
-std::map<PointName, OtherCost> other_costs(const StudyTables& tables, const std::string& shot, const std::string& cost);
+std::map<PointName, OtherCost> other_costs(const StudyResults& tables, const std::string& shot,
+                                           const std::string& cost);
 
 /// Which costs less (verdict::less if `a` does, ...). Undecided where the intervals meet, or the values
 /// differ by less than either decides from; equal where all numbers are, as those of points with the same code and
@@ -45,5 +46,5 @@ struct RefusedEstimate {
 };
 
 /// Of the shots that are named; nothing of a cost that is no chip.
-std::vector<RefusedEstimate> refused_estimates(const StudyTables& tables, const std::set<std::string>& shots,
+std::vector<RefusedEstimate> refused_estimates(const StudyResults& tables, const std::set<std::string>& shots,
                                                const std::string& cost);

@@ -1,6 +1,6 @@
 #include "experiments/results/tradeoff/pairs.h"
 
-#include "experiments/results/tables/manifest.h"
+#include "experiments/results/files/manifest.h"
 #include "experiments/results/tradeoff/other_costs.h"
 #include "experiments/results/verdicts/standings.h"
 #include "metrics/direction.h"
@@ -16,14 +16,14 @@ namespace {
 using PairName = std::tuple<std::string, PointName, PointName>;
 using Rounds = std::map<std::pair<unsigned, unsigned>, double>;  // by seed and frame, ms
 
-PointName name_of(const MetricSummary& e) { return {e.variant, e.point}; }
+PointName name_of(const MetricSummary& e) { return {e.technique, e.point}; }
 
 /// What comparisons say, found whichever way round they are asked for.
 template <class Row>
 class Decided {
 public:
     void add(const Row& row) {
-        rows_[{row.shot, {row.variant, row.point}, {row.against_variant, row.against_point}}] = &row;
+        rows_[{row.shot, {row.technique, row.point}, {row.against_technique, row.against_point}}] = &row;
     }
     /// The row, and whether it is of b / a.
     std::pair<const Row*, bool> find(const std::string& shot, const PointName& a, const PointName& b) const {
@@ -46,15 +46,15 @@ struct Costs {
     bool is_judged = true;  ///< false of times whose noise is unknown
 };
 
-Costs costs_of(const StudyTables& tables, const std::string& shot, const std::string& cost) {
+Costs costs_of(const StudyResults& tables, const std::string& shot, const std::string& cost) {
     Costs costs;
     if (cost_kind(tables, cost) == CostKind::timed) {
         costs.is_timed = true;
         for (const TimeSummary& t : tables.times)
-            if (t.shot == shot && t.stage == "total") costs.values[{t.variant, t.point}] = {t.median, t.low, t.high};
+            if (t.shot == shot && t.stage == "total") costs.values[{t.technique, t.point}] = {t.median, t.low, t.high};
         for (const TimeRow& t : tables.rounds)
             if (t.shot == shot && t.stage == "total")
-                costs.rounds[{t.variant, t.point}][{t.seed, t.frame}] = t.milliseconds;
+                costs.rounds[{t.technique, t.point}][{t.seed, t.frame}] = t.milliseconds;
         const std::optional<double> floor = aa_floor(tables.manifest, shot);
         costs.is_judged = floor.has_value(), costs.floor = floor.value_or(0);
         costs.aa_pairs = aa_pair_count(tables.manifest, shot);
@@ -89,8 +89,8 @@ void compare_errors(OpenPair& pair, const Decided<EffectRow>& effects, const Dec
         row.error_verdict = verdict::equal;
         return;
     }
-    EffectRow asked{.shot = a.shot, .variant = a.variant, .point = a.point};
-    asked.against_variant = b.variant, asked.against_point = b.point;
+    EffectRow asked{.shot = a.shot, .technique = a.technique, .point = a.point};
+    asked.against_technique = b.technique, asked.against_point = b.point;
     asked.target = a.target, asked.metric = a.metric, asked.mask = a.mask;
     if (const auto p = standings(asked)) {
         row.error_p_holm = p->different, row.decided_by = "standings";
@@ -199,7 +199,7 @@ void set_dominance(OpenPair& pair) {
 
 }  // namespace
 
-std::vector<PairRow> pairs_of(const StudyTables& tables, const PrimaryComparisons& error, const std::string& cost) {
+std::vector<PairRow> pairs_of(const StudyResults& tables, const PrimaryComparisons& error, const std::string& cost) {
     const auto is_of_error = [&](const auto& row) {
         return row.target == error.target && row.metric == error.metric && row.mask == error.mask;
     };
@@ -224,9 +224,9 @@ std::vector<PairRow> pairs_of(const StudyTables& tables, const PrimaryComparison
         for (size_t i = 0; i < points.size(); ++i)
             for (size_t k = i + 1; k < points.size(); ++k) {
                 OpenPair& pair = pairs.emplace_back(OpenPair{.row = {.shot = shot,
-                                                                     .variant = points[i]->variant,
+                                                                     .technique = points[i]->technique,
                                                                      .point = points[i]->point,
-                                                                     .other_variant = points[k]->variant,
+                                                                     .other_technique = points[k]->technique,
                                                                      .other_point = points[k]->point},
                                                              .a = points[i],
                                                              .b = points[k]});
@@ -244,11 +244,12 @@ std::vector<PairRow> pairs_of(const StudyTables& tables, const PrimaryComparison
     return rows;
 }
 
-void set_dominated(StudyTables& tables, const PrimaryComparisons& primary) {
+void set_dominated(StudyResults& tables, const PrimaryComparisons& primary) {
     std::set<std::string> metrics;
     for (const MetricSummary& e : tables.errors)
         if (e.mask == primary.mask && e.target == primary.target && !e.standing.empty()) metrics.insert(e.metric);
-    using PointOfShot = std::tuple<std::string, std::string, std::string, std::string>;  // metric, shot, variant, point
+    using PointOfShot =
+        std::tuple<std::string, std::string, std::string, std::string>;  // metric, shot, technique, point
     std::map<PointOfShot, std::string> found;
     const auto note = [&](PointOfShot point, const std::string& says) {
         std::string& worst = found[std::move(point)];
@@ -257,11 +258,11 @@ void set_dominated(StudyTables& tables, const PrimaryComparisons& primary) {
     for (const std::string& metric : metrics)
         for (const PairRow& pair : pairs_of(tables, {metric, primary.mask, primary.target})) {
             if (pair.dominates.empty()) continue;
-            note({metric, pair.shot, pair.variant, pair.point}, pair.is_dominated);
-            note({metric, pair.shot, pair.other_variant, pair.other_point}, pair.dominates);
+            note({metric, pair.shot, pair.technique, pair.point}, pair.is_dominated);
+            note({metric, pair.shot, pair.other_technique, pair.other_point}, pair.dominates);
         }
     for (MetricSummary& e : tables.errors) {
-        const auto own = found.find({e.metric, e.shot, e.variant, e.point});
+        const auto own = found.find({e.metric, e.shot, e.technique, e.point});
         const bool is_asked = e.mask == primary.mask && e.target == primary.target && !e.standing.empty();
         e.dominated = is_asked && own != found.end() ? own->second : "";
     }

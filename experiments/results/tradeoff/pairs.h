@@ -1,12 +1,12 @@
 #pragma once
 #include "experiments/results/verdicts/effects/over_scenes.h"
-#include "experiments/results/verdicts/study_tables.h"
+#include "experiments/results/verdicts/study_results.h"
 
 #include <string>
 
 /// Two points of a shot by one error and one cost: which errs less, which costs less, and whether one dominates.
 struct PairRow {
-    std::string shot, variant, point, other_variant, other_point;
+    std::string shot, technique, point, other_technique, other_point;
     std::optional<double> error_p_holm;   ///< of "both err alike", adjusted; none where they are equal
     std::string error_verdict;            ///< verdict::less if the point errs less, ...
     std::string decided_by;               ///< whose family the p is adjusted for: "standings", "effects" or "pairs"
@@ -15,8 +15,8 @@ struct PairRow {
     std::string dominates, is_dominated;  ///< "yes", "maybe" or "no"; empty without costs
 
     static constexpr auto columns() {
-        return std::tuple(Column{"shot", &PairRow::shot}, Column{"variant", &PairRow::variant},
-                          Column{"point", &PairRow::point}, Column{"other_variant", &PairRow::other_variant},
+        return std::tuple(Column{"shot", &PairRow::shot}, Column{"technique", &PairRow::technique},
+                          Column{"point", &PairRow::point}, Column{"other_technique", &PairRow::other_technique},
                           Column{"other_point", &PairRow::other_point}, Column{"error_p_holm", &PairRow::error_p_holm},
                           Column{"error_verdict", &PairRow::error_verdict}, Column{"decided_by", &PairRow::decided_by},
                           Column{"cost_p_holm", &PairRow::cost_p_holm}, Column{"cost_verdict", &PairRow::cost_verdict},
@@ -36,9 +36,10 @@ struct PairRow {
 ///
 /// A point dominates another that errs more and costs no less, or costs more and errs no less: each of them certain. It
 /// may dominate where neither its cost nor its error is certainly the larger one.
-std::vector<PairRow> pairs_of(const StudyTables& tables, const PrimaryComparisons& error, const std::string& cost = "");
+std::vector<PairRow> pairs_of(const StudyResults& tables, const PrimaryComparisons& error,
+                              const std::string& cost = "");
 
 /// Sets MetricSummary::dominated of all errors with the mask and the target of `primary`: "yes" where some other point
 /// of the shot dominates the point by the error and by time (PairRow::is_dominated), else "maybe" where one may, else
 /// "no"; empty where the point is not ranked, or was not timed.
-void set_dominated(StudyTables& tables, const PrimaryComparisons& primary);
+void set_dominated(StudyResults& tables, const PrimaryComparisons& primary);

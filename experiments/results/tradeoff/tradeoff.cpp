@@ -52,7 +52,7 @@ std::string label_of(const Labels& labels, const PointName& name) {
 }
 
 /// The shots that have such an error, with all their points.
-std::vector<TradeoffShot> shots_of(const StudyTables& tables, const TradeoffQuestion& question, const Labels& labels) {
+std::vector<TradeoffShot> shots_of(const StudyResults& tables, const TradeoffQuestion& question, const Labels& labels) {
     std::vector<TradeoffShot> shots;
     for (const MetricSummary& e : tables.errors) {
         if (!e.represents_shot || !e.value || e.target != question.error.target || e.metric != question.error.metric ||
@@ -67,8 +67,8 @@ std::vector<TradeoffShot> shots_of(const StudyTables& tables, const TradeoffQues
                                                    .group = entry_of(tables.manifest, e.shot).value("group", "")});
         }
         TradeoffPoint& p = shot->points.emplace_back(TradeoffPoint{.error = &e});
-        p.row = {.shot = e.shot, .scene = shot->scene, .variant = e.variant, .point = e.point};
-        p.row.label = label_of(labels, {e.variant, e.point});
+        p.row = {.shot = e.shot, .scene = shot->scene, .technique = e.technique, .point = e.point};
+        p.row.label = label_of(labels, {e.technique, e.point});
         p.row.error = e.value, p.row.error_low = e.low, p.row.error_high = e.high;
     }
     return shots;
@@ -99,7 +99,7 @@ std::string unit_of(CostKind kind, const std::string& cost) {
 }
 
 /// Costs and machines.
-void add_costs(std::vector<TradeoffShot>& shots, const StudyTables& tables, const std::string& cost) {
+void add_costs(std::vector<TradeoffShot>& shots, const StudyResults& tables, const std::string& cost) {
     std::map<std::string, std::string> machines = machines_of(tables.manifest);
     const CostKind kind = cost_kind(tables, cost);
     const bool is_timed = kind == CostKind::timed;
@@ -115,7 +115,8 @@ void add_costs(std::vector<TradeoffShot>& shots, const StudyTables& tables, cons
                 p.fits_from = other->second.fits_from, p.may_fit_from = other->second.may_fit_from;
             }
             for (const TimeSummary& t : tables.times) {
-                if (!is_timed || t.shot != shot.name || t.stage != "total" || PointName(t.variant, t.point) != p.name())
+                if (!is_timed || t.shot != shot.name || t.stage != "total" ||
+                    PointName(t.technique, t.point) != p.name())
                     continue;
                 p.row.cost = t.median, p.row.cost_low = t.low, p.row.cost_high = t.high;
                 p.fits_from = t.fits_from, p.may_fit_from = t.may_fit_from, clock = t.clock;
@@ -178,7 +179,7 @@ using LessErrors = std::set<std::tuple<std::string, PointName, PointName>>;  // 
 
 /// Shots that are certainly won, and shared.
 void count_wins(AcrossRow& row, const Contest& contest, const LessErrors& less) {
-    const PointName own(row.variant, row.point);
+    const PointName own(row.technique, row.point);
     for (size_t i = 0; i < contest.shots.size(); ++i) {
         const auto& here = contest.stands_for[i];
         if (!here.contains(own)) continue;
@@ -234,7 +235,7 @@ std::vector<AcrossRow> across_points(const std::vector<TradeoffShot>& shots, dou
 std::vector<AcrossRow> across_at(const std::string& machine, double cost, const std::vector<TradeoffShot>& shots,
                                  const std::vector<ChosenPoint>& chosen, double margin, const LessErrors& less) {
     Contest contest;
-    std::map<std::string, std::set<std::string>> fitting;  // variant to assets
+    std::map<std::string, std::set<std::string>> fitting;  // technique to assets
     bool is_timed = false;
     for (const TradeoffShot& shot : shots) {
         if (shot.machine != machine) continue;
@@ -242,15 +243,15 @@ std::vector<AcrossRow> across_at(const std::string& machine, double cost, const 
         std::map<PointName, PointName>& here = contest.stands_for.emplace_back();
         for (const ChosenPoint& c : chosen) {
             if (c.shot != shot.name || c.cost != cost || c.point.empty()) continue;
-            here[{c.variant, ""}] = {c.variant, c.point};
-            if (c.fits == "surely") fitting[c.variant].insert(shot.asset);
+            here[{c.technique, ""}] = {c.technique, c.point};
+            if (c.fits == "surely") fitting[c.technique].insert(shot.asset);
         }
         is_timed |= shot.is_timed();
     }
     std::vector<AcrossRow> rows = across_of(contest, 0, margin, less);
     for (AcrossRow& row : rows) {
-        row.machine = machine, row.cost = number_text(cost, 9), row.label = row.variant;
-        if (is_timed) row.scenes_that_fit = double(fitting[row.variant].size());
+        row.machine = machine, row.cost = number_text(cost, 9), row.label = row.technique;
+        if (is_timed) row.scenes_that_fit = double(fitting[row.technique].size());
     }
     return rows;
 }
@@ -271,8 +272,8 @@ PointName baseline_named(const std::string& text, const json& manifest) {
     const size_t colon = text.find(':');
     const PointName asked(text.substr(0, colon), colon == std::string::npos ? "default" : text.substr(colon + 1));
     std::string known;
-    for (const json& v : manifest.value("variants", json::array())) {
-        const PointName name(v.value("variant", ""), v.value("point", ""));
+    for (const json& v : manifest.value("techniques", json::array())) {
+        const PointName name(v.value("technique", ""), v.value("point", ""));
         if (name == asked) return asked;
         known += (known.empty() ? "" : ", ") + name.first + ":" + name.second;
     }
@@ -281,7 +282,7 @@ PointName baseline_named(const std::string& text, const json& manifest) {
 
 }  // namespace
 
-Tradeoff tradeoff_of(const StudyTables& tables, const TradeoffQuestion& question) {
+Tradeoff tradeoff_of(const StudyResults& tables, const TradeoffQuestion& question) {
     const Labels labels = point_labels(tables.manifest);
     std::vector<TradeoffShot> shots = shots_of(tables, question, labels);
     leave_out(shots, question.left_out);
@@ -304,7 +305,7 @@ Tradeoff tradeoff_of(const StudyTables& tables, const TradeoffQuestion& question
     LessErrors less;
     for (PairRow& pair : pairs_of(tables, question.error, question.cost)) {
         if (std::ranges::count(shots, pair.shot, &TradeoffShot::name) == 0) continue;
-        const PointName a(pair.variant, pair.point), b(pair.other_variant, pair.other_point);
+        const PointName a(pair.technique, pair.point), b(pair.other_technique, pair.other_point);
         dominates[pair.shot][{a, b}] = pair.dominates, dominates[pair.shot][{b, a}] = pair.is_dominated;
         if (pair.error_verdict == verdict::less) less.insert({pair.shot, a, b});
         if (pair.error_verdict == verdict::more) less.insert({pair.shot, b, a});
@@ -325,8 +326,9 @@ Tradeoff tradeoff_of(const StudyTables& tables, const TradeoffQuestion& question
         // Frozen points need no times.
         if (!shot.is_timed() && frozen.empty()) continue;
         if (std::ranges::count(machines, shot.machine) == 0) machines.push_back(shot.machine);
-        for (const std::string& variant : shot.variants())
-            for (const double cost : question.costs) found.chosen.push_back(choose(shot, variant, cost, shots, frozen));
+        for (const std::string& technique : shot.techniques())
+            for (const double cost : question.costs)
+                found.chosen.push_back(choose(shot, technique, cost, shots, frozen));
     }
     for (const std::string& machine : machines)
         for (const double cost : question.costs)
@@ -335,7 +337,7 @@ Tradeoff tradeoff_of(const StudyTables& tables, const TradeoffQuestion& question
         std::vector<TradeoffShot> of_group = shots;
         if (!group.empty()) std::erase_if(of_group, [&](const TradeoffShot& shot) { return shot.group != group; });
         std::vector<AcrossRow> rows = across_points(of_group, question.error.margin, less);
-        for (AcrossRow& row : rows) row.label = label_of(labels, {row.variant, row.point});
+        for (AcrossRow& row : rows) row.label = label_of(labels, {row.technique, row.point});
         for (const std::string& machine : machines)
             for (const double cost : question.costs)
                 std::ranges::move(across_at(machine, cost, of_group, found.chosen, question.error.margin, less),

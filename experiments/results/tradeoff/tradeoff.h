@@ -9,7 +9,7 @@ inline constexpr const char* unit_of_times = "ms";
 struct TradeoffQuestion {
     PrimaryComparisons error;
     std::string cost;      ///< see cost_kind(); "": the median total of a technique's own stages, ms
-    std::string baseline;  ///< VARIANT:POINT; "": baseline_over_scenes()
+    std::string baseline;  ///< TECHNIQUE:POINT; "": baseline_over_scenes()
     std::vector<double> costs;
     std::vector<std::string> left_out;  ///< scenes or shots
 };
@@ -17,7 +17,7 @@ struct TradeoffQuestion {
 /// A point of a shot with its error, its cost, and its place on the front of both.
 struct FrontRow {
     std::string shot, scene, machine;  ///< the last: what costs must have in common to be compared
-    std::string variant, point, label;
+    std::string technique, point, label;
     std::optional<double> error, error_low, error_high, cost, cost_low, cost_high;
     std::string unit;
     bool is_nominal_front = false;             ///< no other judged point has both less cost and less error
@@ -26,7 +26,7 @@ struct FrontRow {
 
     static constexpr auto columns() {
         return std::tuple(Column{"shot", &FrontRow::shot}, Column{"scene", &FrontRow::scene},
-                          Column{"machine", &FrontRow::machine}, Column{"variant", &FrontRow::variant},
+                          Column{"machine", &FrontRow::machine}, Column{"technique", &FrontRow::technique},
                           Column{"point", &FrontRow::point}, Column{"label", &FrontRow::label},
                           Column{"error", &FrontRow::error}, Column{"error_low", &FrontRow::error_low},
                           Column{"error_high", &FrontRow::error_high}, Column{"cost", &FrontRow::cost},
@@ -37,8 +37,8 @@ struct FrontRow {
     }
 };
 
-/// What holds over the scenes of points, or of variants at a cost, each at its ChosenPoint; of the shots of one machine
-/// where costs count.
+/// What holds over the scenes of points, or of techniques at a cost, each at its ChosenPoint; of the shots of one
+/// machine where costs count.
 struct AcrossRow : OverScenes {
     std::string group;  ///< of shots, as the study groups them; "": all
     std::string machine;
@@ -54,15 +54,16 @@ struct AcrossRow : OverScenes {
     static constexpr auto columns() {
         return std::tuple(
             Column{"group", &AcrossRow::group}, Column{"machine", &AcrossRow::machine},
-            Column{"cost", &AcrossRow::cost}, Column{"unit", &AcrossRow::unit}, Column{"variant", &AcrossRow::variant},
-            Column{"point", &AcrossRow::point}, Column{"label", &AcrossRow::label},
-            Column{"baseline", &AcrossRow::baseline}, Column{"scenes", &AcrossRow::scenes},
-            Column{"of_scenes", &AcrossRow::of_scenes}, Column{"shots", &AcrossRow::shots},
-            Column{"ratio", &AcrossRow::ratio}, Column{"low", &AcrossRow::low}, Column{"high", &AcrossRow::high},
-            Column{"bootstrap_low", &AcrossRow::bootstrap_low}, Column{"bootstrap_high", &AcrossRow::bootstrap_high},
-            Column{"median", &AcrossRow::median}, Column{"median_low", &AcrossRow::median_low},
-            Column{"median_high", &AcrossRow::median_high}, Column{"scenes_that_fit", &AcrossRow::scenes_that_fit},
-            Column{"wins", &AcrossRow::wins}, Column{"shared", &AcrossRow::shared}, Column{"rank", &AcrossRow::rank},
+            Column{"cost", &AcrossRow::cost}, Column{"unit", &AcrossRow::unit},
+            Column{"technique", &AcrossRow::technique}, Column{"point", &AcrossRow::point},
+            Column{"label", &AcrossRow::label}, Column{"baseline", &AcrossRow::baseline},
+            Column{"scenes", &AcrossRow::scenes}, Column{"of_scenes", &AcrossRow::of_scenes},
+            Column{"shots", &AcrossRow::shots}, Column{"ratio", &AcrossRow::ratio}, Column{"low", &AcrossRow::low},
+            Column{"high", &AcrossRow::high}, Column{"bootstrap_low", &AcrossRow::bootstrap_low},
+            Column{"bootstrap_high", &AcrossRow::bootstrap_high}, Column{"median", &AcrossRow::median},
+            Column{"median_low", &AcrossRow::median_low}, Column{"median_high", &AcrossRow::median_high},
+            Column{"scenes_that_fit", &AcrossRow::scenes_that_fit}, Column{"wins", &AcrossRow::wins},
+            Column{"shared", &AcrossRow::shared}, Column{"rank", &AcrossRow::rank},
             Column{"rank_low", &AcrossRow::rank_low}, Column{"rank_high", &AcrossRow::rank_high},
             Column{"against_best", &AcrossRow::over_best}, Column{"against_best_low", &AcrossRow::over_best_low},
             Column{"against_best_high", &AcrossRow::over_best_high}, Column{"p_holm", &AcrossRow::p_holm},
@@ -80,7 +81,7 @@ struct AcrossRow : OverScenes {
 struct ChangeRow {
     std::string shot;  ///< empty: over scenes
     size_t scenes = 1;
-    std::string machine, variant, point, label, against_variant, against_point, change;
+    std::string machine, technique, point, label, against_technique, against_point, change;
     double error_ratio = 1;
     std::optional<double> error_low, error_high;
     double cost = 0;  ///< by how much the point costs more
@@ -92,9 +93,9 @@ struct ChangeRow {
 
     static constexpr auto columns() {
         return std::tuple(Column{"shot", &ChangeRow::shot}, Column{"scenes", &ChangeRow::scenes},
-                          Column{"machine", &ChangeRow::machine}, Column{"variant", &ChangeRow::variant},
+                          Column{"machine", &ChangeRow::machine}, Column{"technique", &ChangeRow::technique},
                           Column{"point", &ChangeRow::point}, Column{"label", &ChangeRow::label},
-                          Column{"against_variant", &ChangeRow::against_variant},
+                          Column{"against_technique", &ChangeRow::against_technique},
                           Column{"against_point", &ChangeRow::against_point}, Column{"change", &ChangeRow::change},
                           Column{"error_ratio", &ChangeRow::error_ratio}, Column{"error_low", &ChangeRow::error_low},
                           Column{"error_high", &ChangeRow::error_high}, Column{"cost", &ChangeRow::cost},
@@ -109,7 +110,7 @@ struct ChangeRow {
 /// All changes of one parameter among the compared points (effects.csv) that have costs, as `front` has them; `unit`:
 /// FrontRow's; `cost`: see cost_kind(). Estimates that are closer than model_decides_from in a shot differ
 /// significantly neither there nor over scenes.
-std::vector<ChangeRow> changes_of(const StudyTables& tables, const PrimaryComparisons& error,
+std::vector<ChangeRow> changes_of(const StudyResults& tables, const PrimaryComparisons& error,
                                   std::span<const FrontRow> front, const std::string& unit,
                                   const std::string& cost = "");
 
@@ -129,4 +130,4 @@ struct Tradeoff {
 };
 
 /// Fails with Error where the study has no such error, cost, baseline, shot or scene.
-Tradeoff tradeoff_of(const StudyTables& tables, const TradeoffQuestion& question);
+Tradeoff tradeoff_of(const StudyResults& tables, const TradeoffQuestion& question);

@@ -4,8 +4,8 @@
 #include "core/list_text.h"
 #include "core/number_text.h"
 #include "experiments/gpu_costs/chips/model_range.h"
-#include "experiments/results/tables/counts_spread.h"
-#include "experiments/results/tables/markdown.h"
+#include "experiments/results/files/counts_spread.h"
+#include "experiments/results/files/markdown.h"
 #include "experiments/results/tradeoff/answer_context.h"
 #include "experiments/results/verdicts/study_points.h"
 
@@ -122,7 +122,7 @@ struct HeadAndChanges : AnswerContext {
 
     using ChangeKey = std::tuple<std::string, std::string, std::string, std::string>;
     static ChangeKey change_key(const ChangeRow* row) {
-        return {row->variant, row->point, row->against_variant, row->against_point};
+        return {row->technique, row->point, row->against_technique, row->against_point};
     }
 
     std::string stages() const {
@@ -154,7 +154,7 @@ struct HeadAndChanges : AnswerContext {
         const auto percent = [](const Number& ratio) { return ratio ? Number(100 * (*ratio - 1)) : Number(); };
         std::vector<Names> cells;
         for (const ChangeRow* row : rows)
-            cells.push_back({label_of({row->against_variant, row->against_point}) + ": " + row->change,
+            cells.push_back({label_of({row->against_technique, row->against_point}) + ": " + row->change,
                              first == "shot" ? shot_of(row->shot).label : std::to_string(row->scenes),
                              measured(percent(row->error_ratio), percent(row->error_low), percent(row->error_high)),
                              measured(row->cost, row->cost_low, row->cost_high), row->verdict,
@@ -178,7 +178,7 @@ std::string measured(const Number& value, const Number& low, const Number& high)
     return shown_number(value) + " [" + shown_number(low) + ", " + (high ? shown_number(high) : "...") + "]";
 }
 
-AnswerContext::AnswerContext(const StudyTables& tables, const PrimaryComparisons& error, const Tradeoff& found,
+AnswerContext::AnswerContext(const StudyResults& tables, const PrimaryComparisons& error, const Tradeoff& found,
                              const BetweenPoints& between, const std::vector<double>& costs,
                              const std::vector<double>& factors)
     : manifest(tables.manifest),
@@ -207,7 +207,7 @@ const MeasuredShot& AnswerContext::shot_of(const std::string& name) const {
     return **std::ranges::find(between.shots, name, [](const auto& shot) { return shot->name; });
 }
 
-std::string tradeoff_answers(const StudyTables& tables, const PrimaryComparisons& error, const Tradeoff& found,
+std::string tradeoff_answers(const StudyResults& tables, const PrimaryComparisons& error, const Tradeoff& found,
                              const BetweenPoints& between, const std::vector<double>& costs,
                              const std::vector<double>& factors) {
     const AnswerContext context(tables, error, found, between, costs, factors);

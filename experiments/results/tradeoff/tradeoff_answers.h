@@ -3,6 +3,6 @@
 
 /// What `ssrlab tradeoff` found, as sentences and tables in Markdown: answers.md. `costs`, in ascending order, and
 /// `factors`, in descending order: what was asked for.
-std::string tradeoff_answers(const StudyTables& tables, const PrimaryComparisons& error, const Tradeoff& found,
+std::string tradeoff_answers(const StudyResults& tables, const PrimaryComparisons& error, const Tradeoff& found,
                              const BetweenPoints& between, const std::vector<double>& costs,
                              const std::vector<double>& factors);

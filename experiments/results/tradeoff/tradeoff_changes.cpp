@@ -115,7 +115,7 @@ std::vector<bool> judged_together(std::vector<MeanOverScenes*> means) {
 std::vector<Change> pooled(const std::vector<Change>& changes) {
     const auto same = [](const Change& a, const Change& b) {
         const auto name = [](const ChangeRow& r) {
-            return std::tie(r.machine, r.variant, r.point, r.against_variant, r.against_point, r.change);
+            return std::tie(r.machine, r.technique, r.point, r.against_technique, r.against_point, r.change);
         };
         return name(a.row) == name(b.row);
     };
@@ -167,21 +167,21 @@ std::vector<Change> pooled(const std::vector<Change>& changes) {
 
 }  // namespace
 
-std::vector<ChangeRow> changes_of(const StudyTables& tables, const PrimaryComparisons& error,
+std::vector<ChangeRow> changes_of(const StudyResults& tables, const PrimaryComparisons& error,
                                   std::span<const FrontRow> front, const std::string& unit,
                                   const std::string& cost_name) {
-    using Name = std::tuple<std::string, std::string, std::string>;  // shot, variant, point
+    using Name = std::tuple<std::string, std::string, std::string>;  // shot, technique, point
     using PairName = std::pair<Name, Name>;
     std::map<Name, const FrontRow*> points;
-    for (const FrontRow& p : front) points[{p.shot, p.variant, p.point}] = &p;
+    for (const FrontRow& p : front) points[{p.shot, p.technique, p.point}] = &p;
     std::map<PointName, json> parameters;
-    for (const json& v : tables.manifest.value("variants", json::array()))
-        parameters[{v.value("variant", ""), v.value("point", "")}] = v.value("parameters", json::object());
+    for (const json& v : tables.manifest.value("techniques", json::array()))
+        parameters[{v.value("technique", ""), v.value("point", "")}] = v.value("parameters", json::object());
     std::map<PairName, const TimeEffectRow*> time_effects;
     if (unit == unit_of_times)
         for (const TimeEffectRow& t : tables.time_effects)
             if (t.stage == "total")
-                time_effects[{{t.shot, t.variant, t.point}, {t.shot, t.against_variant, t.against_point}}] = &t;
+                time_effects[{{t.shot, t.technique, t.point}, {t.shot, t.against_technique, t.against_point}}] = &t;
     const Deviates normal = deviates_of(normal_quantile);
     const CostKind kind = cost_kind(tables, cost_name);
     std::map<std::string, std::map<PointName, OtherCost>> others;  // by shot
@@ -192,14 +192,14 @@ std::vector<ChangeRow> changes_of(const StudyTables& tables, const PrimaryCompar
     std::vector<Change> changes;
     std::set<PairName> known;
     for (const EffectRow& e : tables.effects) {
-        const PairName names = {{e.shot, e.variant, e.point}, {e.shot, e.against_variant, e.against_point}};
+        const PairName names = {{e.shot, e.technique, e.point}, {e.shot, e.against_technique, e.against_point}};
         const auto b = points.find(names.first), a = points.find(names.second);
         if (e.target != error.target || e.metric != error.metric || e.mask != error.mask || !e.ratio || !e.low_holm ||
-            !e.high_holm || !(*e.ratio > 0) || e.variant != e.against_variant || a == points.end() ||
+            !e.high_holm || !(*e.ratio > 0) || e.technique != e.against_technique || a == points.end() ||
             b == points.end() || !(a->second->cost.value_or(0) > 0) || !(b->second->cost.value_or(0) > 0))
             continue;
         const std::string text =
-            change_between(parameters[{e.against_variant, e.against_point}], parameters[{e.variant, e.point}]);
+            change_between(parameters[{e.against_technique, e.against_point}], parameters[{e.technique, e.point}]);
         if (text.empty() || !known.insert(names).second) continue;
         const FrontRow& of = *b->second;
         const FrontRow& before = *a->second;
@@ -209,16 +209,16 @@ std::vector<ChangeRow> changes_of(const StudyTables& tables, const PrimaryCompar
         change.is_error_significant = e.verdict == verdict::less || e.verdict == verdict::more;
         ChangeRow& row = change.row;
         row.shot = e.shot, row.machine = of.machine, row.unit = unit, row.change = text;
-        row.variant = e.variant, row.point = e.point, row.label = of.label;
-        row.against_variant = e.against_variant, row.against_point = e.against_point;
+        row.technique = e.technique, row.point = e.point, row.label = of.label;
+        row.against_technique = e.against_technique, row.against_point = e.against_point;
         row.error_ratio = *e.ratio, row.error_low = *e.low_holm, row.error_high = *e.high_holm;
         row.cost_low = row.cost_high = row.cost = (exact - 1) * cost;
         change.is_cost_significant = exact != 1;
         if (kind != CostKind::timed && before.cost_low && of.cost_low) {
             row.cost = *of.cost - cost;
             row.cost_low = *of.cost_low - *before.cost_high, row.cost_high = *of.cost_high - *before.cost_low;
-            const std::string decided = cost_verdict(others[e.shot].at({e.variant, e.point}),
-                                                     others[e.shot].at({e.against_variant, e.against_point}));
+            const std::string decided = cost_verdict(others[e.shot].at({e.technique, e.point}),
+                                                     others[e.shot].at({e.against_technique, e.against_point}));
             change.is_cost_significant = decided == verdict::less || decided == verdict::more;
             change.may_differ_over_scenes = kind == CostKind::counted || change.is_cost_significant;
         }

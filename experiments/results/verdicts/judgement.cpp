@@ -16,7 +16,7 @@ std::map<std::string, const EffectRow*> rows_of_shots(std::span<const EffectRow>
                                                       const PointName& against) {
     std::map<std::string, const EffectRow*> rows;
     for (const EffectRow& r : effects) {
-        if (PointName(r.variant, r.point) != point || PointName(r.against_variant, r.against_point) != against ||
+        if (PointName(r.technique, r.point) != point || PointName(r.against_technique, r.against_point) != against ||
             r.metric != primary.metric || r.mask != primary.mask || r.target != primary.target)
             continue;
         const EffectRow*& kept = rows[r.shot];
@@ -75,7 +75,7 @@ bool measure_alike(std::span<const ResultRow> rows, const PointName& point, cons
     std::map<Place, std::optional<double>> own, other;
     bool has_value = false;
     for (const ResultRow& r : rows) {
-        const PointName name(r.variant, r.point);
+        const PointName name(r.technique, r.point);
         if (name != point && name != against) continue;
         (name == point ? own : other)[{r.shot, r.frame, r.seed, r.target, r.metric, r.mask}] = r.value;
         has_value = has_value || r.value;

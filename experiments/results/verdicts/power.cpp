@@ -54,7 +54,7 @@ std::vector<NamedRatio> pairs_over_scenes(std::span<const OverScenesRow* const> 
     for (const OverScenesRow* row : rows) {
         const double scenes = double(row->scenes), degrees = rows.size() > 2 ? scenes - 1 + pooled_degrees : scenes - 2;
         if (row->scenes >= least_scenes && has_ratio_interval(row->over_best_low, row->over_best_high))
-            pairs.push_back({{row->variant, row->point}, {*row->over_best_low, *row->over_best_high, degrees}});
+            pairs.push_back({{row->technique, row->point}, {*row->over_best_low, *row->over_best_high, degrees}});
     }
     return pairs;
 }
@@ -103,7 +103,7 @@ std::optional<VisibleDifference> visible_in_shot(std::span<const MetricSummary* 
     for (const MetricSummary* e : points)
         if (has_ratio_interval(e->over_best_low, e->over_best_high))
             pairs.push_back(
-                {{e->variant, e->point}, {*e->over_best_low, *e->over_best_high, double(e->seed_degrees())}});
+                {{e->technique, e->point}, {*e->over_best_low, *e->over_best_high, double(e->seed_degrees())}});
     return visible_of_pairs(pairs, comparisons);
 }
 

@@ -26,8 +26,8 @@ double half_width(const MetricSummary& e, Better better, bool is_worse_side) {
 /// Sets over_best where the pair has a ratio.
 PairP compare(MetricSummary& e, const MetricSummary& best, const PairedErrors& paired, double margin) {
     if (paired) {
-        EffectRow asked{.shot = e.shot, .variant = e.variant, .point = e.point};
-        asked.against_variant = best.variant, asked.against_point = best.point;
+        EffectRow asked{.shot = e.shot, .technique = e.technique, .point = e.point};
+        asked.against_technique = best.technique, asked.against_point = best.point;
         asked.target = e.target, asked.metric = e.metric, asked.mask = e.mask;
         if (const auto effect = paired(asked); effect && effect->p) {
             e.over_best = effect->ratio, e.over_best_low = effect->low, e.over_best_high = effect->high;
@@ -84,7 +84,7 @@ void rank(const std::vector<Contest>& family, const PairedErrors& paired, double
     for (const Contest& points : family) set_standing(points);
 }
 
-using Totals = std::map<std::tuple<std::string, std::string, std::string>, double>;  // by shot, variant, point
+using Totals = std::map<std::tuple<std::string, std::string, std::string>, double>;  // by shot, technique, point
 
 /// Adds `cost` to the fronts of the rows that no other beats in both.
 void add_front(std::span<MetricSummary> errors, const std::string& cost, const Totals& totals) {
@@ -92,7 +92,8 @@ void add_front(std::span<MetricSummary> errors, const std::string& cost, const T
              std::vector<std::tuple<double, double, MetricSummary*>>>
         contests;
     for (MetricSummary& e : errors)
-        if (const auto total = totals.find({e.shot, e.variant, e.point}); !e.standing.empty() && total != totals.end())
+        if (const auto total = totals.find({e.shot, e.technique, e.point});
+            !e.standing.empty() && total != totals.end())
             contests[{e.shot, e.target, e.metric, e.mask}].push_back(
                 {total->second, shortfall(*direction_of(e.metric), *e.value), &e});
     for (auto& [name, points] : contests) {
@@ -127,14 +128,14 @@ PairP p_by_intervals(const MetricSummary& a, const MetricSummary& b, double marg
 void set_fronts(std::span<MetricSummary> errors, std::span<const TimeSummary> times, std::span<const CostRow> counts) {
     std::map<std::string, Totals> costs;
     for (const TimeSummary& t : times)
-        if (t.stage == "total") costs[front::time][{t.shot, t.variant, t.point}] = t.median;
+        if (t.stage == "total") costs[front::time][{t.shot, t.technique, t.point}] = t.median;
     const std::map<std::string, std::string> cost_of = {{"fetches", front::fetches},
                                                         {"bytes_read", front::bytes},
                                                         {"bytes_written", front::bytes},
                                                         {"operations", front::operations}};
     for (const CostRow& c : counts)
         if (const auto cost = cost_of.find(c.quantity); cost != cost_of.end() && c.stage == "total")
-            costs[cost->second][{c.shot, c.variant, c.point}] += double(c.value);
+            costs[cost->second][{c.shot, c.technique, c.point}] += double(c.value);
     for (MetricSummary& e : errors) e.fronts.clear();
     for (const char* cost : {front::time, front::fetches, front::bytes, front::operations})
         add_front(errors, cost, costs[cost]);
@@ -152,23 +153,23 @@ void set_standings(std::span<MetricSummary> errors, const PairedErrors& paired, 
         e.standing.clear();
         e.over_best = e.over_best_low = e.over_best_high = e.p_best = e.p_equivalent = std::nullopt;
         if (e.represents_shot && e.holds_all_noise && e.value && e.low && e.high && direction_of(e.metric) &&
-            !without_part.contains({e.variant, e.point}))
+            !without_part.contains({e.technique, e.point}))
             ranked.push_back(&e);
     }
     for (const auto& [error, family] : contests_of(ranked)) rank(family, paired, margin);
 }
 
 void match_effects(std::span<MetricSummary> errors, std::span<const EffectRow> effects) {
-    using Name = std::array<std::string, 6>;  // shot, target, metric, mask, variant, point
+    using Name = std::array<std::string, 6>;  // shot, target, metric, mask, technique, point
     std::map<Name, MetricSummary*> by_name;
     std::vector<MetricSummary*> ranked;
     for (MetricSummary& e : errors)
         if (!e.standing.empty())
-            by_name[{e.shot, e.target, e.metric, e.mask, e.variant, e.point}] = &e, ranked.push_back(&e);
+            by_name[{e.shot, e.target, e.metric, e.mask, e.technique, e.point}] = &e, ranked.push_back(&e);
     for (const EffectRow& e : effects) {
         if (!e.p_holm) continue;
-        const auto a = by_name.find({e.shot, e.target, e.metric, e.mask, e.variant, e.point}),
-                   b = by_name.find({e.shot, e.target, e.metric, e.mask, e.against_variant, e.against_point});
+        const auto a = by_name.find({e.shot, e.target, e.metric, e.mask, e.technique, e.point}),
+                   b = by_name.find({e.shot, e.target, e.metric, e.mask, e.against_technique, e.against_point});
         if (a == by_name.end() || b == by_name.end() || bool(a->second->p_best) == bool(b->second->p_best)) continue;
         MetricSummary& behind = *(a->second->p_best ? a : b)->second;
         behind.p_best = std::max(*behind.p_best, *e.p_holm);
@@ -182,10 +183,10 @@ DecidedPair decided_by_standings(std::span<const MetricSummary> errors) {
     using Name = std::tuple<std::string, std::string, std::string, std::string, std::string, std::string>;
     std::map<Name, const MetricSummary*> ranked;
     for (const MetricSummary& e : errors)
-        if (!e.standing.empty()) ranked[{e.shot, e.target, e.metric, e.mask, e.variant, e.point}] = &e;
+        if (!e.standing.empty()) ranked[{e.shot, e.target, e.metric, e.mask, e.technique, e.point}] = &e;
     return [ranked](const EffectRow& e) -> std::optional<PairP> {
-        const auto a = ranked.find({e.shot, e.target, e.metric, e.mask, e.variant, e.point}),
-                   b = ranked.find({e.shot, e.target, e.metric, e.mask, e.against_variant, e.against_point});
+        const auto a = ranked.find({e.shot, e.target, e.metric, e.mask, e.technique, e.point}),
+                   b = ranked.find({e.shot, e.target, e.metric, e.mask, e.against_technique, e.against_point});
         if (a == ranked.end() || b == ranked.end()) return {};
         // The best measured one is compared with none, and has no p.
         if (bool(a->second->p_best) == bool(b->second->p_best)) return {};

@@ -3,7 +3,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "experiments/results/evaluation.h"
-#include "experiments/results/tables/manifest.h"
+#include "experiments/results/files/manifest.h"
 #include "experiments/results/verdicts/interval.h"
 #include "experiments/results/verdicts/standings.h"
 #include "experiments/results/verdicts/study_points.h"
@@ -26,21 +26,21 @@ constexpr double most_disturbed_share = 0.5;  // of the frames that a time is th
 using Number = std::tuple<std::string, std::string, std::string, std::string, std::string, std::string, std::string>;
 template <class Row>
 Number number_of(const Row& r) {
-    return {r.shot, r.frame, r.variant, r.point, r.target, r.metric, r.mask};
+    return {r.shot, r.frame, r.technique, r.point, r.target, r.metric, r.mask};
 }
 
 /// One study's numbers by what they are of.
 struct ComparedFolder {
-    explicit ComparedFolder(const StudyTables& tables)
+    explicit ComparedFolder(const StudyResults& tables)
         : manifest(tables.manifest),
           not_repeatable(points_not_repeatable(manifest)),
           without_seeds(points_without_seeds(manifest)) {
         for (const MetricSummary& e : tables.errors)
-            if (e.represents_shot) errors[number_of(e)] = &e, points.insert({e.shot, e.variant, e.point});
+            if (e.represents_shot) errors[number_of(e)] = &e, points.insert({e.shot, e.technique, e.point});
         for (const ResultRow& r : tables.seeds)
             if (r.represents_shot && r.value) values[number_of(r)][r.seed] = *r.value;
         for (const TimeSummary& t : tables.times)
-            if (t.stage == "total" && !t.variant.empty()) times[{t.shot, t.variant, t.point}] = &t;
+            if (t.stage == "total" && !t.technique.empty()) times[{t.shot, t.technique, t.point}] = &t;
     }
 
     const json& manifest;
@@ -95,7 +95,7 @@ void compare_errors(NumberChange& c, const MetricSummary& a, const MetricSummary
         c.p = p.different, c.p_equivalent = p.beyond, c.how = how;
     };
     const auto is_in = [&](PointSet ComparedFolder::*set) {
-        return (before.*set).contains({c.variant, c.point}) || (after.*set).contains({c.variant, c.point});
+        return (before.*set).contains({c.technique, c.point}) || (after.*set).contains({c.technique, c.point});
     };
     if (!a.value || !b.value) return settle(c, a.value || b.value ? change::not_judged : change::equal, "no value");
     if (*a.value == *b.value) return settle(c, change::equal, "");
@@ -178,7 +178,7 @@ double NumberChange::size() const {
     return ratio > 0 && std::isfinite(ratio) ? std::abs(std::log(ratio)) : HUGE_VAL;
 }
 
-StudyDiff diff_studies(const StudyTables& before_tables, const StudyTables& after_tables, bool judges_times,
+StudyDiff diff_studies(const StudyResults& before_tables, const StudyResults& after_tables, bool judges_times,
                        double margin) {
     const ComparedFolder before(before_tables), after(after_tables);
     StudyDiff diff{.errors = {},
@@ -188,8 +188,8 @@ StudyDiff diff_studies(const StudyTables& before_tables, const StudyTables& afte
                    .only_after = points_in_first(after, before)};
     for (const auto& [number, a] : before.errors)
         if (const auto b = after.errors.find(number); b != after.errors.end()) {
-            NumberChange c{a->shot,   a->frame, a->variant, a->point,        a->target,
-                           a->metric, a->mask,  a->value,   b->second->value};
+            NumberChange c{a->shot,   a->frame, a->technique, a->point,        a->target,
+                           a->metric, a->mask,  a->value,     b->second->value};
             compare_errors(c, *a, *b->second, before, after, margin);
             diff.errors.push_back(c);
         }
@@ -202,7 +202,7 @@ StudyDiff diff_studies(const StudyTables& before_tables, const StudyTables& afte
             if (moved.insert(a->shot).second) diff.moved.push_back({a->shot, machines[0], machines[1]});
             continue;
         }
-        NumberChange c{a->shot, "", a->variant, a->point, "", "total_ms", "", a->median, b->second->median};
+        NumberChange c{a->shot, "", a->technique, a->point, "", "total_ms", "", a->median, b->second->median};
         compare_times(c, *a, *b->second, before.manifest, after.manifest);
         diff.times.push_back(c);
     }

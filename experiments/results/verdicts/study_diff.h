@@ -1,6 +1,6 @@
 #pragma once
-#include "experiments/results/tables/columns.h"
-#include "experiments/results/verdicts/study_tables.h"
+#include "experiments/results/files/columns.h"
+#include "experiments/results/verdicts/study_results.h"
 
 #include <array>
 #include <string>
@@ -17,7 +17,7 @@ inline constexpr const char* not_judged = "not judged";  ///< `how` says why
 
 /// What became of one number that both studies have: an error, or the median time of a point's frame.
 struct NumberChange {
-    std::string shot, frame, variant, point, target, metric,
+    std::string shot, frame, technique, point, target, metric,
         mask;  ///< of a time: metric "total_ms", no target, no mask
     std::optional<double> before, after;
     std::optional<double> p;       ///< two-sided, of "nothing changed"; none where that is not a matter of chance
@@ -31,7 +31,7 @@ struct NumberChange {
 
     static constexpr auto columns() {
         return std::tuple(Column{"shot", &NumberChange::shot}, Column{"frame", &NumberChange::frame},
-                          Column{"variant", &NumberChange::variant}, Column{"point", &NumberChange::point},
+                          Column{"technique", &NumberChange::technique}, Column{"point", &NumberChange::point},
                           Column{"target", &NumberChange::target}, Column{"metric", &NumberChange::metric},
                           Column{"mask", &NumberChange::mask}, Column{"before", &NumberChange::before},
                           Column{"after", &NumberChange::after}, Column{"p", &NumberChange::p},
@@ -40,7 +40,7 @@ struct NumberChange {
     }
 };
 
-using PointOfShot = std::array<std::string, 3>;  ///< shot, variant, point
+using PointOfShot = std::array<std::string, 3>;  ///< shot, technique, point
 
 /// A shot whose times are of another machine in each study.
 struct MovedShot {
@@ -69,7 +69,7 @@ struct StudyDiff {
 /// by themselves. Errors that did not change significantly are equivalent where they changed by less than `margin` of
 /// themselves for certain (two one-sided tests, adjusted likewise). Of two runs of one program at most 5 % have a
 /// change: simulated in tests/experiments/evaluation.
-StudyDiff diff_studies(const StudyTables& before, const StudyTables& after, bool judges_times,
+StudyDiff diff_studies(const StudyResults& before, const StudyResults& after, bool judges_times,
                        double margin = PrimaryComparisons().margin);
 
 /// How many of them have this verdict.

@@ -9,26 +9,26 @@ namespace {
 using nlohmann::json;
 
 struct RunPoint {
-    std::string variant, point;
+    std::string technique, point;
     json parameters;
 };
 
 std::vector<RunPoint> read_points(const json& manifest) {
     std::vector<RunPoint> points;
-    const json variants = manifest.value("variants", json::array());
-    for (const json& v : variants)
-        if (v.is_object() && v.contains("variant") && v["variant"].is_string() && v.contains("point") &&
+    const json techniques = manifest.value("techniques", json::array());
+    for (const json& v : techniques)
+        if (v.is_object() && v.contains("technique") && v["technique"].is_string() && v.contains("point") &&
             v["point"].is_string() && v.contains("parameters") && v["parameters"].is_object())
-            points.push_back({v["variant"], v["point"], v["parameters"]});
+            points.push_back({v["technique"], v["point"], v["parameters"]});
     return points;
 }
 
-/// Those of the manifest's variants for which `is_chosen(entry)`.
+/// Those of the manifest's techniques for which `is_chosen(entry)`.
 template <class IsChosen>
 PointSet points_where(const json& manifest, IsChosen is_chosen) {
     PointSet points;
-    for (const json& v : manifest.value("variants", json::array()))
-        if (v.is_object() && is_chosen(v)) points.insert({v.value("variant", ""), v.value("point", "")});
+    for (const json& v : manifest.value("techniques", json::array()))
+        if (v.is_object() && is_chosen(v)) points.insert({v.value("technique", ""), v.value("point", "")});
     return points;
 }
 
@@ -49,9 +49,9 @@ PointSet single_changes(const json& manifest) {
 json parameter_defaults(const json& manifest) {
     json defaults = json::object();
     for (const RunPoint& p : read_points(manifest))
-        if (!defaults.contains(p.variant) &&
-            std::ranges::find(variant_table(), p.variant, &VariantEntry::name) != variant_table().end())
-            defaults[p.variant] = make_variant(p.variant)->params.values();
+        if (!defaults.contains(p.technique) &&
+            std::ranges::find(technique_table(), p.technique, &TechniqueEntry::name) != technique_table().end())
+            defaults[p.technique] = make_technique(p.technique)->params.values();
     return defaults;
 }
 
@@ -70,8 +70,8 @@ PointSet points_using_scene_data(const json& manifest) {
 
 std::map<std::pair<std::string, std::string>, std::string> point_labels(const json& manifest) {
     std::map<std::pair<std::string, std::string>, std::string> labels;
-    for (const json& v : manifest.value("variants", json::array()))
+    for (const json& v : manifest.value("techniques", json::array()))
         if (v.is_object() && v.contains("label") && v["label"].is_string())
-            labels[{v.value("variant", ""), v.value("point", "")}] = v["label"];
+            labels[{v.value("technique", ""), v.value("point", "")}] = v["label"];
     return labels;
 }

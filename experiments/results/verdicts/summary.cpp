@@ -88,8 +88,8 @@ void set_interval(MetricSummary& s, const std::vector<const ResultRow*>& rows, b
 
 MetricSummary summary_of(const std::vector<const ResultRow*>& rows, bool depends_on_seed) {
     const ResultRow& first = *rows.front();
-    MetricSummary s{first.shot,   first.frame,  first.variant, first.point,
-                    first.target, first.metric, first.formula, first.mask};
+    MetricSummary s{first.shot,   first.frame,  first.technique, first.point,
+                    first.target, first.metric, first.formula,   first.mask};
     s.seeds = unsigned(rows.size());
     s.is_corrected = first.is_corrected, s.represents_shot = first.represents_shot;
     for (const ResultRow* row : rows) {
@@ -143,16 +143,16 @@ std::vector<MetricSummary> summarise(std::span<const ResultRow> rows, const Poin
     std::map<Error, Extrapolated> without_noise;
     for (const ReferenceNoise& n : noise)
         if (const auto mean = extrapolated_mean(n.growth))
-            without_noise[{n.shot, n.frame, n.variant, n.point, n.target, n.metric, n.mask}] = *mean;
+            without_noise[{n.shot, n.frame, n.technique, n.point, n.target, n.metric, n.mask}] = *mean;
     std::vector<MetricSummary> summaries;
     const auto key = [](const ResultRow& r) {
-        return std::tie(r.shot, r.frame, r.variant, r.point, r.target, r.metric, r.formula, r.mask);
+        return std::tie(r.shot, r.frame, r.technique, r.point, r.target, r.metric, r.formula, r.mask);
     };
     for (const auto& group : grouped(rows, key)) {
         const ResultRow& first = *group.front();
         MetricSummary& s =
-            summaries.emplace_back(summary_of(group, !without_seeds.contains({first.variant, first.point})));
-        const auto found = without_noise.find({s.shot, s.frame, s.variant, s.point, s.target, s.metric, s.mask});
+            summaries.emplace_back(summary_of(group, !without_seeds.contains({first.technique, first.point})));
+        const auto found = without_noise.find({s.shot, s.frame, s.technique, s.point, s.target, s.metric, s.mask});
         if (found != without_noise.end())
             s.value_of_power = found->second.of_power, s.value_of_bounded = found->second.of_bounded;
     }
@@ -161,7 +161,7 @@ std::vector<MetricSummary> summarise(std::span<const ResultRow> rows, const Poin
 
 std::vector<TimeSummary> summarise(std::span<const TimeRow> rows, const std::map<std::string, double>& floors) {
     std::vector<TimeSummary> summaries;
-    const auto key = [](const TimeRow& t) { return std::tie(t.shot, t.variant, t.point, t.stage); };
+    const auto key = [](const TimeRow& t) { return std::tie(t.shot, t.technique, t.point, t.stage); };
     for (const auto& group : grouped(rows, key)) {
         std::map<std::pair<unsigned, unsigned>, double> of_frame;  // a stage may run several times in a frame
         for (const TimeRow* row : group) of_frame[{row->seed, row->frame}] += row->milliseconds;
@@ -172,7 +172,7 @@ std::vector<TimeSummary> summarise(std::span<const TimeRow> rows, const std::map
         const Estimate m = median_interval(times);
         const auto floor = floors.find(first.shot);
         const double near = 1 + (floor == floors.end() ? 0.0 : floor->second);
-        summaries.push_back({first.shot, first.variant, first.point, first.stage, first.clock, times.size(), m.value,
+        summaries.push_back({first.shot, first.technique, first.point, first.stage, first.clock, times.size(), m.value,
                              m.low, m.high, std::max(m.high, m.value * near), std::min(m.low, m.value / near),
                              double(disturbed) / double(group.size())});
     }

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-/// One metric of one variant point over all its seeds.
+/// One metric of one technique point over all its seeds.
 struct MetricSummary {
-    std::string shot, frame, variant, point, target, metric, formula, mask;
+    std::string shot, frame, technique, point, target, metric, formula, mask;
     unsigned seeds = 0;
     std::optional<double> value;           ///< mean over the seeds; none if one of them has none
     std::optional<double> low, high;       ///< 95 % interval, see summarise()
@@ -47,7 +47,7 @@ struct MetricSummary {
     static constexpr auto columns() {
         return std::tuple(
             Column{"shot", &MetricSummary::shot}, Column{"frame", &MetricSummary::frame},
-            Column{"variant", &MetricSummary::variant}, Column{"point", &MetricSummary::point},
+            Column{"technique", &MetricSummary::technique}, Column{"point", &MetricSummary::point},
             Column{"target", &MetricSummary::target}, Column{"metric", &MetricSummary::metric},
             Column{"formula", &MetricSummary::formula}, Column{"mask", &MetricSummary::mask},
             Column{"seeds", &MetricSummary::seeds}, Column{"value", &MetricSummary::value},
@@ -77,10 +77,10 @@ struct MetricSummary {
 std::vector<MetricSummary> summarise(std::span<const ResultRow> rows, const PointSet& without_seeds = {},
                                      std::span<const ReferenceNoise> noise = {});
 
-/// One stage of one variant point: the median over the measured frames of all seeds of its time in a frame, with its
+/// One stage of one technique point: the median over the measured frames of all seeds of its time in a frame, with its
 /// median_interval().
 struct TimeSummary {
-    std::string shot, variant, point, stage, clock;
+    std::string shot, technique, point, stage, clock;
     size_t frames = 0;
     double median = 0, low = 0, high = 0;  ///< ms
     double fits_from = 0;                  ///< ms: the point fits into budgets from here on ...
@@ -88,7 +88,7 @@ struct TimeSummary {
     double disturbed_share = 0;            ///< of the frames: other work took too much of the machine meanwhile
 
     static constexpr auto columns() {
-        return std::tuple(Column{"shot", &TimeSummary::shot}, Column{"variant", &TimeSummary::variant},
+        return std::tuple(Column{"shot", &TimeSummary::shot}, Column{"technique", &TimeSummary::technique},
                           Column{"point", &TimeSummary::point}, Column{"stage", &TimeSummary::stage},
                           Column{"clock", &TimeSummary::clock}, Column{"frames", &TimeSummary::frames},
                           Column{"median_ms", &TimeSummary::median}, Column{"low_ms", &TimeSummary::low},

@@ -3,7 +3,7 @@
 #include "core/error.h"
 #include "core/json.h"
 #include "experiments/study/config/points/point_name.h"
-#include "experiments/study/config/points/variant_of.h"
+#include "experiments/study/config/points/technique_of.h"
 
 #include <algorithm>
 #include <map>
@@ -12,35 +12,35 @@
 namespace {
 
 /// Of all parameters, with some values in place of the point's own.
-nlohmann::json values_of(const VariantConfig& v, const nlohmann::json& changed = nlohmann::json::object()) {
+nlohmann::json values_of(const PointConfig& v, const nlohmann::json& changed = nlohmann::json::object()) {
     nlohmann::json parameters = v.parameters;
     parameters.update(changed);
-    return variant_of(v, parameters)->params.values();
+    return technique_of(v, parameters)->params.values();
 }
 
 }  // namespace
 
-void find_against_points(std::vector<VariantConfig>& variants, const std::string& where) {
-    if (std::ranges::all_of(variants, [](const VariantConfig& v) { return v.against.is_null(); })) return;
+void find_against_points(std::vector<PointConfig>& techniques, const std::string& where) {
+    if (std::ranges::all_of(techniques, [](const PointConfig& v) { return v.against.is_null(); })) return;
     std::map<std::pair<std::string, nlohmann::json>, std::string>
-        points;  // by variant and the values of all parameters
-    for (const VariantConfig& v : variants) points.try_emplace({v.variant, values_of(v)}, v.point);
-    for (VariantConfig& v : variants) {
+        points;  // by technique and the values of all parameters
+    for (const PointConfig& v : techniques) points.try_emplace({v.technique, values_of(v)}, v.point);
+    for (PointConfig& v : techniques) {
         if (v.against.is_null()) continue;
         const nlohmann::json other = values_of(v, v.against);
         if (other == values_of(v)) continue;
-        const auto found = points.find({v.variant, other});
+        const auto found = points.find({v.technique, other});
         if (found == points.end())
-            fail(where, ": variants: nothing is the same as '", v.variant, "' with the point '", v.point, "' but for ",
-                 shown(v.against), ", its 'against'; add that point");
+            fail(where, ": techniques: nothing is the same as '", v.technique, "' with the point '", v.point,
+                 "' but for ", shown(v.against), ", its 'against'; add that point");
         v.against_point = found->second;
     }
 }
 
-std::vector<ComparedPoint> compared_points(const std::vector<VariantConfig>& variants) {
+std::vector<ComparedPoint> compared_points(const std::vector<PointConfig>& techniques) {
     std::vector<ComparedPoint> points;
-    for (const VariantConfig& v : variants)
-        points.push_back({.variant = v.variant,
+    for (const PointConfig& v : techniques)
+        points.push_back({.technique = v.technique,
                           .point = v.point,
                           .depends_on_seed = v.depends_on_seed,
                           .is_baseline = v.is_baseline,
@@ -49,21 +49,21 @@ std::vector<ComparedPoint> compared_points(const std::vector<VariantConfig>& var
     return points;
 }
 
-std::vector<SingleChange> single_changes(const std::vector<VariantConfig>& variants) {
+std::vector<SingleChange> single_changes(const std::vector<PointConfig>& techniques) {
     std::vector<SingleChange> changes;
-    std::vector<std::pair<std::string, nlohmann::json>> baselines;  // variants and values
-    for (const VariantConfig& v : variants)
-        if (v.is_baseline) baselines.emplace_back(v.variant, values_of(v));
-    for (const VariantConfig& v : variants) {
+    std::vector<std::pair<std::string, nlohmann::json>> baselines;  // techniques and values
+    for (const PointConfig& v : techniques)
+        if (v.is_baseline) baselines.emplace_back(v.technique, values_of(v));
+    for (const PointConfig& v : techniques) {
         if (v.is_baseline || v.swept.empty()) continue;  // a preset is compared as a whole
         const nlohmann::json own = values_of(v);
-        for (const auto& [variant, other] : baselines) {
-            if (variant != v.variant) continue;
+        for (const auto& [technique, other] : baselines) {
+            if (technique != v.technique) continue;
             std::vector<std::string> differing;
             for (const auto& [name, value] : own.items())
                 if (other.at(name) != value) differing.push_back(name);
             if (differing.size() != 1) continue;
-            changes.push_back({v.variant, v.point, differing.front(), own.at(differing.front())});
+            changes.push_back({v.technique, v.point, differing.front(), own.at(differing.front())});
             break;
         }
     }

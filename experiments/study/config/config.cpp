@@ -6,7 +6,7 @@
 #include "experiments/study/config/config_parts.h"
 #include "experiments/study/config/config_schema.h"
 #include "experiments/study/config/extends.h"
-#include "experiments/study/config/points/read_variants.h"
+#include "experiments/study/config/points/read_techniques.h"
 #include "experiments/study/config/shots/read_shots.h"
 #include "metrics/direction.h"
 #include "metrics/masks.h"
@@ -90,8 +90,8 @@ Keys primary_keys() {
              "smaller share than this"}};
 }
 
-/// `variant`: the schema of an entry of `variants`.
-Keys study_keys(const json& variant = json::object()) {
+/// `technique`: the schema of an entry of `techniques`.
+Keys study_keys(const json& technique = json::object()) {
     const Config plain;
     const Keys keys = {
         {"$schema", any_text(), none, "for editors"},
@@ -99,7 +99,7 @@ Keys study_keys(const json& variant = json::object()) {
          "another config, by its path from this one's folder, which this one patches, below"},
         {"title", any_text(), otherwise("the file's name"), "heads the report"},
         {"shots", list_of_shots(), otherwise("required, or extended"), "what is looked at"},
-        {"variants", named(checked_inside(array_of({variant, "", {}}), "array"), "an array of variants, below"),
+        {"techniques", named(checked_inside(array_of({technique, "", {}}), "array"), "an array of techniques, below"),
          otherwise("required, or extended"), "what is compared"},
         {"seeds", seeds(), otherwise(std::to_string(default_seeds) + " where a point depends on its seed, else 1"),
          "each is a run of its own. Points that draw no random numbers get the first of them only; a single seed of "
@@ -267,12 +267,12 @@ void read_measures(ConfigObject& study, Config& config) {
     config.reflective_min_reflectance = study.get<float>("reflective_min_reflectance");
 }
 
-json variant_schema(const VariantEntry& entry) {
-    json schema = schema_of(variant_keys(*make_variant(entry.name)));
+json technique_schema(const TechniqueEntry& entry) {
+    json schema = schema_of(technique_keys(*make_technique(entry.name)));
     const std::string limits = limits_text(entry.limits);
-    schema["properties"]["variant"] = {{"const", entry.name},
-                                       {"description", entry.title + " (" + entry.source + ")" +
-                                                           (limits.empty() ? "" : "; enforced limits: " + limits)}};
+    schema["properties"]["technique"] = {{"const", entry.name},
+                                         {"description", entry.title + " (" + entry.source + ")" +
+                                                             (limits.empty() ? "" : "; enforced limits: " + limits)}};
     Names presets = {""};
     for (const Preset& preset : entry.presets) presets.push_back(preset.name);
     schema["properties"]["preset"].update(some_of(one_of(presets)).schema);
@@ -281,10 +281,10 @@ json variant_schema(const VariantEntry& entry) {
 
 }  // namespace
 
-std::string display_name(const Config& config, const std::string& variant, const std::string& point) {
-    for (const VariantConfig& v : config.variants)
-        if (v.variant == variant && v.point == point && !v.label.empty()) return v.label;
-    return point == "default" ? variant : variant + " " + point;
+std::string display_name(const Config& config, const std::string& technique, const std::string& point) {
+    for (const PointConfig& v : config.techniques)
+        if (v.technique == technique && v.point == point && !v.label.empty()) return v.label;
+    return point == "default" ? technique : technique + " " + point;
 }
 
 Config read_config(const std::filesystem::path& file) {
@@ -296,7 +296,7 @@ Config read_config(const std::filesystem::path& file) {
     study.has("$schema");
     config.title = study.has("title") ? study.get<std::string>("title") : file.stem().string();
     config.shots = read_shots(study, study, file.parent_path());
-    config.variants = read_variants(study, file.parent_path());
+    config.techniques = read_techniques(study, file.parent_path());
     read_reference(study, config);
     if (study["composite"] == "additive_fresnel") config.composite = CompositeFormula::additive_fresnel;
     if (study.has("timing")) read_timing(study.object("timing"), config.timing);
@@ -323,32 +323,32 @@ Config read_config(const std::filesystem::path& file) {
     study.finish();
 
     if (config.shots.empty()) fail(file.string(), ": 'shots' is missing or empty: name at least one scene");
-    if (config.variants.empty())
-        fail(file.string(), ": 'variants' is missing or empty: name at least one variant, e.g. \"none\"");
-    find_against_points(config.variants, file.string());
+    if (config.techniques.empty())
+        fail(file.string(), ": 'techniques' is missing or empty: name at least one technique, e.g. \"none\"");
+    find_against_points(config.techniques, file.string());
     if (!config.has_reference &&
-        std::ranges::any_of(config.variants, [](const VariantConfig& v) { return v.external != nullptr; }))
+        std::ranges::any_of(config.techniques, [](const PointConfig& v) { return v.external != nullptr; }))
         fail(study.at("reference"), ": \"reference\": \"none\" leaves nothing to judge external images by");
     return config;
 }
 
-json config_schema(const std::string& variant) {
-    if (!variant.empty()) find_variant(variant);
+json config_schema(const std::string& technique) {
+    if (!technique.empty()) find_technique(technique);
     json schema;
-    if (variant.empty()) {
-        json variants = json::array();
-        for (const VariantEntry& entry : variant_table()) variants.push_back(variant_schema(entry));
-        variants.push_back(schema_of(external_keys()));
-        variants.push_back({{"type", "object"},  // a technique's own folder, whose parameters are not known here
-                            {"required", {"variant"}},
-                            {"properties", {{"variant", {{"type", "string"}, {"pattern", "/"}}}}}});
-        schema = schema_of(study_keys({{"anyOf", variants}}));
-        schema["anyOf"] = {{{"required", {"shots", "variants"}}}, {{"required", {"extends"}}}};
+    if (technique.empty()) {
+        json techniques = json::array();
+        for (const TechniqueEntry& entry : technique_table()) techniques.push_back(technique_schema(entry));
+        techniques.push_back(schema_of(external_keys()));
+        techniques.push_back({{"type", "object"},  // a technique's own folder, whose parameters are not known here
+                              {"required", {"technique"}},
+                              {"properties", {{"technique", {{"type", "string"}, {"pattern", "/"}}}}}});
+        schema = schema_of(study_keys({{"anyOf", techniques}}));
+        schema["anyOf"] = {{{"required", {"shots", "techniques"}}}, {{"required", {"extends"}}}};
     } else {
-        schema = make_variant(variant)->params.schema();
+        schema = make_technique(technique)->params.schema();
     }
     schema["$schema"] = "https://json-schema.org/draft/2020-12/schema";
-    schema["title"] = variant.empty() ? "ssrlab study" : "Parameters of " + variant;
+    schema["title"] = technique.empty() ? "ssrlab study" : "Parameters of " + technique;
     return schema;
 }
 
@@ -357,7 +357,7 @@ std::string with_key_tables(const std::string& markdown) {
                                                                {"scene", scene_keys()},
                                                                {"capture", capture_keys()},
                                                                {"shot", keys_of_all_shots()},
-                                                               {"variant", variant_keys(*make_variant("none"))},
+                                                               {"technique", technique_keys(*make_technique("none"))},
                                                                {"external", external_keys()},
                                                                {"table", table_keys()},
                                                                {"frozen", frozen_keys()},

@@ -3,8 +3,8 @@
 #include "core/gbuffer/gbuffer_formats.h"
 #include "core/scene/camera.h"
 #include "core/scene/gltf/load_gltf.h"
-#include "experiments/results/tables/comparisons.h"
-#include "experiments/results/tables/targets.h"
+#include "experiments/results/files/comparisons.h"
+#include "experiments/results/files/targets.h"
 #include "groundtruth/reference/reference.h"
 
 #include <algorithm>
@@ -66,26 +66,26 @@ struct PointCondition {
 
 struct ExternalImages;
 
-/// A variant and one point of its parameters.
-struct VariantConfig {
-    std::string variant;
+/// A technique and one point of its parameters.
+struct PointConfig {
+    std::string technique;
     std::string preset;         ///< "": none
     nlohmann::json parameters;  ///< values that differ from the preset's or default ones
     nlohmann::json swept;       ///< those of them that a design gave it (design.h); an empty object if it has none
     std::string point;          ///< its name in results (point_name.h)
     std::string label, group;   ///< how tables and figures show it, and what it belongs to; "": its name, nothing
     std::vector<unsigned> seeds;
-    bool depends_on_seed = true;  ///< else all seeds give the same, see Variant::depends_on_seed()
+    bool depends_on_seed = true;  ///< else all seeds give the same, see Technique::depends_on_seed()
     bool is_baseline = false;     ///< all other points are compared with it, over the seeds that both have
     nlohmann::json against;  ///< parameter values, or null: it is compared with the point that differs in these alone,
-    std::string against_point;  ///< of the same variant; "" for that point itself
+    std::string against_point;  ///< of the same technique; "" for that point itself
     bool is_timed = true;
     std::vector<PointCondition> conditions;          ///< on shots
     std::shared_ptr<const ExternalImages> external;  ///< whose frames it is; nullptr: ssrlab renders it
 };
 
 struct TimingConfig {
-    unsigned frames = 15;  ///< measured per variant, after the warm-up; 0: no timing
+    unsigned frames = 15;  ///< measured per technique, after the warm-up; 0: no timing
     unsigned warm_up = 3;
     float most_share = 1.0f / 3;  ///< of what a shot's other cells took: what its times may take
     bool has_copies = true;       ///< of each point, which give the noise of times and what skipped work saves
@@ -114,10 +114,10 @@ struct Config {
     std::filesystem::path file;  ///< what it was read from
     std::string title;
     std::vector<ShotConfig> shots;
-    std::vector<VariantConfig> variants;
+    std::vector<PointConfig> techniques;
     ReferenceSettings reference;
     bool measures_lit_noise = true;  ///< see LitNoise
-    bool filters_lit = false;        ///< what variants read, see filter_lit()
+    bool filters_lit = false;        ///< what techniques read, see filter_lit()
     bool has_reference = true;       ///< else no error is measured: frames are timed and rays judged
     CompositeFormula composite = CompositeFormula::split_sum;
     TimingConfig timing;
@@ -138,12 +138,12 @@ struct Config {
     nlohmann::json source;                     ///< as read, with what it `extends`, for the manifest
 };
 
-/// A point as people read it: its label, or else the variant and the point's name.
-std::string display_name(const Config& config, const std::string& variant, const std::string& point);
+/// A point as people read it: its label, or else the technique and the point's name.
+std::string display_name(const Config& config, const std::string& technique, const std::string& point);
 
 /// Whether the reference of each shot's last frame must have a truth ladder.
 inline bool needs_ladder(const Config& config) { return std::ranges::any_of(config.targets, is_ladder_rung); }
 
 /// Reads and checks a config; its keys are in experiments/README.md. Every mistake is an Error that names file and key.
-/// Scenes are only looked up later; variants, parameters, metrics and masks are checked here, before any work starts.
+/// Scenes are only looked up later; techniques, parameters, metrics and masks are checked here, before any work starts.
 Config read_config(const std::filesystem::path& file);

@@ -6,7 +6,7 @@
 #include "experiments/gpu_costs/pass_cost.h"
 #include "experiments/study/config/points/conditions.h"
 #include "experiments/study/config/points/design.h"
-#include "experiments/study/config/points/read_variants.h"
+#include "experiments/study/config/points/read_techniques.h"
 #include "experiments/study/config/shots/read_shots.h"
 #include "metrics/metric.h"
 #include "variants/registry.h"
@@ -20,26 +20,26 @@ using nlohmann::json;
 const std::string milliseconds = "milliseconds";
 
 /// The one point that all others are compared with.
-void check_baseline(ConfigObject& study, std::vector<VariantConfig>& points) {
-    const auto baselines = std::ranges::count_if(points, &VariantConfig::is_baseline);
-    if (baselines > 1) fail(study.at("variants"), ": ", baselines, " points are baselines; 'tune' needs one");
+void check_baseline(ConfigObject& study, std::vector<PointConfig>& points) {
+    const auto baselines = std::ranges::count_if(points, &PointConfig::is_baseline);
+    if (baselines > 1) fail(study.at("techniques"), ": ", baselines, " points are baselines; 'tune' needs one");
     if (baselines == 0) points.front().is_baseline = true;
 }
 
-/// One variant, points that run everywhere with the study's seeds, one of them the baseline.
+/// One technique, points that run everywhere with the study's seeds, one of them the baseline.
 void check_tuned_points(ConfigObject& study, ConfigObject& tune, Config& config) {
-    std::vector<VariantConfig>& points = config.variants;
-    for (JsonObject& entry : study.elements("variants"))
+    std::vector<PointConfig>& points = config.techniques;
+    for (JsonObject& entry : study.elements("techniques"))
         for (const char* key : {"seeds", "only_if", "skip_if", "timing", "against"})
             if (entry.has(key)) fail(entry.at(key), ": '", key, "' is not for points of a study with 'tune'");
     std::vector<std::string> names;
-    for (const VariantConfig& point : points) {
-        if (point.variant != points.front().variant)
-            fail(study.at("variants"), ": 'tune' searches one variant, but here are '", points.front().variant,
-                 "' and '", point.variant, "'");
+    for (const PointConfig& point : points) {
+        if (point.technique != points.front().technique)
+            fail(study.at("techniques"), ": 'tune' searches one technique, but here are '", points.front().technique,
+                 "' and '", point.technique, "'");
         names.push_back(point.point);
         if (point.depends_on_seed && point.seeds.size() < 2)
-            fail(study.at(study.has("seeds") ? "seeds" : "variants"), ": '", point.point,
+            fail(study.at(study.has("seeds") ? "seeds" : "techniques"), ": '", point.point,
                  "' draws random numbers: a single seed gives no interval; name two seeds or more");
     }
     check_baseline(study, points);
@@ -85,7 +85,7 @@ void check_program(ConfigObject& study, ConfigObject& tune, Config& config) {
         if (tune.has(key))
             fail(tune.at(key), ": '", key,
                  "' is not for a search over a 'program', which begins at its defaults and whose time is not measured");
-    check_baseline(study, config.variants);
+    check_baseline(study, config.techniques);
     if (!tune.has("axes")) return;
     JsonObject axes = tune.plain("axes");
     for (const auto& [name, axis] : tune["axes"].items()) {
@@ -103,7 +103,7 @@ void check_program(ConfigObject& study, ConfigObject& tune, Config& config) {
 void check_technique(ConfigObject& study, ConfigObject& tune, Config& config) {
     check_tuned_points(study, tune, config);
     if (tune.has("axes"))  // which one that others extend may leave to them
-        check_axes(tune, make_variant(config.variants.front().variant)->params);
+        check_axes(tune, make_technique(config.techniques.front().technique)->params);
     if (tune["time"] == milliseconds && config.timing.frames == 0)
         fail(tune.where(),
              ": needs 'timing' of 15 frames or more, a counted 'time', such as \"operations\", or an "
@@ -118,29 +118,30 @@ Keys table_keys() {
     const Values names = some_of(any_text()),
                  name = {{{"type", "string"}, {"pattern", "^[A-Za-z0-9_]+$"}}, "letters, digits and _", {}};
     const Values any_object = {{{"type", "object"}}, "an object", {}};
-    return {{"name", name, required, "of its files"},
-            {"caption", any_text(), required, "what stands above it"},
-            {"of",
-             one_of({"effects", "results", "splits", "times", "time_effects", "hits", "costs", "compiled", "estimates",
-                     "limits", "agreement", "eye", "variance", "at_cost", "changes", "over_scenes"}),
-             required, "where its numbers come from, below"},
-            {"where", any_object, otherwise("all rows"),
-             "column to the value, or array of values, of the rows that count; rows and columns of the table stand in "
-             "the order of such an array. `\"!value\"` leaves those rows out"},
-            {"rows", names, required,
-             "a column of the file, or several, names of parameters, or `group` and `shot_group` (of points and shots "
-             "that have one; else variant and scene): what each row of the table is named by. Points and shots with a "
-             "display name are called by it"},
-            {"columns", names, required, "the same of its columns"},
-            {"over", any_text(), otherwise("no mean"),
-             "in place of a cell for each `shot`, say, the geometric mean over them with their range, below"},
-            {"sort", any_text(), otherwise("as in the file"), "the column of the table that its rows are sorted by"},
-            {"best", one_of({"column", "row"}), otherwise("none is marked"),
-             "among which cells those that are the best of their shot are bold, and those that are tied or equivalent "
-             "italic, as "
-             "summary.csv says (`standing`). Of `results` and `limits`, without `over`"},
-            {"labels", any_object, none,
-             "names in the table to better ones: `{\"lobe = normals\": \"normals\"}`; \"\" leaves one out"}};
+    return {
+        {"name", name, required, "of its files"},
+        {"caption", any_text(), required, "what stands above it"},
+        {"of",
+         one_of({"effects", "results", "splits", "times", "time_effects", "hits", "costs", "compiled", "estimates",
+                 "limits", "agreement", "eye", "variance", "at_cost", "changes", "over_scenes"}),
+         required, "where its numbers come from, below"},
+        {"where", any_object, otherwise("all rows"),
+         "column to the value, or array of values, of the rows that count; rows and columns of the table stand in "
+         "the order of such an array. `\"!value\"` leaves those rows out"},
+        {"rows", names, required,
+         "a column of the file, or several, names of parameters, or `group` and `shot_group` (of points and shots "
+         "that have one; else technique and scene): what each row of the table is named by. Points and shots with a "
+         "display name are called by it"},
+        {"columns", names, required, "the same of its columns"},
+        {"over", any_text(), otherwise("no mean"),
+         "in place of a cell for each `shot`, say, the geometric mean over them with their range, below"},
+        {"sort", any_text(), otherwise("as in the file"), "the column of the table that its rows are sorted by"},
+        {"best", one_of({"column", "row"}), otherwise("none is marked"),
+         "among which cells those that are the best of their shot are bold, and those that are tied or equivalent "
+         "italic, as "
+         "summary.csv says (`standing`). Of `results` and `limits`, without `over`"},
+        {"labels", any_object, none,
+         "names in the table to better ones: `{\"lobe = normals\": \"normals\"}`; \"\" leaves one out"}};
 }
 
 void check_tables(ConfigObject& study, const Config& config) {
@@ -180,13 +181,13 @@ void check_frozen(ConfigObject& study, const Config& config) {
     for (JsonObject& entry : study.elements("frozen")) {
         ConfigObject frozen(std::move(entry), frozen_keys());
         frozen.get<double>("cost");
-        for (const auto& [variant, point] : frozen["points"].items()) {
+        for (const auto& [technique, point] : frozen["points"].items()) {
             std::vector<std::string> points;
-            for (const VariantConfig& v : config.variants)
-                if (v.variant == variant) points.push_back(v.point);
-            if (points.empty()) fail(frozen.at("points"), ": the study has no variant '", variant, "'");
+            for (const PointConfig& v : config.techniques)
+                if (v.technique == technique) points.push_back(v.point);
+            if (points.empty()) fail(frozen.at("points"), ": the study has no technique '", technique, "'");
             if (std::ranges::count(points, point.get<std::string>()) == 0)
-                fail(frozen.at("points"), ": the study has no point '", point.get<std::string>(), "' of ", variant,
+                fail(frozen.at("points"), ": the study has no point '", point.get<std::string>(), "' of ", technique,
                      suggestion(point.get<std::string>(), points));
         }
         frozen.finish();
@@ -233,7 +234,7 @@ void check_tune(ConfigObject& study, Config& config) {
     if (!study.has("tune")) return;
     ConfigObject tune(study.plain("tune"), tune_keys());
     config.is_tuned = true;
-    if (config.variants.empty()) return;  // of which read_config() complains
+    if (config.techniques.empty()) return;  // of which read_config() complains
     if (tune.has("program"))
         check_program(study, tune, config);
     else
@@ -250,7 +251,7 @@ void check_tune(ConfigObject& study, Config& config) {
 
 json tuning_of(const Config& config) {
     const std::string where = config.file.string();
-    const auto start = std::ranges::find_if(config.variants, &VariantConfig::is_baseline);
+    const auto start = std::ranges::find_if(config.techniques, &PointConfig::is_baseline);
     json rules = {{"metrics", json::array({config.primary.metric})},
                   {"target", config.primary.target},
                   {"mask", config.primary.mask},

@@ -16,7 +16,7 @@ void check_tables(ConfigObject& study, const Config& config);
 Keys frozen_keys();
 void check_frozen(ConfigObject& study, const Config& config);
 
-/// "tune", if there is one; `config`: what has been read of `study`. All points are of one variant, the first becomes
+/// "tune", if there is one; `config`: what has been read of `study`. All points are of one technique, the first becomes
 /// the baseline if none is, and axes are parameters of it with allowed values. Sets config.is_tuned.
 void check_tune(ConfigObject& study, Config& config);
 

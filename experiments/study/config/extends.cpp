@@ -1,6 +1,7 @@
 #include "experiments/study/config/extends.h"
 
 #include "core/error.h"
+#include "core/former_names.h"
 
 #include <algorithm>
 
@@ -50,9 +51,9 @@ JsonDocument merged(JsonDocument base, JsonDocument patch) {
     return base;
 }
 
-/// Whether an entry's `variant` is a technique's folder, not the name of one of ssrlab's own.
-bool names_folder(const json& variant) {
-    return variant.is_string() && variant.get_ref<const std::string&>().find('/') != std::string::npos;
+/// Whether an entry's `technique` is a technique's folder, not the name of one of ssrlab's own.
+bool names_folder(const json& technique) {
+    return technique.is_string() && technique.get_ref<const std::string&>().find('/') != std::string::npos;
 }
 
 std::string place_of(const JsonDocument& document, const fs::path& file) {
@@ -62,21 +63,21 @@ std::string place_of(const JsonDocument& document, const fs::path& file) {
 }
 
 /// A technique's name, or its folder however it is written.
-bool is_same_variant(const json& a, const json& b) {
-    const json of_a = a.value("variant", json("")), of_b = b.value("variant", json(""));
+bool is_same_technique(const json& a, const json& b) {
+    const json of_a = a.value("technique", json("")), of_b = b.value("technique", json(""));
     if (!of_a.is_string() || !of_b.is_string()) return of_a == of_b;
     const auto plain = [](const json& name) { return fs::path(name.get<std::string>()).lexically_normal(); };
     return plain(of_a) == plain(of_b) && names_folder(of_a) == names_folder(of_b);
 }
 
-/// The entries that a patch of this variant, preset and label means: without a label any, with one those that have it,
-/// or, where none has, those that have none and get it.
+/// The entries that a patch of this technique, preset and label means: without a label any, with one those that have
+/// it, or, where none has, those that have none and get it.
 std::vector<size_t> entries_for(const json& patch, const std::vector<JsonDocument>& entries) {
     std::vector<size_t> all, same_label, unlabelled;
     for (size_t i = 0; i < entries.size(); ++i) {
         const json& entry = entries[i].value;
         const auto same = [&](const char* key) { return entry.value(key, json("")) == patch.value(key, json("")); };
-        if (!entry.is_object() || !is_same_variant(entry, patch) || !same("external") || !same("preset")) continue;
+        if (!entry.is_object() || !is_same_technique(entry, patch) || !same("external") || !same("preset")) continue;
         all.push_back(i);
         if (same("label")) same_label.push_back(i);
         if (!entry.contains("label")) unlabelled.push_back(i);
@@ -92,21 +93,21 @@ std::vector<JsonDocument> elements(const JsonDocument& array) {
 }
 
 /// The entries of `base`, patched, and after them those that are new.
-JsonDocument merged_variants(const JsonDocument& base, const JsonDocument& patch, const fs::path& file) {
+JsonDocument merged_techniques(const JsonDocument& base, const JsonDocument& patch, const fs::path& file) {
     std::vector<JsonDocument> entries = elements(base);
     for (JsonDocument& change : elements(patch)) {
-        if (!change.value.is_object()) fail(place_of(change, file), ": variants: an entry must be a JSON object");
+        if (!change.value.is_object()) fail(place_of(change, file), ": techniques: an entry must be a JSON object");
         const json removes = change.value.value("remove", json(false));
         if (!removes.is_boolean())
-            fail(place_of(change, file), ": variants: 'remove' must be true or false, not ", shown(removes));
+            fail(place_of(change, file), ": techniques: 'remove' must be true or false, not ", shown(removes));
         change.value.erase("remove");
         const std::vector<size_t> meant = entries_for(change.value, entries);
         if (meant.size() > 1)
-            fail(
-                place_of(change, file), ": variants: ", meant.size(),
-                " entries of what is extended have this 'variant' and 'preset'; give them a 'label' each, and name it");
+            fail(place_of(change, file), ": techniques: ", meant.size(),
+                 " entries of what is extended have this 'technique' and 'preset'; give them a 'label' each, and name "
+                 "it");
         if (meant.empty() && removes == true)
-            fail(place_of(change, file), ": variants: nothing to remove: what is extended has no such entry");
+            fail(place_of(change, file), ": techniques: nothing to remove: what is extended has no such entry");
         if (removes == true)
             entries.erase(entries.begin() + long(meant.front()));
         else if (meant.size() == 1)
@@ -133,19 +134,20 @@ void move_paths(json& config, const fs::path& from, const fs::path& to) {
     };
     move_in("shots", "gbuffer", "gbuffer");
     move_in("shots", "gbuffer", "reference");
-    move_in("variants", "external", "external");
-    if (!config.is_object() || !config.value("variants", json()).is_array()) return;
-    for (json& entry : config["variants"])
-        if (entry.is_object() && names_folder(entry.value("variant", json()))) {
-            const fs::path path = entry["variant"].get<std::string>();
+    move_in("techniques", "external", "external");
+    if (!config.is_object() || !config.value("techniques", json()).is_array()) return;
+    for (json& entry : config["techniques"])
+        if (entry.is_object() && names_folder(entry.value("technique", json()))) {
+            const fs::path path = entry["technique"].get<std::string>();
             if (path.is_relative())
-                entry["variant"] = "./" + fs::proximate(from / path, to.empty() ? "." : to).string();
+                entry["technique"] = "./" + fs::proximate(from / path, to.empty() ? "." : to).string();
         }
 }
 
 /// `chain`: the files that lead here.
 JsonDocument read_chain(const fs::path& file, std::vector<fs::path> chain) {
     JsonDocument config = read_json_document(file);
+    take_former_names(config, FormerNames::of_study);
     if (!config.value.is_object() || !config.value.contains("extends")) return config;
     JsonObject object(config, file.string());
     const fs::path base_file = file.parent_path() / object.text("extends");
@@ -158,13 +160,13 @@ JsonDocument read_chain(const fs::path& file, std::vector<fs::path> chain) {
     JsonDocument base = read_chain(base_file, chain);
     move_paths(base.value, base_file.parent_path(), file.parent_path());
     remove(config, "extends");
-    const bool has_variants = config.value.contains("variants") && config.value["variants"].is_array() &&
-                              base.value.contains("variants") && base.value["variants"].is_array();
-    if (!has_variants) return merged(std::move(base), std::move(config));
-    JsonDocument variants = merged_variants(part(base, "/variants"), part(config, "/variants"), file);
-    remove(base, "variants"), remove(config, "variants");
+    const bool has_techniques = config.value.contains("techniques") && config.value["techniques"].is_array() &&
+                                base.value.contains("techniques") && base.value["techniques"].is_array();
+    if (!has_techniques) return merged(std::move(base), std::move(config));
+    JsonDocument techniques = merged_techniques(part(base, "/techniques"), part(config, "/techniques"), file);
+    remove(base, "techniques"), remove(config, "techniques");
     JsonDocument all = merged(std::move(base), std::move(config));
-    put(all, "/variants", std::move(variants));
+    put(all, "/techniques", std::move(techniques));
     return all;
 }
 

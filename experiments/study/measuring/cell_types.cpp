@@ -28,15 +28,15 @@ json row_types() {
 
 json cell_types() {
     json types = json::parse(R"({
-        "reference_noise": [{"shot": "text", "frame": "text", "variant": "text", "point": "text", "target": "text",
+        "reference_noise": [{"shot": "text", "frame": "text", "technique": "text", "point": "text", "target": "text",
                              "metric": "text", "mask": "text", "sums": ["number"], "growth": ["number"]}],
-        "images": [{"shot": "text", "frame": "count", "variant": "text", "point??": "text", "seed??": "count",
+        "images": [{"shot": "text", "frame": "count", "technique": "text", "point??": "text", "seed??": "count",
                     "kind": "text", "target": "text", "epsilon??": "number",
                     "exr": "text", "exr_hash": "text", "png": "text", "png_hash": "text"}],
         "timing??": {"shot": "text", "saved_ms": {"*": "number"},
-                    "aa_pairs": [{"shot": "text", "variant": "text", "point": "text", "first_ms": "number",
+                    "aa_pairs": [{"shot": "text", "technique": "text", "point": "text", "first_ms": "number",
                                   "second_ms": "number", "floor": "number"}],
-                    "savings": [{"shot": "text", "variant": "text", "point": "text", "complete_ms": "number",
+                    "savings": [{"shot": "text", "technique": "text", "point": "text", "complete_ms": "number",
                                  "share": "number", "low": "number", "high": "number"}],
                     "load": {"frames": "count", "disturbed_frames": "count", "left_out_frames": "count",
                              "largest_foreign_load??": "number", "largest_stolen_share": "number"},

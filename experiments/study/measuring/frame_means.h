@@ -4,7 +4,7 @@
 #include <map>
 #include <tuple>
 
-/// The means over the frames of a shot, of one variant point and seed: of rows that differ in nothing but the frame.
+/// The means over the frames of a shot, of one technique point and seed: of rows that differ in nothing but the frame.
 class FrameMeans {
 public:
     void add(const FrameRows& frame);

@@ -1,10 +1,10 @@
 #include "experiments/study/measuring/left_out_by.h"
 
 #include "core/gbuffer/rasterizer.h"
-#include "experiments/study/config/points/variant_of.h"
+#include "experiments/study/config/points/technique_of.h"
 #include "groundtruth/paths/path_tracer.h"
 
-std::vector<LeftOutBy> left_out_of(const Shot& shot, const std::vector<VariantConfig>& variants) {
+std::vector<LeftOutBy> left_out_of(const Shot& shot, const std::vector<PointConfig>& techniques) {
     std::vector<LeftOutBy> all;
     if (shot.config.gbuffer.empty()) {
         const ShotFrame now = shot_frame(shot, shot.config.frames.back());
@@ -13,9 +13,9 @@ std::vector<LeftOutBy> left_out_of(const Shot& shot, const std::vector<VariantCo
         for (const LeftOut& part : tracer.left_out()) all.push_back({"path tracer", part});
         for (const LeftOut& part : left_out_of_rasterizer(shot.facts)) all.push_back({"rasteriser", part});
     }
-    for (const VariantConfig& v : variants) {
-        const std::string who = v.point == "default" ? v.variant : v.variant + " " + v.point;
-        for (const LeftOut& part : variant_of(v)->leave_out(shot.facts)) all.push_back({who, part});
+    for (const PointConfig& v : techniques) {
+        const std::string who = v.point == "default" ? v.technique : v.technique + " " + v.point;
+        for (const LeftOut& part : technique_of(v)->leave_out(shot.facts)) all.push_back({who, part});
     }
     return all;
 }

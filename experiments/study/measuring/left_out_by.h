@@ -8,6 +8,6 @@ struct LeftOutBy {
     LeftOut part;
 };
 
-/// What path tracer and rasteriser leave out of a shot (nothing of a G-buffer from files), and the `variants` in their
-/// order, each with all of its points.
-std::vector<LeftOutBy> left_out_of(const Shot& shot, const std::vector<VariantConfig>& variants);
+/// What path tracer and rasteriser leave out of a shot (nothing of a G-buffer from files), and the `techniques` in
+/// their order, each with all of its points.
+std::vector<LeftOutBy> left_out_of(const Shot& shot, const std::vector<PointConfig>& techniques);

@@ -10,7 +10,7 @@
 #include <memory>
 #include <optional>
 
-/// What a variant's output is compared as. Of another program's frame only the first and the last are known.
+/// What a technique's output is compared as. Of another program's frame only the first and the last are known.
 struct CompositedImages {
     HostImage specular;         ///< by Config::composite
     HostImage incident = {};    ///< mix(fallback, radiance, confidence)
@@ -19,9 +19,9 @@ struct CompositedImages {
     HostImage image = {};       ///< all light, of another program; of ours the truth's own light is added
 };
 
-/// What all frames of one pose are measured against: made once, used for every variant, point and seed.
+/// What all frames of one pose are measured against: made once, used for every technique, point and seed.
 struct PoseTruth {
-    HostImage diffuse;                          ///< the truth's own: the lit colour that variants read
+    HostImage diffuse;                          ///< the truth's own: the lit colour that techniques read
     std::optional<ReferenceHalves> lit_halves;  ///< of it
     HostImage direct;  ///< and what `image` adds to every result: the same with the highlights of punctual lights
     std::map<std::string, MetricReference> targets;  ///< by name, with all metrics; where everything is measured
@@ -62,7 +62,7 @@ FrameTruth frame_truth(std::shared_ptr<const PoseTruth> pose, const HostGBuffer&
 /// Config::masks of one result, in their order; without `confidence` (empty) those that do not depend on it.
 std::vector<Mask> masks_of(const FrameTruth& truth, const HostImage& confidence, const Config& config);
 
-/// All targets that the result shows x metrics x masks. `row` holds what all rows share: shot, frame, variant, point,
+/// All targets that the result shows x metrics x masks. `row` holds what all rows share: shot, frame, technique, point,
 /// seed.
 std::vector<ResultRow> measure_targets(const PoseTruth& truth, const CompositedImages& result,
                                        std::span<const Mask> masks, const ResultRow& row);

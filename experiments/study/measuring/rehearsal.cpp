@@ -2,7 +2,7 @@
 
 #include "core/gbuffer/gbuffer_transfer.h"
 #include "core/gpu/device.h"
-#include "experiments/study/measuring/render_variant.h"
+#include "experiments/study/measuring/render_technique.h"
 #include "variants/registry.h"
 
 #include <set>
@@ -25,7 +25,7 @@ HostGBuffer empty_gbuffer(glm::uvec2 extent) {
     return gbuffer;
 }
 
-void rehearse(Device& device, const std::vector<VariantConfig>& variants) {
+void rehearse(Device& device, const std::vector<PointConfig>& techniques) {
     const HostGBuffer host = empty_gbuffer({16, 16});
     RayProbe probe;
     probe.exact_hits = [](const RecordedRays& recorded) { return std::vector<ExactHit>(recorded.rays.size()); };
@@ -33,12 +33,13 @@ void rehearse(Device& device, const std::vector<VariantConfig>& variants) {
         return std::vector<ExactHit>(marched.rays.size());
     };
     std::set<std::string> done;
-    for (const VariantConfig& config : variants) {
-        if (config.external || !done.insert(config.variant + config.preset + config.parameters.dump()).second) continue;
-        PassGraph graph(device, host.extent());
-        const std::unique_ptr<Variant> variant = make_variant(config.variant, config.parameters, config.preset);
-        variant->ray_probe = &probe;
-        render_variant(graph, *variant, host.camera, 0, upload_gbuffer(graph, host));
-        graph.times();  // waits, so that the images outlive the work
+    for (const PointConfig& config : techniques) {
+        if (config.external || !done.insert(config.technique + config.preset + config.parameters.dump()).second)
+            continue;
+        PassList pass_list(device, host.extent());
+        const std::unique_ptr<Technique> technique = make_technique(config.technique, config.parameters, config.preset);
+        technique->ray_probe = &probe;
+        render_technique(pass_list, *technique, host.camera, 0, upload_gbuffer(pass_list, host));
+        pass_list.times();  // waits, so that the images outlive the work
     }
 }

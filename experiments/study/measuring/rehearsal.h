@@ -9,4 +9,4 @@ HostGBuffer empty_gbuffer(glm::uvec2 extent);
 
 /// Renders one frame of a few pixels with each point of a study, so that a mistake in a shader or in a pass is an Error
 /// before a reference is rendered, not after.
-void rehearse(Device& device, const std::vector<VariantConfig>& variants);
+void rehearse(Device& device, const std::vector<PointConfig>& techniques);

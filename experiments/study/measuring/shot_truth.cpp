@@ -33,7 +33,7 @@ void check_change(const Shot& shot, const std::map<unsigned, std::string>& looks
                  " looks different from it; ghosting can only be measured where nothing moves after the change");
 }
 
-/// Replaces what variants read.
+/// Replaces what techniques read.
 void filter(PoseTruth& pose, const ReferenceOutput& lit, const Shot& shot, unsigned frame) {
     const ShotFrame now = shot_frame(shot, frame);
     FilteredLit filtered = filter_lit(lit, lit_surfaces(shot.scene, now.scene, now.camera, shot.config.extent));
@@ -94,7 +94,7 @@ ReferenceSettings settings_of(const Config& config, ReferenceUse use, bool keep_
     return settings;
 }
 
-ShotTruth shot_truth(const Shot& shot, const Config& config, FrameStore& store, PassGraph& graph,
+ShotTruth shot_truth(const Shot& shot, const Config& config, FrameStore& store, PassList& pass_list,
                      const std::function<Reference(unsigned frame, ReferenceUse use)>& obtain) {
     std::map<unsigned, std::string> looks;
     for (const FrameStep& step : shot.steps)
@@ -129,7 +129,7 @@ ShotTruth shot_truth(const Shot& shot, const Config& config, FrameStore& store, 
     for (const FrameStep& step : shot.steps) {
         if (!step.is_measured && !measures_difference(shot, step)) continue;
         const FrameStore::Frame frame = store.frame(step, truth.lit(step));
-        const HostGBuffer gbuffer = download_gbuffer(graph, frame.gbuffer, frame.camera, shot.config.depth_format);
+        const HostGBuffer gbuffer = download_gbuffer(pass_list, frame.gbuffer, frame.camera, shot.config.depth_format);
         truth.frames.emplace(std::pair(step.frame, step.previous_frame),
                              frame_truth(truth.poses.at(step.frame), gbuffer, config));
     }

@@ -42,7 +42,7 @@ ReferenceSettings settings_of(const Config& config, ReferenceUse use, bool keep_
 
 /// What is to be measured in a shot. `obtain` gives the reference of a frame; it is called once per pose that looks
 /// different (of a capture, per file). Fails if the shot names a change after which the scene still moves.
-ShotTruth shot_truth(const Shot& shot, const Config& config, FrameStore& store, PassGraph& graph,
+ShotTruth shot_truth(const Shot& shot, const Config& config, FrameStore& store, PassList& pass_list,
                      const std::function<Reference(unsigned frame, ReferenceUse use)>& obtain);
 
 /// Where there is no reference nothing is measured: the lit colour alone, for the frames of `shot`.

@@ -18,6 +18,6 @@ struct SeedSplit {
 /// Student's over the pairs of successive seeds, which are independent (two pairs or more), around the value of all
 /// pairs, which has slightly less scatter. That of the squared bias has the reference's noise added in quadrature
 /// (noise_half_width(); none where that is unknown), and the `lit_noise` of `mse`. `shared` holds shot,
-/// frame, variant, point and target.
+/// frame, technique, point and target.
 std::vector<SplitRow> split_rows(const SeedSplit& split, std::span<const Mask> masks, const SplitRow& shared,
                                  bool depends_on_seed = true, const LitNoiseOfErrors& lit_noise = unknown_lit_noise);

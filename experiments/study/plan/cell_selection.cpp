@@ -54,8 +54,8 @@ CellSelection::CellSelection(const std::vector<std::string>& terms) {
                           value = equals == std::string::npos ? "" : term.substr(equals + 1);
         if (key == "shot")
             add(key, [value](const PlannedCell& c) { return matches(value, c.shot); });
-        else if (key == "variant")
-            add(key, [value](const PlannedCell& c) { return c.variant && matches(value, c.variant->variant); });
+        else if (key == "technique")
+            add(key, [value](const PlannedCell& c) { return c.technique && matches(value, c.technique->technique); });
         else if (key == "cell" && !value.empty())
             add(key, [value](const PlannedCell& c) { return c.name.starts_with(value); });
         else if (key == "shard")
@@ -64,7 +64,7 @@ CellSelection::CellSelection(const std::vector<std::string>& terms) {
             });
         else {
             std::vector<std::string> known = cell_kind_names();
-            known.insert(known.end(), {"shot=NAME", "variant=NAME", "shard=I/N", "cell=HASH"});
+            known.insert(known.end(), {"shot=NAME", "technique=NAME", "shard=I/N", "cell=HASH"});
             fail("--cells: '", term, "' is no selection", suggestion(term, known));
         }
     }

@@ -1,7 +1,7 @@
 #include "experiments/study/plan/estimate.h"
 
 #include "core/elapsed.h"
-#include "experiments/study/measuring/render_variant.h"
+#include "experiments/study/measuring/render_technique.h"
 #include "experiments/study/measuring/times/timed_rounds.h"
 #include "experiments/study/plan/growth.h"
 #include "experiments/study/shots/open_shot.h"
@@ -55,7 +55,7 @@ Line line_through(const OfTwoSizes& seconds) {
 }
 
 /// Points that are alike but for what a design varies.
-std::string kind_of(const VariantConfig& variant) { return variant.variant + " " + variant.preset; }
+std::string kind_of(const PointConfig& technique) { return technique.technique + " " + technique.preset; }
 
 /// What a point of a kind takes.
 struct PointRates {
@@ -83,10 +83,10 @@ public:
     Calibration(Device& device, const Config& config, const RunSettings& settings)
         : device_(device), settings_(settings), config_(config) {
         folder_ = fs::temp_directory_path() / ("ssrlab-plan-" + std::to_string(getpid()));
-        for (const VariantConfig& variant : config.variants) {
-            if (variant.external) continue;
-            auto [ends, is_new] = ends_of_kinds_.try_emplace(kind_of(variant), variant, variant);
-            ends->second.second = variant;
+        for (const PointConfig& technique : config.techniques) {
+            if (technique.external) continue;
+            auto [ends, is_new] = ends_of_kinds_.try_emplace(kind_of(technique), technique, technique);
+            ends->second.second = technique;
         }
         config_.reference = {.max_samples = few_samples,
                              .max_depth = config.reference.max_depth,
@@ -162,13 +162,13 @@ private:
                           .report = [](double, const std::string&) {}});
     }
 
-    void measure_point(OpenShot& run, size_t size, VariantConfig variant, PointSeconds& seconds) {
+    void measure_point(OpenShot& run, size_t size, PointConfig technique, PointSeconds& seconds) {
         const bool is_first_size = size == 0;  // compiles
         const auto play = [&](std::vector<unsigned> seeds) {
-            variant.seeds = std::move(seeds);
+            technique.seeds = std::move(seeds);
             return seconds_of([&] {
                 SpentTime unused;
-                render_point(device_, run.shot, run.truth, *run.store, config_, variant,
+                render_point(device_, run.shot, run.truth, *run.store, config_, technique,
                              {.out = folder_,
                               .image_suffix = "plan",
                               .keep_all = settings_.keep_all,
@@ -181,28 +181,28 @@ private:
         seconds.of_two_seeds[size] = play({0, 1});
     }
 
-    void measure_frames(OpenShot& run, size_t size, const std::pair<VariantConfig, VariantConfig>& ends,
+    void measure_frames(OpenShot& run, size_t size, const std::pair<PointConfig, PointConfig>& ends,
                         PointSeconds& seconds) {
         seconds.first_frame[size] = seconds_of_frame(run, ends.first);
         seconds.last_frame[size] =
             ends.second.point == ends.first.point ? seconds.first_frame[size] : seconds_of_frame(run, ends.second);
     }
 
-    double seconds_of_frame(OpenShot& run, const VariantConfig& config) {
+    double seconds_of_frame(OpenShot& run, const PointConfig& config) {
         const FrameStep& step = run.shot.steps.front();
         const FrameStore::Frame frame = run.store->frame(step, run.truth.lit(step));
-        PassGraph graph(device_, run.shot.config.extent);
-        const std::unique_ptr<Variant> variant = make_variant(config.variant, config.parameters, config.preset);
+        PassList pass_list(device_, run.shot.config.extent);
+        const std::unique_ptr<Technique> technique = make_technique(config.technique, config.parameters, config.preset);
         RayProbe probe;  // exact_scene uses scene data, at a cost of its own: here it meets nothing
         probe.exact_hits = [](const RecordedRays& recorded) { return std::vector<ExactHit>(recorded.rays.size()); };
         probe.answers = [](const RecordedRays& marched, const AskedRays&) {
             return std::vector<ExactHit>(marched.rays.size());
         };
-        variant->ray_probe = &probe;
-        if (!settings_.keep_all) variant->leave_out(run.shot.facts);
+        technique->ray_probe = &probe;
+        if (!settings_.keep_all) technique->leave_out(run.shot.facts);
         const auto render = [&] {
-            render_variant(graph, *variant, frame.camera, 0, frame.gbuffer);
-            graph.times();  // waits
+            render_technique(pass_list, *technique, frame.camera, 0, frame.gbuffer);
+            pass_list.times();  // waits
         };
         render();  // compiles, and allocates
         std::array<double, 3> seconds{};
@@ -214,7 +214,7 @@ private:
     Device& device_;
     const RunSettings& settings_;
     Config config_;
-    std::map<std::string, std::pair<VariantConfig, VariantConfig>> ends_of_kinds_;  ///< first and last point
+    std::map<std::string, std::pair<PointConfig, PointConfig>> ends_of_kinds_;  ///< first and last point
     fs::path folder_;
 };
 
@@ -236,8 +236,8 @@ double memory_of(const ShotConfig& shot, const Config& config, size_t timed_copi
     const double held_mib = base_mib + kept_mib + mib_of_byte * truth_bytes;
     if (timed_copies > 0) return held_mib + double(timed_copies) * (copy_mib + mib_of_byte * copy_bytes);
     std::set<std::string> kinds;
-    for (const VariantConfig& variant : config.variants) kinds.insert(kind_of(variant));
-    return held_mib + mib_of_byte * render_bytes + point_mib * double(config.variants.size()) +
+    for (const PointConfig& technique : config.techniques) kinds.insert(kind_of(technique));
+    return held_mib + mib_of_byte * render_bytes + point_mib * double(config.techniques.size()) +
            kind_mib * double(kinds.size());
 }
 
@@ -254,7 +254,7 @@ public:
             case CellKind::references:
                 return rates_.opening.at(pixels) + of_references(shot, cell.units);
             case CellKind::renders:
-                return of_renders(*cell.variant, shot);
+                return of_renders(*cell.technique, shot);
             case CellKind::costs:
                 return of_costs(cell, shot);
             case CellKind::times:
@@ -268,7 +268,7 @@ public:
 
 private:
     double of_costs(const PlannedCell& cell, const ShotConfig& shot) const {
-        const double frame = frame_of(*cell.variant, shot), chips = double(config_.gpu_compilers.size());
+        const double frame = frame_of(*cell.technique, shot), chips = double(config_.gpu_compilers.size());
         // Frames before the last are rendered as they are; counting takes several times a frame.
         const double counted = frame * (cell.units + counting_factor) + compiling_seconds;
         double seconds = config_.counts_costs ? counted : 0;
@@ -298,27 +298,27 @@ private:
         return seconds > 0 ? std::min(traced, double(seconds)) : traced;
     }
 
-    double of_renders(const VariantConfig& variant, const ShotConfig& shot) const {
-        const double pixels = pixels_of(shot.extent), seeds = double(variant.seeds.size());
+    double of_renders(const PointConfig& technique, const ShotConfig& shot) const {
+        const double pixels = pixels_of(shot.extent), seeds = double(technique.seeds.size());
         const std::vector<FrameStep> steps = timeline(shot);
         const auto measured = double(std::ranges::count_if(steps, &FrameStep::is_measured));
-        if (variant.external) return external_pixel_seconds * pixels * measured * seeds;
-        const PointRates& rates = rates_.points.at(kind_of(variant));
+        if (technique.external) return external_pixel_seconds * pixels * measured * seeds;
+        const PointRates& rates = rates_.points.at(kind_of(technique));
         return rates.once.at(pixels) + rates.measure.at(pixels) * measured * seeds +
                rates.frame.at(pixels) * double(steps.size()) * (seeds + plays_of_lit_noise(config_, shot));
     }
 
     double of_times(const ShotConfig& shot, double others) const {
         double round = 0;
-        for (const VariantConfig& variant : config_.variants)
-            if (variant.is_timed) round += frame_of(variant, shot);
+        for (const PointConfig& technique : config_.techniques)
+            if (technique.is_timed) round += frame_of(technique, shot);
         const double all = round * copies_timed() * (config_.timing.frames + config_.timing.warm_up),
                      least = round * (least_rounds + copies_timed() * config_.timing.warm_up);
         return std::min(all, std::max(least, config_.timing.most_share * others));
     }
 
-    double frame_of(const VariantConfig& variant, const ShotConfig& shot) const {
-        return rates_.points.at(kind_of(variant)).frame.at(pixels_of(shot.extent));
+    double frame_of(const PointConfig& technique, const ShotConfig& shot) const {
+        return rates_.points.at(kind_of(technique)).frame.at(pixels_of(shot.extent));
     }
 
     const Rates& rates_;
@@ -332,7 +332,7 @@ std::map<std::string, CellEstimate> estimate_cells(Device& device, const Config&
                                                    const RunSettings& settings) {
     const Rates rates = Calibration(device, config, settings).measure(config.shots.front());
     CellSeconds seconds(rates, config);
-    const auto timed = size_t(std::ranges::count_if(config.variants, &VariantConfig::is_timed));
+    const auto timed = size_t(std::ranges::count_if(config.techniques, &PointConfig::is_timed));
     std::map<std::string, CellEstimate> estimates;
     for (const PlannedShot& shot : plan.shots) {
         double others = 0;

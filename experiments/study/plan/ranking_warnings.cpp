@@ -27,9 +27,9 @@ bool is_furnished(const std::string& scene) { return scene.starts_with("room:") 
 
 std::optional<std::string> warning_of_seeds(const Config& config, const StudyPlan& plan) {
     std::vector<std::string> points;
-    for (const VariantConfig& v : config.variants)
+    for (const PointConfig& v : config.techniques)
         if (v.depends_on_seed && v.seeds.size() == 1 && !v.external)
-            points.push_back(display_name(config, v.variant, v.point));
+            points.push_back(display_name(config, v.technique, v.point));
     if (points.empty()) return {};
     std::set<std::string> assets;
     for (const PlannedShot& shot : plan.shots) assets.insert(shot.entry.value("asset", shot.name));

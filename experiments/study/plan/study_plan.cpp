@@ -5,14 +5,14 @@
 #include "experiments/results/cells/source_code.h"
 #include "experiments/study/config/points/conditions.h"
 #include "experiments/study/config/points/external_images.h"
-#include "experiments/study/config/points/variant_of.h"
+#include "experiments/study/config/points/technique_of.h"
 #include "experiments/study/config/shots/scene_warnings.h"
 #include "experiments/study/config/shots/shot.h"
 #include "experiments/study/manifest_entries.h"
 #include "experiments/study/measuring/frames/capture.h"
 #include "experiments/study/measuring/shot_truth.h"
-#include "variants/registry.h"
 #include "variants/denoisers/denoisers.h"
+#include "variants/registry.h"
 #include "variants/tracers/tracers.h"
 
 #include <algorithm>
@@ -29,16 +29,16 @@ struct PointIdentity {
         sources;  ///< the folders of its technique and of the tracers and the denoiser that it has chosen
 };
 
-PointIdentity identity_of(const VariantConfig& config) {
+PointIdentity identity_of(const PointConfig& config) {
     if (config.external)
         return {.parameters = config.external->settings.dump(),
                 .sources = {"experiments/study/shots/external_frames.cpp"}};
-    const std::unique_ptr<Variant> variant = variant_of(config);
-    const nlohmann::json values = variant->params.values();
-    const auto& folder = find_variant(config.variant).folder;
+    const std::unique_ptr<Technique> technique = technique_of(config);
+    const nlohmann::json values = technique->params.values();
+    const auto& folder = find_technique(config.technique).folder;
     PointIdentity identity{.parameters = values.dump() + folder->content_hash, .sources = folder->sources};
     identity.sources.push_back("variants/declared/");
-    if (variant->uses_scene_data()) identity.sources.push_back("variants/tracers/exact_scene/");
+    if (technique->uses_scene_data()) identity.sources.push_back("variants/tracers/exact_scene/");
     for (const auto& [name, value] : values.items())
         for (const TracerEntry& tracer : tracer_table())
             if (value == tracer.name) {
@@ -58,7 +58,7 @@ class CellNames {
 public:
     CellNames(const Config& config, const DeviceInfo& device, bool keep_all, std::vector<SourceFile> sources)
         : config_(config), device_(device.name + device.driver), keep_all_(keep_all), code_(std::move(sources)) {
-        for (const VariantConfig& variant : config.variants) points_.push_back(identity_of(variant));
+        for (const PointConfig& technique : config.techniques) points_.push_back(identity_of(technique));
     }
 
     /// The chips that costs cells compile for, which their names hold with the compiler's version.
@@ -67,25 +67,25 @@ public:
     std::string of_references(const std::string& request) {
         return name({"experiments/study/shots/open_shot.cpp"}, request, with_images({}));
     }
-    std::string of_renders(const std::string& request, size_t variant, const Shot& shot) {
-        const PointIdentity& point = points_[variant];
+    std::string of_renders(const std::string& request, size_t technique, const Shot& shot) {
+        const PointIdentity& point = points_[technique];
         std::vector<std::string> sources = point.sources;
         sources.push_back("experiments/study/shots/point_renders.cpp"),
             sources.push_back("experiments/study/shots/open_shot.cpp");
-        const VariantConfig& v = config_.variants[variant];
-        std::vector<std::string> what = {v.variant, v.point, point.parameters};
+        const PointConfig& v = config_.techniques[technique];
+        std::vector<std::string> what = {v.technique, v.point, point.parameters};
         for (const unsigned seed : v.seeds) what.push_back(std::to_string(seed));
         if (!config_.measures_lit_noise) what.push_back("without lit noise");
         if (v.external) what.push_back(v.external->content_hash(shot));
         return name(sources, request, with_images(what));
     }
-    std::string of_costs(const std::string& request, size_t variant) {
-        const PointIdentity& point = points_[variant];
+    std::string of_costs(const std::string& request, size_t technique) {
+        const PointIdentity& point = points_[technique];
         std::vector<std::string> sources = point.sources;
         sources.push_back("experiments/study/measuring/costs/costs.cpp"),
             sources.push_back("experiments/study/shots/open_shot.cpp");
-        const VariantConfig& v = config_.variants[variant];
-        std::vector<std::string> what = {v.variant, v.point, point.parameters, std::to_string(v.seeds.front())};
+        const PointConfig& v = config_.techniques[technique];
+        std::vector<std::string> what = {v.technique, v.point, point.parameters, std::to_string(v.seeds.front())};
         if (!config_.counts_costs) what.push_back("compiled alone");
         if (!config_.gpu_compilers.empty()) sources.push_back("experiments/study/measuring/costs/compiled_shaders.cpp");
         if (config_.counts_costs && !config_.gpu_compilers.empty())
@@ -94,7 +94,7 @@ public:
             what.push_back(entry.chip.name), what.push_back(entry.chip.driver);
         return name(sources, request, what);
     }
-    /// `runs`: by variant, whether it runs on the shot.
+    /// `runs`: by technique, whether it runs on the shot.
     std::string of_times(const std::string& request, const std::vector<bool>& runs) {
         std::vector<std::string> sources = {"experiments/study/measuring/times/timing.cpp",
                                             "experiments/study/shots/open_shot.cpp"};
@@ -102,10 +102,10 @@ public:
                                          std::to_string(config_.timing.most_share)};
         if (!config_.timing.has_copies) what.push_back("alone");
         for (size_t i = 0; i < points_.size(); ++i) {
-            const VariantConfig& v = config_.variants[i];
+            const PointConfig& v = config_.techniques[i];
             if (!v.is_timed || !runs[i]) continue;
             sources.insert(sources.end(), points_[i].sources.begin(), points_[i].sources.end());
-            what.insert(what.end(), {v.variant, v.point, points_[i].parameters, std::to_string(v.seeds.front())});
+            what.insert(what.end(), {v.technique, v.point, points_[i].parameters, std::to_string(v.seeds.front())});
         }
         return name(sources, request, what);
     }
@@ -140,7 +140,7 @@ private:
     std::string device_;
     bool keep_all_;
     SourceCode code_;
-    std::vector<PointIdentity> points_;                       ///< as Config::variants
+    std::vector<PointIdentity> points_;                       ///< as Config::techniques
     std::map<std::vector<std::string>, std::string> hashes_;  ///< of sources
 };
 
@@ -180,15 +180,16 @@ std::string request_of(const Shot& shot, const Config& config, bool keep_all) {
 
 /// A technique may be left out of shots by its conditions; images that no shot uses are a mistake.
 void refuse_unused_images(const Config& config, const StudyPlan& plan) {
-    for (const VariantConfig& variant : config.variants) {
-        if (!variant.external) continue;
+    for (const PointConfig& technique : config.techniques) {
+        if (!technique.external) continue;
         const auto is_used = [&](const PlannedShot& shot) {
-            return std::ranges::any_of(shot.cells, [&](const PlannedCell& cell) { return cell.variant == &variant; });
+            return std::ranges::any_of(shot.cells,
+                                       [&](const PlannedCell& cell) { return cell.technique == &technique; });
         };
         if (std::ranges::any_of(plan.shots, is_used)) continue;
         for (const nlohmann::json& skipped : plan.skipped)
-            if (skipped["variant"] == variant.variant && skipped["point"] == variant.point)
-                fail(config.file.string(), ": no shot uses the images in ", variant.external->folder.string(), ": ",
+            if (skipped["technique"] == technique.technique && skipped["point"] == technique.point)
+                fail(config.file.string(), ": no shot uses the images in ", technique.external->folder.string(), ": ",
                      skipped["shot"].get<std::string>(), ": ", skipped["condition"].get<std::string>());
     }
 }
@@ -238,32 +239,32 @@ StudyPlan plan_study(const Config& config, const DeviceInfo& device,
                             .pixels = size_t(shot.config.extent.x) * shot.config.extent.y});
         };
         std::vector<bool> runs;
-        for (const VariantConfig& variant : config.variants) {
-            const std::string why = why_skipped(variant, shot);
+        for (const PointConfig& technique : config.techniques) {
+            const std::string why = why_skipped(technique, shot);
             runs.push_back(why.empty());
             if (!why.empty())
                 plan.skipped.push_back({{"shot", planned.name},
-                                        {"variant", variant.variant},
-                                        {"point", variant.point},
+                                        {"technique", technique.technique},
+                                        {"point", technique.point},
                                         {"condition", why}});
         }
         add(CellKind::references, names.of_references(request), "references", double(shot.config.frames.size()));
-        for (size_t i = 0; i < config.variants.size(); ++i) {
-            const VariantConfig& variant = config.variants[i];
+        for (size_t i = 0; i < config.techniques.size(); ++i) {
+            const PointConfig& technique = config.techniques[i];
             if (!runs[i]) continue;
-            add(CellKind::renders, names.of_renders(request, i, shot), variant.variant + " " + variant.point,
-                double(shot.steps.size() * variant.seeds.size()))
-                .variant = &variant;
+            add(CellKind::renders, names.of_renders(request, i, shot), technique.technique + " " + technique.point,
+                double(shot.steps.size() * technique.seeds.size()))
+                .technique = &technique;
         }
-        for (size_t i = 0; i < config.variants.size() && config.has_cost_cells(); ++i) {
-            const VariantConfig& variant = config.variants[i];
-            if (!runs[i] || variant.external) continue;
-            add(CellKind::costs, names.of_costs(request, i), "costs of " + variant.variant + " " + variant.point,
+        for (size_t i = 0; i < config.techniques.size() && config.has_cost_cells(); ++i) {
+            const PointConfig& technique = config.techniques[i];
+            if (!runs[i] || technique.external) continue;
+            add(CellKind::costs, names.of_costs(request, i), "costs of " + technique.technique + " " + technique.point,
                 double(shot.steps.size()))
-                .variant = &variant;
+                .technique = &technique;
         }
         const Config on_shot = config_on(config, shot);
-        if (config.timing.frames > 0 && std::ranges::any_of(on_shot.variants, &VariantConfig::is_timed))
+        if (config.timing.frames > 0 && std::ranges::any_of(on_shot.techniques, &PointConfig::is_timed))
             add(CellKind::times, names.of_times(request, runs), "times", 1);
     }
     refuse_unused_images(config, plan);

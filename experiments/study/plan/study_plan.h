@@ -19,9 +19,9 @@ const std::string& name_of(CellKind kind);
 struct PlannedCell {
     CellKind kind;
     std::string name;                        ///< as CellStore knows it
-    std::string what;                        ///< "<shot>: <variant> <point>", "<shot>: references", "<shot>: times"
+    std::string what;                        ///< "<shot>: <technique> <point>", "<shot>: references", "<shot>: times"
     std::string shot;                        ///< its name
-    const VariantConfig* variant = nullptr;  ///< of renders and costs
+    const PointConfig* technique = nullptr;  ///< of renders and costs
     double units = 1;                        ///< of its kind's work: references, frames x seeds, shots
     size_t pixels = 0;                       ///< of a frame
 };
@@ -52,7 +52,7 @@ StudyPlan plan_study(const Config& config, const DeviceInfo& device,
 class CellSelection {
 public:
     /// Terms, each of which narrows what the ones before left, but terms of one kind add up:
-    /// `references`, `renders`, `costs`, `times`; `shot=NAME` and `variant=NAME`, where * stands for any text;
+    /// `references`, `renders`, `costs`, `times`; `shot=NAME` and `technique=NAME`, where * stands for any text;
     /// `shard=I/N`, the I-th (from 1) of N parts, drawn by the cells' names; `cell=HASH`, the beginning of a name.
     /// None: all cells. Fails with Error on any other term.
     explicit CellSelection(const std::vector<std::string>& terms = {});

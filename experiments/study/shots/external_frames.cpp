@@ -52,18 +52,18 @@ struct Proofs {
 class ExternalPoint {
 public:
     ExternalPoint(const PointInShot& point, const PointSettings& settings)
-        : point_(point), settings_(settings), images_(*point.variant.external) {}
+        : point_(point), settings_(settings), images_(*point.technique.external) {}
 
     Cell measure() {
         for (const FrameStep& step : point_.shot.steps)
             if (step.is_measured) prove(step);
         PointErrors errors(point_, lit_noise());
-        for (const unsigned seed : point_.variant.seeds) {
+        for (const unsigned seed : point_.technique.seeds) {
             SeedErrors of_seed{.seed = seed};
             for (const FrameStep& step : point_.shot.steps)
                 if (step.is_measured) add_frame(errors, of_seed, step);
             errors.add_whole(of_seed);
-            settings_.report(double(seed + 1) / double(point_.variant.seeds.size()));
+            settings_.report(double(seed + 1) / double(point_.technique.seeds.size()));
         }
         Cell cell;
         errors.move_to(cell);
@@ -129,7 +129,7 @@ private:
         const std::string why =
             has_reflections ? why_refused_with_reflections(image, proof, is_proved) : why_refused(image, proof);
         if (why.empty()) return;
-        const std::string name = "images/refused." + point_.variant.variant + "." + point_.shot.name() + ".f" +
+        const std::string name = "images/refused." + point_.technique.technique + "." + point_.shot.name() + ".f" +
                                  std::to_string(step.frame) + ".png";
         const std::filesystem::path picture = path_inside(settings_.out, name);
         write_png(picture, difference_picture(image, proof));
@@ -155,7 +155,7 @@ private:
         if (leaks > most_differing(proof.count())) most_leaks_ = std::max(most_leaks_, leaks);
         const CompositedImages result{.specular = difference(image, truth(step).pose->direct), .image = image};
         errors.add(seed, step, result);
-        if (seed.seed != point_.variant.seeds.front() ||
+        if (seed.seed != point_.technique.seeds.front() ||
             point_.shot.images_of(step, point_.config.kept_images) != StepImages::all)
             return;
         queue_.add([this, row = point_.row(std::to_string(step.frame), seed.seed),
@@ -191,11 +191,12 @@ private:
     }
 
     std::string note() const {
-        std::string text =
-            point_.shot.name() + ": " + point_.variant.variant + " " + point_.variant.point + " was rendered by " +
-            images_.engine + " " + images_.version + (images_.driver.empty() ? "" : " on " + images_.driver) + "; of " +
-            std::to_string(compared_) + (images_.has_given_light ? " pixels " : " pixels of background and emission ") +
-            std::to_string(differing_) + " differ from the truth";
+        std::string text = point_.shot.name() + ": " + point_.technique.technique + " " + point_.technique.point +
+                           " was rendered by " + images_.engine + " " + images_.version +
+                           (images_.driver.empty() ? "" : " on " + images_.driver) + "; of " +
+                           std::to_string(compared_) +
+                           (images_.has_given_light ? " pixels " : " pixels of background and emission ") +
+                           std::to_string(differing_) + " differ from the truth";
         if (most_leaks_ > 0)
             text += ", with reflections up to " + std::to_string(most_leaks_) +
                     ": the technique adds light where nothing reflects, which counts as its error";
@@ -217,8 +218,8 @@ private:
 
 }  // namespace
 
-Cell measure_external(const Shot& shot, const ShotTruth& truth, const Config& config, const VariantConfig& variant,
+Cell measure_external(const Shot& shot, const ShotTruth& truth, const Config& config, const PointConfig& technique,
                       const PointSettings& settings) {
-    const PointInShot point{.shot = shot, .truth = truth, .config = config, .variant = variant};
+    const PointInShot point{.shot = shot, .truth = truth, .config = config, .technique = technique};
     return ExternalPoint(point, settings).measure();
 }

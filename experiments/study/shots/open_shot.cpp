@@ -137,7 +137,7 @@ void enter_shot(Opening& opening) {
     const FrameStep& last = open.shot.steps.back();
     const FrameStore::Frame frame = open.store->frame(last, open.truth.lit(last));
     const HostGBuffer host =
-        download_gbuffer(open.source->graph(), frame.gbuffer, frame.camera, open.shot.config.depth_format);
+        download_gbuffer(open.source->pass_list(), frame.gbuffer, frame.camera, open.shot.config.depth_format);
     open.entry["needs"] = fact_entries(list_facts(pixel_facts(host)));
     if (open.truth.is_measured()) {
         const FlipExposures& flip = open.truth.pose(last).flip_exposures;
@@ -171,7 +171,7 @@ void open_scene(Opening& opening, const ShotConfig& config) {
     if (!opening.config.has_reference)
         open.truth = truth_of_lit(open.shot, [](unsigned) { return HostImage(); });
     else
-        open.truth = shot_truth(open.shot, opening.config, *open.store, open.source->graph(),
+        open.truth = shot_truth(open.shot, opening.config, *open.store, open.source->pass_list(),
                                 [&](unsigned frame, ReferenceUse use) {
                                     Reference reference = obtain_reference(opening, frame, use);
                                     open.has_rendered_references |= !reference.from_cache;
@@ -205,7 +205,7 @@ void open_capture(Opening& opening, const ShotConfig& config) {
     open.store = std::make_unique<FrameStore>(*open.source, open.shot.config, max_stored_bytes);
     if (is_measured)
         open.truth = shot_truth(
-            open.shot, opening.config, *open.store, open.source->graph(), [&](unsigned frame, ReferenceUse use) {
+            open.shot, opening.config, *open.store, open.source->pass_list(), [&](unsigned frame, ReferenceUse use) {
                 Reference reference = read_capture_reference(open.shot, *open.capture, frame,
                                                              use.is_of_last && needs_ladder(opening.config));
                 note_reference(opening, reference, frame, use);

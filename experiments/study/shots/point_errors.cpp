@@ -118,11 +118,11 @@ std::vector<SplitRow> PointErrors::rows_of_splits() const {
     for (const auto& [target, split] : splits_) {
         const SplitRow shared{.shot = point_.shot.name(),
                               .frame = std::to_string(point_.last_step().frame),
-                              .variant = point_.variant.variant,
-                              .point = point_.variant.point,
+                              .technique = point_.technique.technique,
+                              .point = point_.technique.point,
                               .target = target,
                               .mask = {}};
-        for (SplitRow& row : split_rows(split, masks, shared, point_.variant.depends_on_seed, lit_noise_))
+        for (SplitRow& row : split_rows(split, masks, shared, point_.technique.depends_on_seed, lit_noise_))
             rows.push_back(std::move(row));
     }
     return rows;
@@ -132,8 +132,8 @@ std::vector<SplitRow> PointErrors::rows_of_splits() const {
 std::vector<std::string> PointErrors::notes() const {
     std::vector<std::string> notes;
     for (const auto& [what, masks] : missing_) {
-        std::string note = point_.shot.name() + ": " + point_.variant.variant + " " + point_.variant.point + ": no " +
-                           what.first + ": " + what.second + " (";
+        std::string note = point_.shot.name() + ": " + point_.technique.technique + " " + point_.technique.point +
+                           ": no " + what.first + ": " + what.second + " (";
         for (const std::string& mask : masks) note += (note.back() == '(' ? "" : ", ") + mask;
         notes.push_back(note + ")");
     }
@@ -144,6 +144,6 @@ void PointErrors::move_to(Cell& cell) {
     cell.rows = std::move(rows_);
     cell.splits = rows_of_splits();
     cell.reference_noise = means_of(
-        noise_, {.shot = point_.shot.name(), .variant = point_.variant.variant, .point = point_.variant.point});
+        noise_, {.shot = point_.shot.name(), .technique = point_.technique.technique, .point = point_.technique.point});
     cell.notes = notes();
 }

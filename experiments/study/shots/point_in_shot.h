@@ -1,12 +1,12 @@
 #pragma once
 #include "experiments/study/measuring/shot_truth.h"
 
-/// A variant point in an open shot, as it was asked for: nothing of it changes while it is rendered and measured.
+/// A technique point in an open shot, as it was asked for: nothing of it changes while it is rendered and measured.
 struct PointInShot {
     const Shot& shot;
     const ShotTruth& truth;
     const Config& config;
-    const VariantConfig& variant;
+    const PointConfig& technique;
 
     const FrameStep& last_step() const { return shot.steps.back(); }
     bool is_last(const FrameStep& step) const { return &step == &last_step(); }
@@ -19,8 +19,8 @@ struct PointInShot {
                 .frame = frame,
                 .width = shot.config.extent.x,
                 .height = shot.config.extent.y,
-                .variant = variant.variant,
-                .point = variant.point,
+                .technique = technique.technique,
+                .point = technique.point,
                 .seed = seed};
     }
 };

@@ -12,18 +12,19 @@ const MetricReference* specular_reference(const PoseTruth& pose) {
 
 }  // namespace
 
-void PointRays::plug_in_scene(RayProbe& probe, PassGraph& graph, const FrameStep& step, const CameraData& camera,
+void PointRays::plug_in_scene(RayProbe& probe, PassList& pass_list, const FrameStep& step, const CameraData& camera,
                               const GBuffer& gbuffer, unsigned seed) {
     if (!point_.shot.config.gbuffer.empty()) return;
     probe.exact_hits = [this, &step, camera](const RecordedRays& recorded) {
         return rays_in_scene(step, camera).hits(recorded);
     };
     answered_.reset();
-    probe.answers = [this, &graph, &step, camera, gbuffer, seed](const RecordedRays& marched, const AskedRays& asked) {
+    probe.answers = [this, &pass_list, &step, camera, gbuffer, seed](const RecordedRays& marched,
+                                                                     const AskedRays& asked) {
         if (!answered_) {
-            AnsweredRays::Frame frame{.lit = graph.download(gbuffer.lit),
-                                      .fallback = graph.download(gbuffer.fallback),
-                                      .normal = graph.download(gbuffer.normal),
+            AnsweredRays::Frame frame{.lit = pass_list.download(gbuffer.lit),
+                                      .fallback = pass_list.download(gbuffer.fallback),
+                                      .normal = pass_list.download(gbuffer.normal),
                                       .index = step.index,
                                       .seed = seed};
             if (const FrameTruth* truth = point_.truth.frame(step)) {
@@ -39,8 +40,8 @@ void PointRays::plug_in_scene(RayProbe& probe, PassGraph& graph, const FrameStep
 }
 
 bool PointRays::judges(unsigned seed, const FrameStep& step) const {
-    const std::vector<unsigned>& seeds = point_.variant.seeds;
-    if (!point_.variant.depends_on_seed && seed != seeds.front()) return false;  // it would trace the same rays
+    const std::vector<unsigned>& seeds = point_.technique.seeds;
+    if (!point_.technique.depends_on_seed && seed != seeds.front()) return false;  // it would trace the same rays
     return point_.config.hits && step.is_measured && point_.shot.config.gbuffer.empty() &&
            size_t(std::ranges::find(seeds, seed) - seeds.begin()) < point_.config.hits->seeds;
 }
@@ -70,8 +71,8 @@ std::vector<HitRow> PointRays::rows() const {
     for (const auto& [frame, judged] : judged_) {
         const HitRow shared{.shot = point_.shot.name(),
                             .frame = std::to_string(frame),
-                            .variant = point_.variant.variant,
-                            .point = point_.variant.point,
+                            .technique = point_.technique.technique,
+                            .point = point_.technique.point,
                             .stage = {},
                             .mask = {},
                             .quantity = {},

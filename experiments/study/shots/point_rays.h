@@ -14,7 +14,7 @@ public:
 
     /// Answers requests for scene data in this step, in which `seed` is rendered from `gbuffer`; a capture has no
     /// scene.
-    void plug_in_scene(RayProbe& probe, PassGraph& graph, const FrameStep& step, const CameraData& camera,
+    void plug_in_scene(RayProbe& probe, PassList& pass_list, const FrameStep& step, const CameraData& camera,
                        const GBuffer& gbuffer, unsigned seed);
     bool judges(unsigned seed, const FrameStep& step) const;
 

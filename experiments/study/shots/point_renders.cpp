@@ -1,7 +1,7 @@
 #include "experiments/study/shots/point_renders.h"
 
 #include "core/gpu/device.h"
-#include "experiments/study/measuring/render_variant.h"
+#include "experiments/study/measuring/render_technique.h"
 #include "experiments/study/shots/image_queue.h"
 #include "experiments/study/shots/point_errors.h"
 #include "experiments/study/shots/point_rays.h"
@@ -20,7 +20,7 @@ struct SeedInShot {
     unsigned seed() const { return errors.seed; }
 };
 
-/// Whether the lit colour that variants read is that of the reference.
+/// Whether the lit colour that techniques read is that of the reference.
 bool reads_reference_light(const PointInShot& point) {
     return !point.shot.config.direct_lit && point.truth.is_measured() &&
            std::ranges::all_of(point.truth.poses, [](const auto& pose) { return pose.second->lit_halves.has_value(); });
@@ -46,7 +46,7 @@ public:
 
     Cell render() {
         PointErrors errors(point_, lit_noise());
-        const std::vector<unsigned>& seeds = point_.variant.seeds;
+        const std::vector<unsigned>& seeds = point_.technique.seeds;
         const size_t batch = seeds_at_once(store_, point_.shot.config.extent);
         for (size_t first = 0; first < seeds.size(); first += batch) {
             std::vector<SeedInShot> open;
@@ -68,20 +68,20 @@ public:
 
 private:
     Renderer renderer() const {
-        Renderer made(device_, point_.shot.config.extent, point_.variant, point_.config.composite);
-        if (!settings_.keep_all) made.variant->leave_out(point_.shot.facts);
+        Renderer made(device_, point_.shot.config.extent, point_.technique, point_.config.composite);
+        if (!settings_.keep_all) made.technique->leave_out(point_.shot.facts);
         return made;
     }
 
     void report_step() {
         const bool is_played_with_halves = point_.config.measures_lit_noise && reads_noisy_light(point_);
-        const size_t passes = point_.variant.seeds.size() + (is_played_with_halves ? 2 : 0);
+        const size_t passes = point_.technique.seeds.size() + (is_played_with_halves ? 2 : 0);
         settings_.report(double(++rendered_) / double(point_.shot.steps.size() * passes));
     }
 
     /// The images of this step that are kept.
     StepImages kept_images(unsigned seed, const FrameStep& step) const {
-        if (seed != point_.variant.seeds.front()) return StepImages::none;
+        if (seed != point_.technique.seeds.front()) return StepImages::none;
         return point_.shot.images_of(step, point_.config.kept_images);
     }
 
@@ -128,13 +128,13 @@ private:
 
     void render_step(SeedInShot& seed, PointErrors& errors, const FrameStep& step, const FrameStore::Frame& frame) {
         Renderer& r = seed.renderer;
-        rays_.plug_in_scene(*r.probe, *r.graph, step, frame.camera, frame.gbuffer, seed.seed());
+        rays_.plug_in_scene(*r.probe, *r.pass_list, step, frame.camera, frame.gbuffer, seed.seed());
         r.probe->is_recording = rays_.judges(seed.seed(), step);
         const Reflections reflections = r.render(frame.camera, seed.seed(), frame.gbuffer);
         if (!step.is_warm_up) {
             const Composite composite = r.compositor->render(frame.gbuffer, reflections);
             const FrameTruth* truth = point_.truth.frame(step);
-            const CompositedImages images = download_results(*r.graph, frame.gbuffer, reflections, composite,
+            const CompositedImages images = download_results(*r.pass_list, frame.gbuffer, reflections, composite,
                                                              truth ? truth->reflectance : HostImage{});
             errors.add(seed.errors, step, images);
             if (r.probe->is_recording) judge_rays(seed, step, frame.camera, images);
@@ -143,29 +143,29 @@ private:
         report_step();
     }
 
-    /// The result of a step for which the variant reads `lit` (RGB).
+    /// The result of a step for which the technique reads `lit` (RGB).
     CompositedImages rendered_with(Renderer& r, const FrameStep& step, FrameStore::Frame frame, const HostImage& lit) {
         HostImage rgba(lit.extent, 4);
         for (size_t i = 0; i < lit.pixel_count(); ++i) rgba.set_rgb(i, lit.rgb(i));
         const auto replace = [&](Image& image) {
             const std::string name = image.name;
-            image = r.graph->image(name + "_of_half", Format::rgba32f).as(name);
-            r.graph->upload(image, rgba);
+            image = r.pass_list->image(name + "_of_half", Format::rgba32f).as(name);
+            r.pass_list->upload(image, rgba);
         };
         if (Image& without = frame.gbuffer.lit_without_specular; without.storage) {
-            const HostImage with = r.graph->download(frame.gbuffer.lit), mean = r.graph->download(without);
+            const HostImage with = r.pass_list->download(frame.gbuffer.lit), mean = r.pass_list->download(without);
             replace(without);
             for (size_t i = 0; i < rgba.values.size(); ++i) rgba.values[i] += with.values[i] - mean.values[i];
         }
         replace(frame.gbuffer.lit);
-        const unsigned seed = point_.variant.seeds.front();
-        rays_.plug_in_scene(*r.probe, *r.graph, step, frame.camera, frame.gbuffer, seed);
+        const unsigned seed = point_.technique.seeds.front();
+        rays_.plug_in_scene(*r.probe, *r.pass_list, step, frame.camera, frame.gbuffer, seed);
         const Reflections reflections = r.render(frame.camera, seed, frame.gbuffer);
         report_step();
         const FrameTruth* truth = point_.truth.frame(step);
         if (!step.is_measured || !truth) return {};
         const Composite composite = r.compositor->render(frame.gbuffer, reflections);
-        return download_results(*r.graph, frame.gbuffer, reflections, composite, truth->reflectance);
+        return download_results(*r.pass_list, frame.gbuffer, reflections, composite, truth->reflectance);
     }
 
     /// Plays the shot with the light of each half of the reference: what the noise of the light adds to errors.
@@ -204,7 +204,7 @@ private:
 }  // namespace
 
 Cell render_point(Device& device, const Shot& shot, const ShotTruth& truth, FrameStore& store, const Config& config,
-                  const VariantConfig& variant, const PointSettings& settings) {
-    const PointInShot point{.shot = shot, .truth = truth, .config = config, .variant = variant};
+                  const PointConfig& technique, const PointSettings& settings) {
+    const PointInShot point{.shot = shot, .truth = truth, .config = config, .technique = technique};
     return PointRenders(device, point, store, settings).render();
 }

@@ -10,8 +10,8 @@ struct PointSettings {
     SpentTime& spent;                    ///< counts what is waited for files of images, as "images"
 };
 
-/// Plays a shot with one variant point and all its seeds: the heart of ssrlab. Every seed starts from a fresh state,
+/// Plays a shot with one technique point and all its seeds: the heart of ssrlab. Every seed starts from a fresh state,
 /// with images and histories of its own. Seeds are played one after another; where the store cannot keep
 /// all frames, several advance side by side, so that fewer are drawn again.
 Cell render_point(Device& device, const Shot& shot, const ShotTruth& truth, FrameStore& store, const Config& config,
-                  const VariantConfig& variant, const PointSettings& settings);
+                  const PointConfig& technique, const PointSettings& settings);

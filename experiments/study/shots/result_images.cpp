@@ -71,13 +71,16 @@ HostImage error_picture(const HostImage& error) {
 
 /// Of the images of a point's run.
 std::string name_of(const ResultRow& row, const std::string& suffix) {
-    return file_name(row.variant + "." + row.point, 150) + ".s" + std::to_string(row.seed) + "." + suffix;
+    return file_name(row.technique + "." + row.point, 150) + ".s" + std::to_string(row.seed) + "." + suffix;
 }
 
 nlohmann::json entry_of(const ResultRow& row, const std::string& kind, const std::string& target) {
-    return {{"shot", row.shot},       {"frame", std::stoul(row.frame)},
-            {"variant", row.variant}, {"point", row.point},
-            {"seed", row.seed},       {"kind", kind},
+    return {{"shot", row.shot},
+            {"frame", std::stoul(row.frame)},
+            {"technique", row.technique},
+            {"point", row.point},
+            {"seed", row.seed},
+            {"kind", kind},
             {"target", target}};
 }
 
@@ -93,13 +96,14 @@ HostImage relative_error(const HostImage& test, const HostImage& reference) {
     return error;
 }
 
-CompositedImages download_results(PassGraph& graph, const GBuffer& gbuffer, const Reflections& reflections,
+CompositedImages download_results(PassList& pass_list, const GBuffer& gbuffer, const Reflections& reflections,
                                   const Composite& composite, const HostImage& reflectance) {
-    const HostImage radiance = graph.download(reflections.radiance), fallback = graph.download(gbuffer.fallback);
+    const HostImage radiance = pass_list.download(reflections.radiance),
+                    fallback = pass_list.download(gbuffer.fallback);
     CompositedImages images{
-        .specular = channels_of(graph.download(composite.specular), 0, 3),
+        .specular = channels_of(pass_list.download(composite.specular), 0, 3),
         .incident = HostImage(radiance.extent, 3),
-        .confidence = channels_of(graph.download(reflections.confidence), reflections.confidence_channel, 1),
+        .confidence = channels_of(pass_list.download(reflections.confidence), reflections.confidence_channel, 1),
         .radiance = HostImage(radiance.extent, 3)};
     for (size_t i = 0; i < radiance.pixel_count(); ++i)
         if (images.confidence.values[i] != 0.0f) images.radiance.set_rgb(i, radiance.rgb(i));
@@ -127,7 +131,7 @@ std::vector<nlohmann::json> save_reference_images(const std::filesystem::path& o
         images.push_back({.name = "reference." + reference.hash.substr(0, 8) + "." + target,
                           .entry = {{"shot", shot},
                                     {"frame", frame},
-                                    {"variant", "reference"},
+                                    {"technique", "reference"},
                                     {"kind", "reference"},
                                     {"target", target}},
                           .rgb = output->mean,
@@ -141,7 +145,7 @@ nlohmann::json save_played_reference(const std::filesystem::path& out, const std
                 KeptImage{.name = "reference." + reference.hash.substr(0, 8) + ".specular",
                           .entry = {{"shot", shot},
                                     {"frame", frame},
-                                    {"variant", "reference"},
+                                    {"technique", "reference"},
                                     {"kind", "played"},
                                     {"target", "specular"}},
                           .rgb = reference.specular.mean,
@@ -165,7 +169,7 @@ nlohmann::json save_roughness_image(const std::filesystem::path& out, const std:
                 KeptImage{.name = "surface." + hash.hex().substr(0, 8) + ".roughness",
                           .entry = {{"shot", shot},
                                     {"frame", frame},
-                                    {"variant", "reference"},
+                                    {"technique", "reference"},
                                     {"kind", "surface"},
                                     {"target", "roughness"}},
                           .rgb = repeated_channel(roughness)});

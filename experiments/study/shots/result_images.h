@@ -9,9 +9,9 @@
 
 // The image files of a results folder, and the manifest's entries for them.
 
-/// The variant's output on the CPU. `incident` mixes fallback and radiance as the compositor does, and is
+/// The technique's output on the CPU. `incident` mixes fallback and radiance as the compositor does, and is
 /// 0 where `reflectance` (of the G-buffer; may be empty) is 0, as in the truth.
-CompositedImages download_results(PassGraph& graph, const GBuffer& gbuffer, const Reflections& reflections,
+CompositedImages download_results(PassList& pass_list, const GBuffer& gbuffer, const Reflections& reflections,
                                   const Composite& composite, const HostImage& reflectance);
 
 /// Writes the verdicts of map_of_verdicts() (judged_hits.h) into images/<shot>/; returns the manifest's entry. `stage`:

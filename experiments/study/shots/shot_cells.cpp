@@ -43,7 +43,7 @@ void say_result(StudySession& study, const Cell& cell) {
             non_finite = std::max(non_finite, size_t(r.non_finite));
             if (r.value) values[r.frame].push_back(*r.value);
         }
-    const auto name = [&] { return display_name(study.config, cell.rows.front().variant, cell.rows.front().point); };
+    const auto name = [&] { return display_name(study.config, cell.rows.front().technique, cell.rows.front().point); };
     if (values.empty() && non_finite > 0)
         study.progress.say("  " + name() + ": no value, for " + std::to_string(non_finite) +
                            (non_finite == 1 ? " pixel is" : " pixels are") + " NaN or infinite");
@@ -181,8 +181,8 @@ Cell timing_cell(StudySession& study, OpenShot& open, double budget, const std::
     const TimingLock lock([&](const std::string& text) { study.progress.say(text); });
     const ClockProof& clock = proven_clock(study);
     const auto lit = [&](unsigned frame) -> const HostImage& { return open.truth.lit({.frame = frame}); };
-    const ShotTimes times = time_variants(*open.source, open.shot, config_on(study.config, open.shot), lit,
-                                          study.settings.keep_all, budget, report);
+    const ShotTimes times = time_techniques(*open.source, open.shot, config_on(study.config, open.shot), lit,
+                                            study.settings.keep_all, budget, report);
     if (const std::string why = disturbance(times.load); !why.empty())
         study.progress.say("warning: " + open.shot.name() + ": " + why);
     return Cell{.times = times.rows, .timing = timing_entry(times, open.shot.name(), clock)};
@@ -195,9 +195,9 @@ Cell renders_cell(StudySession& study, OpenShot& open, const PlannedCell& planne
                                  .keep_all = study.settings.keep_all,
                                  .report = report,
                                  .spent = study.spent};
-    if (planned.variant->external)
-        return measure_external(open.shot, open.truth, study.config, *planned.variant, settings);
-    return render_point(study.device, open.shot, open.truth, *open.store, study.config, *planned.variant, settings);
+    if (planned.technique->external)
+        return measure_external(open.shot, open.truth, study.config, *planned.technique, settings);
+    return render_point(study.device, open.shot, open.truth, *open.store, study.config, *planned.technique, settings);
 }
 
 Cell costs_cell(StudySession& study, OpenShot& open, const PlannedCell& planned,
@@ -206,22 +206,22 @@ Cell costs_cell(StudySession& study, OpenShot& open, const PlannedCell& planned,
     Cell cell;
     if (study.config.counts_costs)
         cell.costs =
-            count_costs(study.device, open.shot, *open.store, lit, *planned.variant, study.settings.keep_all, report);
+            count_costs(study.device, open.shot, *open.store, lit, *planned.technique, study.settings.keep_all, report);
     if (study.config.gpu_compilers.empty()) return cell;
     const StagePipelines pipelines =
-        stage_pipelines(study.device, open.shot, *open.store, lit, *planned.variant, study.settings.keep_all);
+        stage_pipelines(study.device, open.shot, *open.store, lit, *planned.technique, study.settings.keep_all);
     const std::string shot = open.shot.name();
     const ChipCompilation how{.cache = study.settings.cache,
                               .notice = [&](const std::string& text) { study.progress.say("warning: " + text); }};
-    cell.compiled = compiled_rows(pipelines, shot, *planned.variant, study.plan.compilers, how);
+    cell.compiled = compiled_rows(pipelines, shot, *planned.technique, study.plan.compilers, how);
     if (study.config.counts_costs) try {
-            const TracedFrame frame = trace_last_frame(study.device, open.shot, *open.store, lit, *planned.variant,
+            const TracedFrame frame = trace_last_frame(study.device, open.shot, *open.store, lit, *planned.technique,
                                                        study.settings.keep_all, report);
-            cell.estimates = estimate_rows(frame, shot, *planned.variant, study.plan.compilers, how);
+            cell.estimates = estimate_rows(frame, shot, *planned.technique, study.plan.compilers, how);
         } catch (const MachineError&) {
             throw;
         } catch (const Error& e) {  // a shader that cannot be traced
-            cell.estimates = refused_estimates(e.what(), shot, *planned.variant, study.plan.compilers);
+            cell.estimates = refused_estimates(e.what(), shot, *planned.technique, study.plan.compilers);
         }
     return cell;
 }
@@ -301,13 +301,13 @@ void say_scene_warnings(StudySession& study, const PlannedShot& shot, const Plan
 }
 
 /// The points of which some cell is not there.
-std::vector<VariantConfig> points_to_do(const StudySession& study) {
-    std::set<const VariantConfig*> missing;
+std::vector<PointConfig> points_to_do(const StudySession& study) {
+    std::set<const PointConfig*> missing;
     for (const PlannedShot& shot : study.plan.shots)
         for (const PlannedCell& cell : shot.cells)
-            if (cell.variant && !std::filesystem::exists(study.cells.file(cell.name))) missing.insert(cell.variant);
-    std::vector<VariantConfig> points;
-    for (const VariantConfig& point : study.config.variants)
+            if (cell.technique && !std::filesystem::exists(study.cells.file(cell.name))) missing.insert(cell.technique);
+    std::vector<PointConfig> points;
+    for (const PointConfig& point : study.config.techniques)
         if (missing.contains(&point)) points.push_back(point);
     return points;
 }

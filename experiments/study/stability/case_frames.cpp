@@ -58,9 +58,9 @@ bool is_sound(const HostGBuffer& g, size_t pixel) {
 }
 
 CaseDrawer::CaseDrawer(Device& device, std::vector<std::filesystem::path> search_path, std::filesystem::path cache,
-                       const std::vector<VariantConfig>& points)
+                       const std::vector<PointConfig>& points)
     : device_(device), search_path_(std::move(search_path)), cache_(std::move(cache)) {
-    config_.variants = points;
+    config_.techniques = points;
     config_.reference.max_samples = samples;
 }
 
@@ -91,16 +91,17 @@ CaseFrames CaseDrawer::draw(const CaseScene& wanted, const std::vector<InputFaul
         if (is_new) {
             const std::shared_ptr<const Reference> reference = reference_of(step.frame);
             const GBuffer gbuffer = source->render(step, 0, reference ? reference->diffuse.mean : HostImage());
-            HostGBuffer host = download_gbuffer(source->graph(), gbuffer, source->camera(), shot->config.depth_format);
+            HostGBuffer host =
+                download_gbuffer(source->pass_list(), gbuffer, source->camera(), shot->config.depth_format);
             for (size_t i = 0; i < faults.size(); ++i)
                 if (has_fault[i]) apply(faults[i], host);
             if (perturbation) perturbation(host);
-            const auto graph = std::make_shared<PassGraph>(device_, shot->config.extent);
+            const auto pass_list = std::make_shared<PassList>(device_, shot->config.extent);
             frame = {.host = std::make_shared<HostGBuffer>(host),
-                     .gbuffer = upload_gbuffer(*graph, host),
+                     .gbuffer = upload_gbuffer(*pass_list, host),
                      .camera = host.camera};
             frame.gbuffer.environment = gbuffer.environment;
-            frames.owners.push_back(graph);
+            frames.owners.push_back(pass_list);
         }
         frames.steps.push_back(frame);
         frames.steps.back().camera.frame.x = step.index;

@@ -29,7 +29,7 @@ class CaseDrawer {
 public:
     /// `points`: who will read the frames. `cache`: of references.
     CaseDrawer(Device& device, std::vector<std::filesystem::path> search_path, std::filesystem::path cache,
-               const std::vector<VariantConfig>& points);
+               const std::vector<PointConfig>& points);
 
     /// `perturbation`, if there is one, changes each G-buffer after the case's faults.
     CaseFrames draw(const CaseScene& scene, const std::vector<InputFault>& faults = {},

@@ -1,7 +1,7 @@
 #include "experiments/study/stability/case_run.h"
 
 #include "core/error.h"
-#include "experiments/study/measuring/render_variant.h"
+#include "experiments/study/measuring/render_technique.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,18 +60,18 @@ void scan(std::vector<StageFinding>& findings, const std::string& stage, const s
 /// `findings`: of every image that the passes write; null: they are not looked at.
 FrameImages render(const Renderer& technique, const CaseFrame& frame, unsigned seed,
                    std::vector<StageFinding>* findings, double& milliseconds) {
-    PassGraph& graph = *technique.graph;
+    PassList& pass_list = *technique.pass_list;
     if (findings)
-        graph.observe([&graph, findings](const std::string& stage, std::span<const Image> written) {
-            for (const Image& image : written) scan(*findings, stage, image.name, graph.download(image));
+        pass_list.observe([&pass_list, findings](const std::string& stage, std::span<const Image> written) {
+            for (const Image& image : written) scan(*findings, stage, image.name, pass_list.download(image));
         });
     const Reflections reflections = technique.render(frame.camera, seed, frame.gbuffer);
-    milliseconds = graph.frame_milliseconds();
-    graph.observe({});  // what the compositor makes of a bad pixel is no stage of the technique
+    milliseconds = pass_list.frame_milliseconds();
+    pass_list.observe({});  // what the compositor makes of a bad pixel is no stage of the technique
     const Composite composite = technique.compositor->render(frame.gbuffer, reflections);
-    return {.specular = channels_of(graph.download(composite.specular), 0, 3),
-            .radiance = channels_of(graph.download(reflections.radiance), 0, 3),
-            .confidence = channels_of(graph.download(reflections.confidence), reflections.confidence_channel, 1)};
+    return {.specular = channels_of(pass_list.download(composite.specular), 0, 3),
+            .radiance = channels_of(pass_list.download(reflections.radiance), 0, 3),
+            .confidence = channels_of(pass_list.download(reflections.confidence), reflections.confidence_channel, 1)};
 }
 
 double mean_of_judged(const CaseFrames& frames, const HostImage& specular) {
@@ -85,15 +85,15 @@ double mean_of_judged(const CaseFrames& frames, const HostImage& specular) {
 
 void render_all(CaseResult& run, const Renderer& technique, const CaseFrames& frames, const StabilityCase& what,
                 const CaseOptions& options) {
-    const glm::uvec2 extent = technique.graph->extent();
+    const glm::uvec2 extent = technique.pass_list->extent();
     unsigned last_fault = 0;
     for (const InputFault& fault : what.faults) last_fault = std::max(last_fault, fault.step.value_or(1u << 31));
     HostImage fed_back;
     for (size_t step = 0; step < frames.steps.size(); ++step) {
         CaseFrame frame = frames.steps[step];
-        std::optional<PassGraph> mirror;
+        std::optional<PassList> mirror;
         if (!fed_back.values.empty()) {
-            mirror.emplace(technique.graph->device(), extent);
+            mirror.emplace(technique.pass_list->device(), extent);
             HostImage rgba(extent, 4, 1.0f);
             for (size_t i = 0; i < rgba.pixel_count(); ++i) rgba.set_rgb(i, fed_back.rgb(i));
             frame.gbuffer.lit = mirror->image("lit", Format::rgba32f);
@@ -126,7 +126,7 @@ void render_all(CaseResult& run, const Renderer& technique, const CaseFrames& fr
 
 bool is_finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-CaseResult run_case(Device& device, const VariantConfig& point, const StabilityCase& what, const CaseFrames& frames,
+CaseResult run_case(Device& device, const PointConfig& point, const StabilityCase& what, const CaseFrames& frames,
                     const CaseOptions& options, const CaseFrames* before) {
     CaseResult run;
     try {
@@ -134,8 +134,8 @@ CaseResult run_case(Device& device, const VariantConfig& point, const StabilityC
         if (before) {
             CaseResult smaller;
             render_all(smaller, technique, *before, what, {});
-            technique.graph = std::make_unique<PassGraph>(device, frames.shot->config.extent);
-            technique.compositor = std::make_unique<Compositor>(*technique.graph);
+            technique.pass_list = std::make_unique<PassList>(device, frames.shot->config.extent);
+            technique.compositor = std::make_unique<Compositor>(*technique.pass_list);
         }
         render_all(run, technique, frames, what, options);
     } catch (const Error& error) {

@@ -17,7 +17,7 @@ struct CaseOptions {
 };
 
 /// Renders the frames of `what`, after those of `before`, if there are any, in which the technique saw another size.
-CaseResult run_case(Device& device, const VariantConfig& point, const StabilityCase& what, const CaseFrames& frames,
+CaseResult run_case(Device& device, const PointConfig& point, const StabilityCase& what, const CaseFrames& frames,
                     const CaseOptions& options = {}, const CaseFrames* before = nullptr);
 
 /// Squared difference of two pictures over squared truth, of judged pixels that are finite in both: free of the scale

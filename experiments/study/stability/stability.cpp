@@ -14,9 +14,9 @@
 
 namespace {
 
-StabilityRow empty_row(const StabilityCase& what, const std::string& variant, const std::string& point = "default") {
+StabilityRow empty_row(const StabilityCase& what, const std::string& technique, const std::string& point = "default") {
     StabilityRow row;
-    row.case_name = what.name, row.group = what.group, row.variant = variant, row.point = point;
+    row.case_name = what.name, row.group = what.group, row.technique = technique, row.point = point;
     return row;
 }
 
@@ -124,8 +124,8 @@ public:
             perturbed_.emplace_back(p, drawer.draw(what.scene, what.faults, p.apply));
     }
 
-    StabilityRow row(const VariantConfig& point) {
-        StabilityRow row = empty_row(what_, point.variant, point.point);
+    StabilityRow row(const PointConfig& point) {
+        StabilityRow row = empty_row(what_, point.technique, point.point);
         CaseResult run = run_case(device_, point, what_, frames_, {.is_scanned = true}, before_ ? &*before_ : nullptr);
         static_cast<CaseFindings&>(row) = run;
         row.stages = std::move(run.stages);
@@ -163,7 +163,7 @@ public:
 
 private:
     /// Over so many seeds; a technique that draws no random number shows it by the second.
-    void average_seeds(StabilityRow& row, const VariantConfig& point) {
+    void average_seeds(StabilityRow& row, const PointConfig& point) {
         const unsigned most = frames_.truth.pixel_count() < 1000 ? 9 : 3;
         double error = *row.error, benign_error = *row.benign_error;
         for (unsigned seed = 2; seed <= most; ++seed) {
@@ -178,9 +178,9 @@ private:
         row.seeds = most;
     }
 
-    const BenignRun& benign_run(const VariantConfig& point, unsigned seed) {
+    const BenignRun& benign_run(const PointConfig& point, unsigned seed) {
         const auto [entry, is_new] =
-            benign_runs_.try_emplace(point.variant + ":" + point.point + " " + std::to_string(seed));
+            benign_runs_.try_emplace(point.technique + ":" + point.point + " " + std::to_string(seed));
         if (is_new) {
             const CaseResult run = run_case(device_, point, {}, benign_, {.seed = seed});
             if (run.refusal.empty()) entry->second = {relative_error(benign_, run.specular), run.milliseconds};
@@ -221,7 +221,7 @@ std::vector<std::vector<size_t>> batches_of(const std::vector<StabilityCase>& ca
     return batches;
 }
 
-bool is_for(const StabilityCase& what, const VariantConfig& point) {
+bool is_for(const StabilityCase& what, const PointConfig& point) {
     const std::vector<std::string> names = names_of_point(point);
     return what.only.empty() || std::ranges::find_first_of(names, what.only) != names.end();
 }
@@ -232,7 +232,7 @@ public:
     using Done = std::function<void(const std::vector<StabilityRow>&, double)>;
     Work(const StabilitySelection& selection, const StabilityFolders& folders, const Done& done)
         : cases_(chosen_cases(selection)),
-          points_(all_points(selection.variants)),
+          points_(all_points(selection.techniques)),
           folders_(folders),
           done_(done),
           batches_(batches_of(cases_)),
@@ -281,17 +281,17 @@ private:
                                       const CaseFrames& benign, std::map<std::string, BenignRun>& benign_runs) const {
         std::vector<StabilityRow> rows;
         const auto for_points = [&](const auto& row_of) {
-            for (const VariantConfig& point : points_)
+            for (const PointConfig& point : points_)
                 if (is_for(what, point)) rows.push_back(row_of(point));
         };
         try {
             CaseJudge judge(device, drawer, what, benign, benign_runs);
             if (std::optional<StabilityRow> row = judge.path_tracer_row()) rows.push_back(std::move(*row));
-            for_points([&](const VariantConfig& point) { return judge.row(point); });
+            for_points([&](const PointConfig& point) { return judge.row(point); });
         } catch (const MachineError& error) {  // the case could not even be drawn
             rows.clear();
-            for_points([&](const VariantConfig& point) {
-                StabilityRow row = empty_row(what, point.variant, point.point);
+            for_points([&](const PointConfig& point) {
+                StabilityRow row = empty_row(what, point.technique, point.point);
                 row.refusal = error.what();
                 return judged(row);
             });
@@ -300,7 +300,7 @@ private:
     }
 
     const std::vector<StabilityCase> cases_;
-    const std::vector<VariantConfig> points_;
+    const std::vector<PointConfig> points_;
     const StabilityFolders& folders_;
     const Done& done_;
     const std::vector<std::vector<size_t>> batches_;

@@ -5,9 +5,9 @@
 
 /// What is run, by names; empty: all.
 struct StabilitySelection {
-    std::filesystem::path table;        ///< of cases
-    std::vector<std::string> cases;     ///< names, families or groups of its cases
-    std::vector<std::string> variants;  ///< as all_points() takes them
+    std::filesystem::path table;          ///< of cases
+    std::vector<std::string> cases;       ///< names, families or groups of its cases
+    std::vector<std::string> techniques;  ///< as all_points() takes them
 };
 
 /// Where scenes and references are.

@@ -58,8 +58,8 @@ struct JudgeTest : StudyTest {
 bool says(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
 
 EffectRow effect(const std::string& shot, double ratio, double p, const std::string& frame = "0") {
-    EffectRow row{.shot = shot, .frame = frame, .variant = "v", .point = "frames"};
-    row.against_variant = "v", row.against_point = "before", row.target = "specular", row.metric = "mse";
+    EffectRow row{.shot = shot, .frame = frame, .technique = "v", .point = "frames"};
+    row.against_technique = "v", row.against_point = "before", row.target = "specular", row.metric = "mse";
     row.mask = "reflective", row.ratio = ratio, row.low = 0.9 * ratio, row.high = 1.1 * ratio, row.p = p;
     row.verdict = verdict::undecided;
     return row;
@@ -84,7 +84,7 @@ TEST(Judgement, IsWorseIfAViewIsAndAdjustsForTheirNumber) {
     // Of a sequence the mean over its frames, and of all rows those of its error alone.
     EXPECT_EQ(judged({effect("a", 1.1, 1e-6), effect("a", 1, 0.5, over_frames)}).verdict, judgement::undecided);
     EffectRow of_none = effect("a", 9, 1e-9);
-    of_none.variant = "none";
+    of_none.technique = "none";
     EXPECT_EQ(judged({effect("a", 1, 0.5), of_none}).verdict, judgement::undecided);
 }
 
@@ -144,8 +144,8 @@ TEST_F(JudgeTest, NeverPassesWhatItCouldNotCompare) {
 }
 
 TEST(Judgement, TakesForIdenticalWhatMeasuresAlikeToTheLastDigit) {
-    const auto row = [](const std::string& variant, unsigned seed, std::optional<double> value) {
-        ResultRow r{.shot = "a", .frame = "0", .variant = variant, .point = "default", .seed = seed};
+    const auto row = [](const std::string& technique, unsigned seed, std::optional<double> value) {
+        ResultRow r{.shot = "a", .frame = "0", .technique = technique, .point = "default", .seed = seed};
         r.target = "specular", r.metric = "mse", r.mask = "all", r.value = value;
         return r;
     };

@@ -34,27 +34,27 @@ TEST_F(CommandLine, NamesMistakesInConfigs) {
     expect_mistake("run nowhere.json", "nowhere.json");
     config("{\n \"shots\": [,]\n}");
     expect_mistake("run study.json", "study.json:2:");
-    config("{" + good_shot + R"(, "variants": [{"variant": "mcguire_dad"}]})");
+    config("{" + good_shot + R"(, "techniques": [{"technique": "mcguire_dad"}]})");
     expect_mistake("run study.json", "did you mean 'mcguire_dda'?");
-    config("{" + good_shot + R"(, "variants": [{"variant": "mcguire_dda", "parameters": {"thicknes": 1}}]})");
+    config("{" + good_shot + R"(, "techniques": [{"technique": "mcguire_dda", "parameters": {"thicknes": 1}}]})");
     expect_mistake("run study.json", "did you mean 'dda.thickness'?");
     config(
         "{" + good_shot +
-        R"(, "variants": [{"variant": "mcguire_dda"}], "timing": {"frames": 15}, "tune": {"axes": {"dda.stride": [1, 2]}}})");
+        R"(, "techniques": [{"technique": "mcguire_dda"}], "timing": {"frames": 15}, "tune": {"axes": {"dda.stride": [1, 2]}}})");
     for (const char* command : {"run", "plan"})
         expect_mistake(command + std::string(" study.json"), "`ssrlab tune` runs it");
-    config("{" + good_shot + R"(, "variants": [{"variant": "mcguire_dda", "parameters": {"dda.stride": 1000}}]})");
+    config("{" + good_shot + R"(, "techniques": [{"technique": "mcguire_dda", "parameters": {"dda.stride": 1000}}]})");
     expect_mistake("run study.json", "[1, 64]");
-    config(R"({"shots": [{"scene": "sky_only", "resolution": [0, 8]}], "variants": [{"variant": "none"}]})");
+    config(R"({"shots": [{"scene": "sky_only", "resolution": [0, 8]}], "techniques": [{"technique": "none"}]})");
     expect_mistake("run study.json",
                    "'resolution' must be `[width, height]` in [1, 16384], or an array of such, not [0,8]");
-    config("{" + good_shot + R"(, "variants": [{"variant": "none"}], "refrence": {}})");
+    config("{" + good_shot + R"(, "techniques": [{"technique": "none"}], "refrence": {}})");
     expect_mistake("run study.json", "did you mean 'reference'?");
     config(
-        R"({"shots": [{"scene": "mirror_pilars", "resolution": [8, 8]}], "variants": [{"variant": "none"}], "timing": {"frames": 0}})");
+        R"({"shots": [{"scene": "mirror_pilars", "resolution": [8, 8]}], "techniques": [{"technique": "none"}], "timing": {"frames": 0}})");
     EXPECT_NE(ssrlab("run study.json --out o").text.find("did you mean 'mirror_pillars'?"), std::string::npos);
     EXPECT_FALSE(fs::exists(folder / "o/results.csv"));
-    config("{" + good_shot + R"(, "variants": [{"variant": "mcguire_dda"}], "tune": {"most_runs": 9}})");
+    config("{" + good_shot + R"(, "techniques": [{"technique": "mcguire_dda"}], "tune": {"most_runs": 9}})");
     expect_mistake("tune study.json", "it can only be extended");
 }
 
@@ -62,7 +62,7 @@ TEST_F(CommandLine, NamesMistakesInConfigs) {
 TEST_F(CommandLine, SearchesATechniqueThatIsDeclared) {
     config(R"({"shots": [{"scene": "mirror_pillars", "resolution": [32, 18]}], "reference": {"samples": 16}, "seeds": 1,
         "timing": {"frames": 0}, "metrics": ["mse"], "masks": ["all"], "targets": ["image"],
-        "variants": [{"variant": "mcguire_dda"}],
+        "techniques": [{"technique": "mcguire_dda"}],
         "tune": {"time": "operations", "most_runs": 1, "axes": {"dda.stride": [1, 2]}}})");
     const Outcome tuned = ssrlab("tune study.json --out tuned");
     EXPECT_EQ(tuned.code, 0) << tuned.text;
@@ -73,14 +73,14 @@ TEST_F(CommandLine, PlansAndRefusesWhatThisMachineCannotHold) {
     // Also of a point that uses scene data, whose time does not depend on its rays.
     config(
         R"({"shots": [{"scene": "fence", "resolution": [48, 27]}], "reference": "none", "lit": "direct", "seeds": 1, "timing": {"frames": 0},
-        "variants": [{"variant": "mcguire_dda", "sweep": {"tracer": ["dda", "exact_scene"]}}]})");
+        "techniques": [{"technique": "mcguire_dda", "sweep": {"tracer": ["dda", "exact_scene"]}}]})");
     const Outcome small = ssrlab("plan study.json");
     EXPECT_EQ(small.code, 0) << small.text;
     EXPECT_NE(small.text.find("1 shot, 2 points"), std::string::npos) << small.text;
     config(
         "{" +
         std::string(
-            R"("shots": [{"scene": "sky_only", "resolution": [16384, 16384]}], "reference": "none", "lit": "direct", "variants": [{"variant": "none"}]})"));
+            R"("shots": [{"scene": "sky_only", "resolution": [16384, 16384]}], "reference": "none", "lit": "direct", "techniques": [{"technique": "none"}]})"));
     const Outcome large = ssrlab("plan study.json"), elsewhere = ssrlab("plan study.json --json plan.json");
     EXPECT_EQ(large.code, 2);
     EXPECT_NE(large.text.find("MiB of memory, and this machine has"), std::string::npos) << large.text;
@@ -88,7 +88,7 @@ TEST_F(CommandLine, PlansAndRefusesWhatThisMachineCannotHold) {
 }
 
 TEST_F(CommandLine, PrintsCommandsThatAShellTakesAsTheyAre) {
-    config(R"({"shots": [{"scene": "sky_only", "resolution": [16, 16]}], "variants": [{"variant": "none"}],
+    config(R"({"shots": [{"scene": "sky_only", "resolution": [16, 16]}], "techniques": [{"technique": "none"}],
                "timing": {"frames": 0}, "reference": {"samples": 16}})");
     fs::create_directories(folder / "it's here");
     fs::rename(folder / "study.json", folder / "it's here/my study.json");
@@ -115,7 +115,7 @@ TEST_F(CommandLine, PrintsCommandsThatAShellTakesAsTheyAre) {
 TEST_F(CommandLine, ShowsWhatIsDoneOfAStudyThatRunsOrWasStopped) {
     config(
         R"({"shots": [{"scene": "sky_only", "resolution": [16, 16]}], "reference": {"samples": 16}, "timing": {"frames": 0}, "seeds": 16,
-               "variants": [{"variant": "none"}, {"variant": "amd_sssr"}, {"variant": "diligent_ssr"}]})");
+               "techniques": [{"technique": "none"}, {"technique": "amd_sssr"}, {"technique": "diligent_ssr"}]})");
     fs::create_directories(folder / "o");
     write_text(folder / "o/study.json", read_text(folder / "study.json"));
     expect_mistake("report o", "was stopped before its first results; the same `ssrlab run` continues it");
@@ -152,33 +152,34 @@ TEST_F(CommandLine, NamesBrokenFiles) {
     expect_mistake("rays room:x", "no scene is called 'room:x'");
     EXPECT_EQ(ssrlab("rays \"room:*\" --count 0").code, 2);
     expect_mistake("figures .", "manifest.json");
-    expect_mistake("describe mcguire", "unknown variant, tracer or denoiser 'mcguire'");
+    expect_mistake("describe mcguire", "unknown technique, tracer or denoiser 'mcguire'");
     EXPECT_EQ(ssrlab("reference fence --size 0 10").code, 2);
     expect_mistake("rnu study.json", "unknown command 'rnu'; did you mean 'run'?");
     expect_mistake("frobnicate", "known are: run, plan, merge");
 }
 
 TEST_F(CommandLine, RefusesWhatNoNumberAndNoStackCanHold) {
-    const std::string rest = ", " + good_shot + R"(, "variants": [{"variant": "none"}]})";
+    const std::string rest = ", " + good_shot + R"(, "techniques": [{"technique": "none"}]})";
     config("{\"title\": " + std::string(300'000, '[') + std::string(300'000, ']') + rest);
     expect_mistake("run study.json", "study.json: its JSON nests more than 100 levels");
     config("{\"reflective_max_roughness\": 1e400" + rest);
     expect_mistake("run study.json", "reflective_max_roughness: the number 1e400");
     config("{\"timing\": {\"frames\": 0, \"frames\": 15}" + rest);
     expect_mistake("run study.json", "study.json: timing: the key 'frames' comes twice");
-    config("{" + good_shot + R"(, "variants": [{"variant": "mcguire_dda", "parameters": {"dda.thickness": 1e39}}]})");
+    config("{" + good_shot +
+           R"(, "techniques": [{"technique": "mcguire_dda", "parameters": {"dda.thickness": 1e39}}]})");
     expect_mistake("run study.json", "'dda.thickness' = 1e+39");
     const std::string name(300'000, 'n');
     for (const std::string extension : {"", ".json", ".glb"}) {
-        config(R"({"shots": [{"scene": ")" + name + extension + R"("}], "variants": [{"variant": "none"}]})");
+        config(R"({"shots": [{"scene": ")" + name + extension + R"("}], "techniques": [{"technique": "none"}]})");
         const Outcome o = ssrlab("run study.json");
         EXPECT_EQ(o.code, 2) << extension << o.text.substr(0, 500);
         EXPECT_LT(o.text.size(), 2000u);
     }
-    config("{" + good_shot + R"(, "variants": [{"variant": ")" + name + R"("}]})");
-    expect_mistake("run study.json", "unknown variant 'nnn");
+    config("{" + good_shot + R"(, "techniques": [{"technique": ")" + name + R"("}]})");
+    expect_mistake("run study.json", "unknown technique 'nnn");
     // Names that are compared with a pattern.
-    config("{" + good_shot + R"(, "variants": [{"variant": "none"}], "masks": ["roughness_0_0.)" +
+    config("{" + good_shot + R"(, "techniques": [{"technique": "none"}], "masks": ["roughness_0_0.)" +
            std::string(300'000, '1') + R"(x"]})");
     expect_mistake("plan study.json", "'masks' must be");
 }
@@ -324,7 +325,7 @@ TEST_F(CommandLine, InspectsFilesOfAnybody) {
 TEST_F(CommandLine, TellsWarningsOfASceneOnce) {
     write_text(folder / "glass.gltf", blended_triangle);
     config(R"({"shots": [{"scene": "glass.gltf", "resolution": [[16, 16], [24, 24]]}], "reference": {"samples": 16},
-               "variants": [{"variant": "none"}], "timing": {"frames": 0}, "seeds": 1})");
+               "techniques": [{"technique": "none"}], "timing": {"frames": 0}, "seeds": 1})");
     const auto warnings = [](const std::string& text) {
         size_t count = 0;
         for (size_t at = 0; (at = text.find("is blended (alphaMode BLEND)", at)) != std::string::npos; ++at) ++count;
@@ -361,9 +362,9 @@ TEST_F(CommandLine, ListsWhatEachThingIs) {
     EXPECT_NE(scenes.find("  Cameras: main, lateral\n"), std::string::npos) << scenes;
     EXPECT_NE(scenes.find("\nroom:0 to room:999999  "), std::string::npos) << scenes;
     EXPECT_NE(scenes.find("\nmy_scene\n"), std::string::npos) << "it has no about.txt\n" << scenes;
-    const std::string variants = ssrlab("list variants").text;
-    EXPECT_NE(variants.find("none: No screen-space reflections\n    Confidence 0 everywhere"), std::string::npos)
-        << variants;
+    const std::string techniques = ssrlab("list techniques").text;
+    EXPECT_NE(techniques.find("none: No screen-space reflections\n    Confidence 0 everywhere"), std::string::npos)
+        << techniques;
     EXPECT_NE(ssrlab("list presets").text.find("\namd_sssr:corrected\n    every defect fixed"), std::string::npos);
 }
 
@@ -377,7 +378,7 @@ TEST_F(CommandLine, SavesGBuffers) {
 /// And at SIGTERM, by which batch systems end a job.
 TEST_F(CommandLine, SaysAtCtrlCThatTheSameCommandContinues) {
     config(R"({"shots": [{"scene": "fence", "resolution": [96, 54]}], "reference": {"samples": 1000000}, "seeds": 1,
-        "variants": [{"variant": "none"}], "timing": {"frames": 0}})");
+        "techniques": [{"technique": "none"}], "timing": {"frames": 0}})");
     // Shells let what they start in the background ignore Ctrl-C, and this program may be in one's background itself.
     write_text(folder / "stop.sh", "cd '" + folder.string() + R"('
 rm -f log  # of the signal before, in which the loop would find its words too early

@@ -27,7 +27,7 @@ struct KeptFolder {
 struct Faults : CommandLine {
     void SetUp() override {
         CommandLine::SetUp();
-        config(study_of(R"([{"variant": "none"}, {"variant": "mcguire_dda"}])", 0));
+        config(study_of(R"([{"technique": "none"}, {"technique": "mcguire_dda"}])", 0));
         static const KeptFolder done;  // rendered once, for all tests
         if (fs::is_empty(done.path)) {
             const Outcome made = ssrlab("run study.json --out o");
@@ -37,11 +37,11 @@ struct Faults : CommandLine {
             fs::copy(done.path, folder, fs::copy_options::recursive | fs::copy_options::overwrite_existing);
         }
     }
-    static std::string study_of(const std::string& variants, int timed_frames) {
+    static std::string study_of(const std::string& techniques, int timed_frames) {
         return R"({"shots": [{"scene": ["mirror_pillars", "fence"], "resolution": [32, 18]}], "seeds": 2,
             "reference": {"samples": 16}, "timing": {"frames": )" +
-               std::to_string(timed_frames) + R"(}, "variants": )" + variants + R"(,
-            "tables": [{"name": "errors", "caption": "c", "of": "results", "rows": "variant", "columns": "shot",
+               std::to_string(timed_frames) + R"(}, "techniques": )" + techniques + R"(,
+            "tables": [{"name": "errors", "caption": "c", "of": "results", "rows": "technique", "columns": "shot",
                         "where": {"metric": "mse", "target": "specular", "mask": "reflective"}}]})";
     }
     void expect_fault(const std::string& arguments, const std::string& before = "") {
@@ -69,7 +69,7 @@ TEST_F(Faults, WhatCannotBeWrittenIsNamed) {
     write_exr(folder / "a.exr", HostImage({16, 16}, 3, 0.5f));
     write_text(folder / "tune.json",
                R"({"shots": [{"scene": "fence", "resolution": [16, 12]}], "timing": {"frames": 15},
-        "variants": [{"variant": "mcguire_dda"}], "tune": {"axes": {"dda.stride": [1, 2]}}})");
+        "techniques": [{"technique": "mcguire_dda"}], "tune": {"axes": {"dda.stride": [1, 2]}}})");
     // No user can make a folder there.
     for (const char* command :
          {"run study.json --out /proc/x", "merge study.json o --out /proc/x", "plan study.json --json /proc/x/y",
@@ -120,9 +120,9 @@ TEST_F(Faults, KillsAtAnyMomentLoseNothing) {
     double last_moment = 0.9;  // s
     if (asked) {
         setenv("SSRLAB_TIMING_LOCK", (folder / "timing.lock").c_str(), 1);
-        nlohmann::json variants;
-        for (const VariantEntry& entry : variant_table()) variants.push_back({{"variant", entry.name}});
-        config(study_of(variants.dump(), 15));
+        nlohmann::json techniques;
+        for (const TechniqueEntry& entry : technique_table()) techniques.push_back({{"technique", entry.name}});
+        config(study_of(techniques.dump(), 15));
         fs::remove_all(folder / "o");
         const auto begin = std::chrono::steady_clock::now();
         ASSERT_EQ(ssrlab(run("o")).code, 0);

@@ -22,10 +22,10 @@ import yaml
 STUDY = {
     "shots": [{"scene": ["mirror_pillars", "fence"], "resolution": [48, 27]}],
     "reference": {"samples": 16},
-    "variants": [
-        {"variant": "none"},
-        {"variant": "mcguire_dda", "baseline": True},
-        {"variant": "mcguire_dda", "preset": "best"},
+    "techniques": [
+        {"technique": "none"},
+        {"technique": "mcguire_dda", "baseline": True},
+        {"technique": "mcguire_dda", "preset": "best"},
     ],
     "seeds": 2,
     "timing": {"frames": 0},

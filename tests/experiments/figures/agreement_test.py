@@ -14,7 +14,7 @@ from ssrlab.tables.cell import Cell
 
 
 def rows(metric, values, shot="s"):
-    return [{"shot": shot, "variant": "v", "point": p, "metric": metric, "value": str(v)} for p, v in values.items()]
+    return [{"shot": shot, "technique": "v", "point": p, "metric": metric, "value": str(v)} for p, v in values.items()]
 
 
 class Directions:

@@ -16,9 +16,9 @@ SSRLAB = os.path.abspath(sys.argv[1])
 EXPERIMENTS = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../experiments"))
 STUDY = {
     "shots": [{"scene": "fence", "resolution": [48, 27]}],
-    "variants": [
-        {"variant": "none"},
-        {"variant": "mcguire_dda", "sweep": {"dda.thickness": {"log": [0.003, 3, 5]}, "dda.stride": [1, 4]}},
+    "techniques": [
+        {"technique": "none"},
+        {"technique": "mcguire_dda", "sweep": {"dda.thickness": {"log": [0.003, 3, 5]}, "dda.stride": [1, 4]}},
     ],
     "seeds": 1,
     "reference": {"samples": 16},

@@ -79,7 +79,7 @@ def test_study(folder):
     texts = [t.get_text() for a in panels["bias_variance"] for t in a.texts]
     check(len(texts) == 7 and all("about 0" in t for t in texts), f"biases that are not above 0: {texts}")
     all_effects = [
-        e for e in results.effects if (e["metric"], e["mask"], e["variant"]) == ("relmse", "reflective", "sssr")
+        e for e in results.effects if (e["metric"], e["mask"], e["technique"]) == ("relmse", "reflective", "sssr")
     ]
     is_baseline = lambda e: e["against"] == "baseline"
     against_baseline, otherwise_equal = filter(is_baseline, all_effects), [e for e in all_effects if not is_baseline(e)]
@@ -168,7 +168,7 @@ def test_front(folder):
     places = {("v", name): (exact(t), exact(e)) for name, t, e in (("a", 1, 4), ("b", 2, 2), ("c", 2.05, 2.1), ("d", 0.5, 1))}
     results, chosen = Results(folder), request_of("error_time", "mse")
     said = {"a": ("bytes time", "no"), "b": ("time", "maybe"), "c": ("", "yes"), "d": ("bytes", "yes")}
-    error = {"shot": "s", "target": chosen.target, "metric": chosen.metric, "mask": chosen.mask, "variant": "v"}
+    error = {"shot": "s", "target": chosen.target, "metric": chosen.metric, "mask": chosen.mask, "technique": "v"}
     results.errors = [error | {"point": p, "fronts": fronts, "dominated": dominated} for p, (fronts, dominated) in said.items()]
     line, beaten = error_time._judged(results, "s", chosen, places)
     check(line == [("v", "a"), ("v", "b")] and beaten == {("v", "c"), ("v", "d")}, f"{line}, {beaten}")
@@ -246,10 +246,10 @@ def test_fits(folder):
     costs = {name: 2.0**i for i, name in enumerate(points)}
     check(len(points) >= 4, f"too few points: {points}")
     floor, a, b = 0.5 * min(points.values()), max(points.values()), 1.25
-    fit = {"shot": shot, "variant": "sssr", "parameter": "float_histories", "fixed": "", "point_names": "; ".join(points), "unit": "ms"}
+    fit = {"shot": shot, "technique": "sssr", "parameter": "float_histories", "fixed": "", "point_names": "; ".join(points), "unit": "ms"}
     law = fit | {"status": "fitted", "floor": floor, "floor_low": 0.9 * floor, "floor_high": 1.1 * floor, "a": a, "b": b}
     none = fit | {"parameter": "race", "status": "the error does not surely fall with the cost"}
-    place = {"shot": shot, "variant": "sssr", "unit": "ms"}
+    place = {"shot": shot, "technique": "sssr", "unit": "ms"}
     front = [place | {"point": p, "error": e, "error_low": e, "error_high": e, "cost": costs[p], "cost_low": costs[p], "cost_high": costs[p]} for p, e in points.items()]
 
     def write(name, rows):
@@ -303,7 +303,7 @@ def test_several_baselines(folder):
     results = Results(folder)
     chosen = request_of("effects")
     of_one = effects.comparisons(results, chosen)
-    second = [dict(e, variant="second", against_variant="second") for e in of_one["effects"]]
+    second = [dict(e, technique="second", against_technique="second") for e in of_one["effects"]]
     results.effects += second
     of_two = effects.comparisons(results, chosen)
     check(

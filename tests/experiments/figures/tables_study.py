@@ -22,7 +22,7 @@ TABLES = [
         "caption": "Errors",
         "of": "results",
         "where": {"metric": "mse", "point": ["taps=4", "default"]},
-        "rows": ["variant", "point"],
+        "rows": ["technique", "point"],
         "columns": "shot",
     },
     {"name": "parts", "caption": "Parts", "of": "splits", "where": {"shot": "floor"}, "rows": "point", "columns": "metric"},
@@ -78,14 +78,14 @@ def manifest(tables, verdict="passed"):
         "metrics": {m: {"better": b} for m, b in (("mse", "lower"), ("flip", "lower"), ("ssim", "higher"))},
         "clock": {"proofs": [{"verdict": verdict, "shots": SHOTS}]},
         "shots": [{"shot": s, "width": 320, "height": 180} for s in SHOTS],
-        "variants": [{"variant": "sssr", "point": p, "parameters": {"taps": taps}} for p, taps in points],
+        "techniques": [{"technique": "sssr", "point": p, "parameters": {"taps": taps}} for p, taps in points],
     }
 
 
 def write_results(folder, tables=TABLES, ratios=RATIOS):
     write(os.path.join(folder, "manifest.json"), json.dumps(manifest(tables)))
     effects = [
-        {"shot": shot, "frame": "0", "variant": "sssr", "point": point, "against": "baseline", "against_variant": "sssr"}
+        {"shot": shot, "frame": "0", "technique": "sssr", "point": point, "against": "baseline", "against_technique": "sssr"}
         | {"against_point": "default", "target": "specular", "metric": metric, "mask": "all", "seeds": 8}
         | {"interval": SEEDS if metric == "flip" else REFERENCE}
         | dict(zip(("ratio", "low_holm", "high_holm", "p_holm", "interval"), numbers))
@@ -94,19 +94,19 @@ def write_results(folder, tables=TABLES, ratios=RATIOS):
     ]
     write_rows(os.path.join(folder, "effects.csv"), effects)
     errors = [
-        {"shot": shot, "frame": frame, "variant": "sssr", "point": point, "target": "specular", "metric": "mse", "mask": "all"}
+        {"shot": shot, "frame": frame, "technique": "sssr", "point": point, "target": "specular", "metric": "mse", "mask": "all"}
         | {"seeds": 8, "value": value, "low": value * 0.9, "high": value * 1.1, "represents_shot": int(frame == ""), "standing": "best" if point == "taps=4" else "behind", "dominated": ""}
         for shot in SHOTS
         for frame, point, value in (("3", "default", 5.0), ("", "default", 0.0123), ("3", "taps=4", 0.002))
     ]
     errors += [row | {"frame": "", "value": 0.00234, "low": "", "high": "", "represents_shot": 1} for row in errors if row["point"] == "taps=4"]
     write_rows(os.path.join(folder, "summary.csv"), errors)
-    split = {"shot": "floor", "frame": "3", "variant": "sssr", "target": "specular", "mask": "all", "seeds": 8, "mse": 3}
+    split = {"shot": "floor", "frame": "3", "technique": "sssr", "target": "specular", "mask": "all", "seeds": 8, "mse": 3}
     split |= {"bias_squared": 2, "bias_squared_low": 1.5, "bias_squared_high": 2.5, "variance": 1}
     split |= {"variance_low": 0.9, "variance_high": 1.1}
     write_rows(os.path.join(folder, "splits.csv"), [split | {"point": "default"}, split | {"point": "taps=4"}])
     times = [
-        {"shot": shot, "variant": "sssr", "point": point, "stage": "total", "clock": "gpu_timestamp", "frames": 15}
+        {"shot": shot, "technique": "sssr", "point": point, "stage": "total", "clock": "gpu_timestamp", "frames": 15}
         | {"median_ms": 2, "low_ms": 1.9, "high_ms": 2.1, "disturbed_share": 0.4 if (shot, point) == ("wall", "default") else 0}
         for shot in SHOTS
         for point in ("default", "taps=4")
@@ -114,6 +114,6 @@ def write_results(folder, tables=TABLES, ratios=RATIOS):
     for row in times:  # as ssrlab decides them: made up, and printed by no table
         row |= {"fits_from_ms": row["high_ms"], "may_fit_from_ms": row["low_ms"]}
     write_rows(os.path.join(folder, "time_summary.csv"), times)
-    ratio = {"variant": "sssr", "point": "taps=4", "against": "baseline", "against_variant": "sssr", "against_point": "default"}
+    ratio = {"technique": "sssr", "point": "taps=4", "against": "baseline", "against_technique": "sssr", "against_point": "default"}
     ratio |= {"stage": "total", "clock": "gpu_timestamp", "rounds": 15, "ratio": 1, "low": 0.9, "high": 1.1, "low_holm": 0.9, "high_holm": 1.1, "verdict": "undecided"}
     write_rows(os.path.join(folder, "time_effects.csv"), [{"shot": shot} | ratio for shot in SHOTS])

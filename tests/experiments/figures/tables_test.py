@@ -290,8 +290,8 @@ def test_display_names(folder):
     named = manifest([TABLES[1], TABLES[1] | by_group])
     for shot in named["shots"]:
         shot["group"] = "rooms"
-    named["variants"][0]["group"] = "faithful"
-    named["variants"][1]["label"], named["shots"][0]["label"] = "four | taps", "The floor"
+    named["techniques"][0]["group"] = "faithful"
+    named["techniques"][1]["label"], named["shots"][0]["label"] = "four | taps", "The floor"
     write(os.path.join(folder, "manifest.json"), json.dumps(named))
     check(tables(folder).returncode == 0, "display names")
     lines = read(os.path.join(folder, "tables", "levels.md")).splitlines()
@@ -414,7 +414,7 @@ def test_shares(folder):
     table |= {"rows": ["point", "stage"], "columns": "quantity", "over": "shot"}
     write_results(folder, [table])
     rows = [
-        {"shot": shot, "frame": "0", "variant": "sssr", "point": "default", "stage": "trace", "mask": mask, "quantity": quantity}
+        {"shot": shot, "frame": "0", "technique": "sssr", "point": "default", "stage": "trace", "mask": mask, "quantity": quantity}
         | {"seeds": 4, "rays": 100, "value": value, "low": low, "high": high}
         for quantity, by_shot in shares.items()
         for shot, (value, low, high) in by_shot.items()
@@ -448,7 +448,7 @@ def test_counts(temporary):
         "trace": {"operations": (12345678, 3000000), "atomics": (10007, 10007), "idle": (0, 40)},
         "total": {"operations": (123456789, 987), "atomics": (663001, 663004), "idle": (0, 0)},
     }
-    place = {"variant": "sssr", "point": "default"}
+    place = {"technique": "sssr", "point": "default"}
     rows = [
         {"shot": shot} | place | {"stage": stage, "quantity": quantity, "value": values[i]}
         for i, shot in enumerate(SHOTS)
@@ -485,8 +485,8 @@ def test_compiled(temporary):
     table = {"name": "chips", "caption": "Registers", "of": "compiled", "where": {"shot": SHOTS[0]},
              "rows": "stage", "columns": ["chip", "quantity"]}  # fmt: skip
     write_results(folder, [table])
-    columns = ("shot", "variant", "point", "stage", "chip", "vgprs", "waves", "hash", "refusal")
-    empty = dict.fromkeys(columns, "") | {"shot": SHOTS[0], "variant": "sssr", "point": "default"}
+    columns = ("shot", "technique", "point", "stage", "chip", "vgprs", "waves", "hash", "refusal")
+    empty = dict.fromkeys(columns, "") | {"shot": SHOTS[0], "technique": "sssr", "point": "default"}
     rows = [
         empty | {"stage": "trace", "chip": "navi21", "vgprs": "48", "waves": "10", "hash": "12345678"},
         empty | {"stage": "trace", "chip": "vega10", "vgprs": "52", "waves": ""},
@@ -512,8 +512,8 @@ def test_estimates(temporary):
               "rows": ["stage", "bound"], "columns": ["chip", "quantity"]}  # fmt: skip
     mean = {"name": "mean", "caption": "Mean", "of": "estimates", "where": {"chip": "navi21", "stage": "total"}, "rows": "stage", "columns": "quantity", "over": "shot"}
     write_results(folder, [single, mean])
-    columns = ("shot", "variant", "point", "stage", "chip", "product", "microseconds", "low", "high", "bound", "vector", "active_lanes", "refusal")
-    empty = dict.fromkeys(columns, "") | {"shot": SHOTS[0], "variant": "sssr", "point": "default"}
+    columns = ("shot", "technique", "point", "stage", "chip", "product", "microseconds", "low", "high", "bound", "vector", "active_lanes", "refusal")
+    empty = dict.fromkeys(columns, "") | {"shot": SHOTS[0], "technique": "sssr", "point": "default"}
     navi21 = {"chip": "navi21", "product": "Radeon RX 6800 XT"}
     total = empty | navi21 | {"stage": "total", "bound": "vector", "active_lanes": "0.5"}
     rows = [

@@ -96,7 +96,7 @@ class BrokenFiles(unittest.TestCase):
     def test_figures(self):
         """All that is read before the first is drawn."""
         tables_study.write_results(self.folder)
-        choice = {"figures": [{"kind": "error_time", "width": 9.5, "points": ["sssr*"], "labels": {"sssr": "s"}}], "crops": [{"shot": "floor", "box": [0, 0, 4, 4], "points": [{"variant": "sssr", "point": "default"}]}]}
+        choice = {"figures": [{"kind": "error_time", "width": 9.5, "points": ["sssr*"], "labels": {"sssr": "s"}}], "crops": [{"shot": "floor", "box": [0, 0, 4, 4], "points": [{"technique": "sssr", "point": "default"}]}]}
         self.write("figures.json", choice | {"font": "serif", "formats": ["svg"], "shots": ["floor"], "colors": {"sssr": "#102030"}})
         make, figures.make = figures.make, lambda *_: 0
         self.addCleanup(setattr, figures, "make", make)
@@ -109,17 +109,17 @@ class BrokenFiles(unittest.TestCase):
         self.break_files(["minutes.json"], lambda: search._keep_minutes("search/start", 2.0))
 
     def test_smaller_scripts(self):
-        self.write("times.csv", "shot,variant,point,stage,milliseconds\n" + "".join(f"s,v,p{i},{stage},{i + 1}\n" for i in range(3) for stage in ("total", "a")))
-        self.write("costs.csv", "shot,variant,point,stage,quantity,value\n" + "".join(f"s,v,p{i},{stage},fetches,{i + 1}\n" for i in range(3) for stage in ("total", "a")))
-        self.write("estimates.csv", "shot,variant,point,stage,chip,microseconds\n" + "".join(f"s,v,p{i},{stage},navi21,{i + 1}\n" for i in range(3) for stage in ("total", "a")))
+        self.write("times.csv", "shot,technique,point,stage,milliseconds\n" + "".join(f"s,v,p{i},{stage},{i + 1}\n" for i in range(3) for stage in ("total", "a")))
+        self.write("costs.csv", "shot,technique,point,stage,quantity,value\n" + "".join(f"s,v,p{i},{stage},fetches,{i + 1}\n" for i in range(3) for stage in ("total", "a")))
+        self.write("estimates.csv", "shot,technique,point,stage,chip,microseconds\n" + "".join(f"s,v,p{i},{stage},navi21,{i + 1}\n" for i in range(3) for stage in ("total", "a")))
         self.break_files(("times.csv", "costs.csv", "estimates.csv"), cost_agreement.main, self.folder)
         self.write("key.csv", "pair,shot,first,first_point,second,second_point\n1,s,a,b,c,d\n")
         self.write("answers.csv", "pair,nearer\n1,left\n")
         known, judge.JUDGEMENTS = judge.JUDGEMENTS, self.path("judgements.csv")
         self.addCleanup(setattr, judge, "JUDGEMENTS", known)
         self.break_files(("key.csv", "answers.csv"), judge.main, "enter", self.folder, self.path("answers.csv"), "--judge", "me")
-        self.write("stability.csv", "group,case,variant,point,verdict\ng,c,v,default,ok\n")
-        draw, stability_figure.draw = stability_figure.draw, lambda rows, _: [(r["group"], r["case"], r["variant"], r["point"], r["verdict"]) for r in rows] and None
+        self.write("stability.csv", "group,case,technique,point,verdict\ng,c,v,default,ok\n")
+        draw, stability_figure.draw = stability_figure.draw, lambda rows, _: [(r["group"], r["case"], r["technique"], r["point"], r["verdict"]) for r in rows] and None
         self.addCleanup(setattr, stability_figure, "draw", draw)
         self.break_files(["stability.csv"], stability_figure.main, self.path("stability.csv"), "--out=" + self.path("f.svg"))
 

@@ -14,7 +14,7 @@ using nlohmann::json;
 const json manifest = {
     {"primary", {{"metric", "mse"}, {"mask", "reflective"}, {"target", "specular"}}},
     {"clock", {{"aa_floors", {{"s", 0.1}}}, {"proofs", {{{"verdict", "passed"}, {"shots", {"s"}}}}}}},
-    {"variants", {{{"variant", "exact"}, {"point", "default"}, {"uses_scene_data", true}}}},
+    {"techniques", {{{"technique", "exact"}, {"point", "default"}, {"uses_scene_data", true}}}},
     {"shots",
      {{{"shot", "s"},
        {"truth_ladder",
@@ -31,11 +31,11 @@ struct Made {
     ResultTables tables;
 
     /// An error with an interval of -+ `half`, in all else as the headline; a total time unless it is 0.
-    void add(const std::string& variant, double value, double half, double milliseconds = 0,
+    void add(const std::string& technique, double value, double half, double milliseconds = 0,
              const std::string& metric = "mse") {
         MetricSummary e{.shot = "s",
                         .frame = "0",
-                        .variant = variant,
+                        .technique = technique,
                         .point = "default",
                         .target = "specular",
                         .metric = metric,
@@ -46,7 +46,7 @@ struct Made {
         e.interval = interval::reference;
         tables.errors.push_back(e);
         if (milliseconds > 0)
-            tables.times.push_back({"s", variant, "default", "total", "host_fence", 15, milliseconds,
+            tables.times.push_back({"s", technique, "default", "total", "host_fence", 15, milliseconds,
                                     0.9 * milliseconds, 1.1 * milliseconds});
     }
     ShotAnswer answer(const json& of_study = manifest) {
@@ -71,11 +71,11 @@ TEST(Answers, NameTheBestItsGainTheCheaperAndTheLimit) {
               "[0.49x, 0.73x] its "
               "time at 1.8x the error. The lower bound for any single-frame technique is 0.05 [0.049, 0.051].");
     ASSERT_EQ(a.front.size(), 3u);
-    EXPECT_EQ(a.front[1].variant, "quick");
+    EXPECT_EQ(a.front[1].technique, "quick");
     EXPECT_EQ(a.perceptual_sentence, "");
 
     json labelled = manifest;
-    labelled["variants"].push_back({{"variant", "slow"}, {"point", "default"}, {"label", "Slow and steady"}});
+    labelled["techniques"].push_back({{"technique", "slow"}, {"point", "default"}, {"label", "Slow and steady"}});
     EXPECT_TRUE(made.answer(labelled).sentence.starts_with("Slow and steady has the least error"));
 
     json doubtful = manifest;
@@ -105,7 +105,7 @@ TEST(Answers, RankNothingThatIntervalsCannotTellApart) {
     made.add("c", 0.07, 0.002);
     const ShotAnswer a = made.answer();
     ASSERT_EQ(a.tied.size(), 1u);
-    EXPECT_EQ(a.tied[0].variant, "b");
+    EXPECT_EQ(a.tied[0].technique, "b");
     EXPECT_NE(
         a.sentence.find(
             "a measures the least error: mse 0.06 [0.058, 0.062]. Undecided beside it: b. c errs more for certain."),
@@ -129,7 +129,7 @@ TEST(Answers, SayWhatIsRankedAndWhatIsOnlyMeasured) {
         e.holds_all_noise = false, e.interval = interval::one_seed, e.low = e.high = {};
     }
     const ShotAnswer alone = made.answer();
-    EXPECT_EQ(alone.best->variant, "none");
+    EXPECT_EQ(alone.best->technique, "none");
     ASSERT_EQ(alone.unranked.size(), 2u);
     EXPECT_EQ(alone.sentence.find("has the least error"), std::string::npos) << alone.sentence;
     EXPECT_TRUE(
@@ -196,10 +196,10 @@ TEST(Answers, SayFirstWhatMayHoldInOtherScenes) {
     Made made;
     made.add("none", 1, 0.1);
     json study = manifest;
-    study["variants"].push_back({{"variant", "a"}, {"point", "default"}, {"label", "A, labelled"}});
-    const auto add = [&](const std::string& variant, double rank, const std::string& standing, size_t scenes) {
+    study["techniques"].push_back({{"technique", "a"}, {"point", "default"}, {"label", "A, labelled"}});
+    const auto add = [&](const std::string& technique, double rank, const std::string& standing, size_t scenes) {
         OverScenesRow& row = made.tables.over_scenes.emplace_back();
-        row.variant = variant, row.point = row.baseline_point = "default", row.baseline_variant = "none";
+        row.technique = technique, row.point = row.baseline_point = "default", row.baseline_technique = "none";
         row.target = "specular", row.metric = "mse", row.mask = "reflective";
         row.ratio = 0.1 * rank, row.rank = rank, row.standing = standing, row.scenes = scenes;
         if (scenes < least_scenes) return;

@@ -23,8 +23,8 @@ struct MadeShot {
     PointLabels labels = {{{"b", "default"}, "Bee"}};
 
     /// A point without an interval, as `interval` says; "": ranked.
-    MetricSummary& add(const std::string& variant, const std::string& interval, const std::string& metric = "mse") {
-        MetricSummary e{.shot = "s", .frame = "0", .variant = variant, .point = "default"};
+    MetricSummary& add(const std::string& technique, const std::string& interval, const std::string& metric = "mse") {
+        MetricSummary e{.shot = "s", .frame = "0", .technique = technique, .point = "default"};
         e.metric = metric, e.mask = "reflective", e.value = 1, e.floor = 0.1, e.pixels = 5000, e.seeds = 4;
         e.interval = interval;
         if (interval.empty()) {
@@ -54,7 +54,7 @@ TEST(CauseAndCure, NamesThePixelsTheSamplesAndTheMetricThatDecides) {
               "About 128 samples per pixel would give mse intervals (reference.samples: 64). Add flip to metrics: few "
               "samples suffice for its intervals.");
     EXPECT_EQ(samples_needed(60), 128) << "references have 16 x 2^k";
-    for (const char* variant : {"a", "b"}) made.add(variant, "", "flip");
+    for (const char* technique : {"a", "b"}) made.add(technique, "", "flip");
     made.add("a", "", "ssim");
     EXPECT_TRUE(made.cure().ends_with(" flip decides now: it ranks all 2 points.")) << made.cure();
     made.reference = json();  // a folder of another version
@@ -96,8 +96,8 @@ TEST(CauseAndCure, CountsThePixelsOfASmallMask) {
 
 TEST(CauseAndCure, SaysWhichDifferencesAreSeen) {
     MadeShot made;
-    const auto pair = [&](const std::string& variant, double half) {
-        MetricSummary& e = made.add(variant, "");
+    const auto pair = [&](const std::string& technique, double half) {
+        MetricSummary& e = made.add(technique, "");
         e.interval = interval::reference, e.seeds = 1;
         e.over_best_low = 1.5 * std::exp(-half), e.over_best_high = 1.5 * std::exp(half);
     };

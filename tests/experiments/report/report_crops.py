@@ -11,7 +11,7 @@ def _crop(box, exposure, tone_curve, points):
         "box": box,
         "exposure": exposure,
         "tone_curve": tone_curve,
-        "points": [{"variant": variant, "point": point} for variant, point in points],
+        "points": [{"technique": technique, "point": point} for technique, point in points],
     }
 
 

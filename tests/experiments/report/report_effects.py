@@ -21,7 +21,7 @@ def test_effects(page, folder, stepping_shot):
             metric=metric,
             mask="reflective",
             against_point="first",
-            variant="sssr",
+            technique="sssr",
         )
         for metric in ("relmse", "mse", "bias_squared", "variance")
     )
@@ -127,7 +127,7 @@ def test_effects(page, folder, stepping_shot):
         p => p.getAttribute('fill') !== 'var(--card)' && p.tagName !== 'text').length"""
     )
     chosen = dict(target="specular", metric="mse", mask="reflective", shot=stepping_shot)
-    rows = rows_of(folder, "effects.csv", variant="sssr", against="baseline", **chosen)
+    rows = rows_of(folder, "effects.csv", technique="sssr", against="baseline", **chosen)
     verdicts = [r["verdict"] for r in rows]
     equal(filled, sum(v in ("less", "more") for v in verdicts), "filled marks: the significant ones of the table")
     choose_in(page, "effects", "Against", "sssr with float_histories=false and otherwise the same")

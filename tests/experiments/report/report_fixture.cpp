@@ -4,7 +4,7 @@
 #include "core/files.h"
 #include "experiments/results/cells/study_rows.h"
 #include "experiments/results/evaluation.h"
-#include "experiments/results/tables/manifest.h"
+#include "experiments/results/files/manifest.h"
 
 #include <cmath>
 #include <random>
@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 
 struct Point {
-    std::string variant, point;
+    std::string technique, point;
     double noise, missing, milliseconds;  ///< noise of the radiance, share of the floor that finds nothing, time
 };
 
@@ -23,7 +23,7 @@ const Point points[] = {{"none", "default", 0.0, 1.0, 0.0},
                         {"mcguire_dda", "stride=1", 0.02, 0.1, 6.5},
                         {"mcguire_dda", "stride=4", 0.05, 0.25, 2.1}};
 
-std::string shown_name(const Point& p) { return p.variant + "_" + p.point; }
+std::string shown_name(const Point& p) { return p.technique + "_" + p.point; }
 
 glm::vec3 wall(double u, double v) {
     const double stripe = std::sin(u * 40.0) > 0.3 ? 1.0 : 0.15;
@@ -99,18 +99,18 @@ void add_times(Cell& cell, const std::string& shot, const Point& p, unsigned see
         for (const auto& [stage, time] : {std::pair("mcguire_dda/trace", trace), std::pair("mcguire_dda/shade", shade),
                                           std::pair("total", trace + shade)})
             if (p.milliseconds > 0)
-                cell.times.push_back({shot, p.variant, p.point, seed, stage, frame, time, "host_fence"});
-        if (p.variant == "none" && seed == 0)
+                cell.times.push_back({shot, p.technique, p.point, seed, stage, frame, time, "host_fence"});
+        if (p.technique == "none" && seed == 0)
             for (const auto& [stage, time] :
                  {std::pair("gbuffer/raster", 11.0 * jitter), std::pair("lit", 0.4 * jitter)})
                 cell.times.push_back({shot, "", "", 0, stage, frame, time, "host_fence"});
     }
 }
 
-json image_entry(const std::string& shot, const std::string& variant, const std::string& point, const char* kind,
+json image_entry(const std::string& shot, const std::string& technique, const std::string& point, const char* kind,
                  const char* target, unsigned seed, const std::string& exr) {
-    return {{"shot", shot}, {"variant", variant}, {"point", point}, {"seed", seed},
-            {"kind", kind}, {"target", target},   {"exr", exr}};
+    return {{"shot", shot}, {"technique", technique}, {"point", point}, {"seed", seed},
+            {"kind", kind}, {"target", target},       {"exr", exr}};
 }
 
 Cell make_cell(const std::filesystem::path& folder, const std::string& shot, glm::uvec2 extent, const Point& p,
@@ -122,7 +122,7 @@ Cell make_cell(const std::filesystem::path& folder, const std::string& shot, glm
                   .frame = "0",
                   .width = extent.x,
                   .height = extent.y,
-                  .variant = p.variant,
+                  .technique = p.technique,
                   .point = p.point,
                   .seed = seed};
     for (const char* target : {"specular", "image"}) {
@@ -136,7 +136,7 @@ Cell make_cell(const std::filesystem::path& folder, const std::string& shot, glm
         const std::string exr =
             "images/" + shot + "/" + shown_name(p) + "_" + std::to_string(seed) + "_" + target + ".exr";
         write_exr(folder / exr, result, PixelType::half);
-        cell.images.push_back(image_entry(shot, p.variant, p.point, "result", target, seed, exr));
+        cell.images.push_back(image_entry(shot, p.technique, p.point, "result", target, seed, exr));
     }
     add_times(cell, shot, p, seed);
     return cell;
@@ -159,7 +159,7 @@ void add_pixel_images(const std::filesystem::path& folder, const std::string& sh
     };
     const auto constant = [&](float value) { return made([&](unsigned) { return glm::vec3(value); }); };
     const auto truth = [](const char* kind, const char* target) {
-        return json{{"variant", "reference"}, {"kind", kind}, {"target", target}};
+        return json{{"technique", "reference"}, {"kind", kind}, {"target", target}};
     };
     add("reference_incident", constant(1.0f), truth("reference", "incident"));
     add("reference_on_screen", constant(0.75f), truth("reference", "on_screen"));
@@ -171,7 +171,7 @@ void add_pixel_images(const std::filesystem::path& folder, const std::string& sh
         return has_ray ? glm::pow((x < extent.x / 2 ? right : false_hit) / 255.0f, glm::vec3(2.2f)) : glm::vec3(0);
     });
     for (const Point& p : points) {
-        const json of_point = {{"variant", p.variant}, {"point", p.point}, {"seed", 0}};
+        const json of_point = {{"technique", p.technique}, {"point", p.point}, {"seed", 0}};
         json confidence = of_point, hits = of_point;
         confidence["kind"] = confidence["target"] = "confidence";
         hits["kind"] = "hits", hits["target"] = "mcguire_dda/trace";
@@ -217,17 +217,17 @@ json manifest_head() {
                     {"ratio", {1.0, 10.0, third}}, {"foreign_load", 0.01},     {"attempts", 1},
                     {"verdict", verdict}};
     };
-    json variants = json::array();
+    json techniques = json::array();
     for (const Point& p : points) {
         json parameters = json::object();
-        if (p.variant != "none")
+        if (p.technique != "none")
             parameters = {{"stride", p.point == "stride=1" ? 1 : 4}, {"thickness", 0.1}, {"jitter", true}};
-        variants.push_back({{"variant", p.variant},
-                            {"point", p.point},
-                            {"title", p.variant == "none" ? "No reflections" : "McGuire & Mara 2014"},
-                            {"source", p.variant == "none" ? "" : "JCGT 3(4)"},
-                            {"parameters", parameters}});
-        if (p.point == "stride=1") variants.back()["limits"] = "WebGL 2";
+        techniques.push_back({{"technique", p.technique},
+                              {"point", p.point},
+                              {"title", p.technique == "none" ? "No reflections" : "McGuire & Mara 2014"},
+                              {"source", p.technique == "none" ? "" : "JCGT 3(4)"},
+                              {"parameters", parameters}});
+        if (p.point == "stride=1") techniques.back()["limits"] = "WebGL 2";
     }
     const json maker = {
         {"ssrlab",
@@ -257,7 +257,7 @@ json manifest_head() {
              {{"aa_floors", {{fixture_shots[0], 0.02}, {fixture_shots[1], 0.02}}},
               {"aa_pairs",
                {{{"shot", fixture_shots[0]},
-                 {"variant", "mcguire_dda"},
+                 {"technique", "mcguire_dda"},
                  {"point", "stride=4"},
                  {"first_ms", 2.1},
                  {"second_ms", 2.9},
@@ -265,7 +265,7 @@ json manifest_head() {
               {"load", {{{"shot", fixture_shots[1]}, {"disturbed_frames", 3}, {"largest_foreign_load", 0.2}}}},
               {"savings",
                {{{"shot", fixture_shots[0]},
-                 {"variant", "mcguire_dda"},
+                 {"technique", "mcguire_dda"},
                  {"point", "default"},
                  {"complete_ms", 8.0},
                  {"share", 0.25},
@@ -278,7 +278,7 @@ json manifest_head() {
                  {"shots", {fixture_shots[0], fixture_shots[1], fixture_shots[2]}},
                  {"checks", {check("compute", "passed", 101.0), check("fragment", "failed", 31.0)}}}}}}},
             {"metrics", metric_descriptions()},
-            {"variants", variants},
+            {"techniques", techniques},
             {"shots", json::array()},
             {"images", json::array()}};
 }

@@ -48,12 +48,12 @@ def check_table(page, folder, target, metric, mask):
     equal(len(shown), len(expected), f"rows of {target} {metric} {mask}")
     with open(os.path.join(folder, "time_summary.csv"), newline="") as file:
         totals = {
-            (t["shot"], t["variant"], t["point"]): t["median_ms"] for t in csv.DictReader(file) if t["stage"] == "total"
+            (t["shot"], t["technique"], t["point"]): t["median_ms"] for t in csv.DictReader(file) if t["stage"] == "total"
         }
     for cells, row in zip(shown, expected):
         del cells[4]  # the metric beside it, see report_study_in_browser.py
-        equal([cells[0][0], cells[1][0], cells[2][1]], [row["shot"], row["variant"], row["point"]], "first columns")
-        equal(float(cells[3][1]), float(row["value"]), f"{metric} of {row['shot']} {row['variant']} {row['point']}")
+        equal([cells[0][0], cells[1][0], cells[2][1]], [row["shot"], row["technique"], row["point"]], "first columns")
+        equal(float(cells[3][1]), float(row["value"]), f"{metric} of {row['shot']} {row['technique']} {row['point']}")
         text = cells[3][0].split("[")[0].split()[0]
         check(
             abs(float(text) - float(row["value"])) <= 5.1e-4 * abs(float(row["value"])),
@@ -69,7 +69,7 @@ def check_table(page, folder, target, metric, mask):
         else:
             check("[" not in cells[3][0], "an interval is shown where there is none")
         equal(float(cells[4][1]), float(row["floor"]), "floor")
-        total = totals.get((row["shot"], row["variant"], row["point"]))
+        total = totals.get((row["shot"], row["technique"], row["point"]))
         equal(cells[6][1], "null" if total is None else cells[6][1], "total time where none was measured")
         if total is not None:
             equal(float(cells[6][1]), float(total), "total time")
@@ -86,7 +86,7 @@ def test_sections(page):
     check("25 % [20 %, 30 %]8" in savings, "what leaving out saves: " + savings)
     notes = [p.text for p in page.find_elements(By.CSS_SELECTOR, "#parameters p.note")]
     limited = [note.split(". ")[-1] for note in notes if "Held to the limits" in note]
-    equal(limited, ["Held to the limits of WebGL 2: stride=1"], "limits of variants")
+    equal(limited, ["Held to the limits of WebGL 2: stride=1"], "limits of techniques")
 
 
 def test_table(page, folder):
@@ -129,7 +129,7 @@ def test_charts(page, folder):
         expected = [
             float(t["median_ms"])
             for t in csv.DictReader(file)
-            if t["shot"].startswith("mirror") and t["variant"] == "mcguire_dda" and t["stage"] != "total"
+            if t["shot"].startswith("mirror") and t["technique"] == "mcguire_dda" and t["stage"] != "total"
         ]
     bars = page.execute_script(
         "return [...document.querySelectorAll('#stages .bar')].map(b => [+b.dataset.value, +b.getAttribute('width')])"

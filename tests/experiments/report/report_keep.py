@@ -65,7 +65,7 @@ def test_keeping(page):
     rows = page.execute_script("return document.querySelectorAll('#summary tr').length")
     for text, separator in zip(table, (",", "\t")):
         lines = text.split("\n")
-        equal(lines[0].split(separator)[:4], ["Shot", "Variant", "Point", "mse"], "the heading")
+        equal(lines[0].split(separator)[:4], ["Shot", "Technique", "Point", "mse"], "the heading")
         equal(len(lines), rows + 1, "lines of the table")
     check("stride=4" in table[0] and ', ' in table[0].split('"')[1], f"points, and quoted intervals: {table[0]}")
 

@@ -15,7 +15,7 @@ def test_rays(page, folder, shot_of_frames):
         for r in rows_of(folder, "hits.csv", shot=shot, mask=mask):
             if r["stage"] == "error":
                 continue
-            lines.setdefault((r["variant"], r["point"], r["stage"], r["frame"]), {})[r["quantity"]] = r
+            lines.setdefault((r["technique"], r["point"], r["stage"], r["frame"]), {})[r["quantity"]] = r
         return lines
 
     def expect(shot, mask):
@@ -23,8 +23,8 @@ def test_rays(page, folder, shot_of_frames):
         lines, shown = lines_of(shot, mask), table_of(page, part_of(shot) + " table")
         has_frames = len({key[3] for key in lines}) > 1
         equal(len(shown), len(lines), f"rows of rays: {shot}, {mask}")
-        for cells, ((variant, point, stage, frame), by) in zip(shown, lines.items()):
-            equal(cells[0][0], f"{variant} · {point}", "the point")
+        for cells, ((technique, point, stage, frame), by) in zip(shown, lines.items()):
+            equal(cells[0][0], f"{technique} · {point}", "the point")
             equal(cells[1][0], stage.split("/")[1] + (f", frame {frame}" if has_frames else ""), "the pass")
             numbers = [None if cells[i][1] in (None, "undefined", "null") else float(cells[i][1]) for i in (2, 3, 4, 5)]
             distance = by.get("distance_error")
@@ -70,7 +70,7 @@ def test_error_shares(page, folder, shot):
     bars = page.execute_script(
         "return [...document.querySelectorAll(arguments[0] + ' .bar')].map(b => [b.dataset.verdict, +b.dataset.share, +b.dataset.value])", part
     )
-    errors = {r["point"]: float(r["value"]) for r in rows_of(folder, "summary.csv", shot=shot, metric="mse", variant="sssr")}
+    errors = {r["point"]: float(r["value"]) for r in rows_of(folder, "summary.csv", shot=shot, metric="mse", technique="sssr")}
     order = ["right", "unavoidable_miss", "empty", "avoidable_miss", "wrong_place"]
     rows.sort(key=lambda r: (r["point"] != "first", order.index(r["quantity"].split()[1])))
     equal([b[:2] for b in bars], [[r["quantity"].split()[1], float(r["value"])] for r in rows], "shares by verdict")
@@ -104,7 +104,7 @@ def test_why(page, folder, shot, part, errors):
     equal(page.execute_script(text, part + " li"), wanted, "the same in the list")
     choose = "[...document.querySelectorAll('#answer-shots button')].find(b => b.title.startsWith(arguments[0])).click()"
     first = page.execute_script("return answerChoice.shot")
-    page.execute_script("return choosePoint({variant: 'sssr', point: 'first'})")
+    page.execute_script("return choosePoint({technique: 'sssr', point: 'first'})")
     page.execute_script(choose, shot)
     causes = ["63 %rays were wrong", "38 %rays missed what the screen shows", "25 %rays hit the wrong place",
               "25 %the screen does not show it", "19 %the truth is not on the screen", "6.3 %nothing is there to be hit",

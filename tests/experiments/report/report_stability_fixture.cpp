@@ -10,9 +10,9 @@ StabilityCaseName made_up_case(const std::string& name, const std::string& group
     return result;
 }
 
-StabilityRow made_up_row(const StabilityCaseName& what, const std::string& variant, const std::string& point) {
+StabilityRow made_up_row(const StabilityCaseName& what, const std::string& technique, const std::string& point) {
     StabilityRow row;
-    row.case_name = what.name, row.group = what.group, row.variant = variant, row.point = point;
+    row.case_name = what.name, row.group = what.group, row.technique = technique, row.point = point;
     set_errors(row, 0.25, 0.2);
     return row;
 }
@@ -34,10 +34,10 @@ void write_stability_fixture(const std::filesystem::path& folder) {
         made_up_case("one pixel", "sizes", "no level to halve")};
     std::vector<StabilityRow> rows;
     for (const StabilityCaseName& c : cases)
-        for (const auto& [variant, point] :
+        for (const auto& [technique, point] :
              {std::pair("path_tracer", "default"), std::pair("amd_sssr", "slides"), std::pair("amd_sssr", "corrected"),
               std::pair("of_another_build", "default")})
-            rows.push_back(made_up_row(c, variant, point));
+            rows.push_back(made_up_row(c, technique, point));
     const auto row = [&](size_t c, size_t technique) -> StabilityRow& { return rows[c * 4 + technique]; };
     for (const size_t technique : {1u, 2u, 3u}) {
         StabilityRow& r = row(0, technique);

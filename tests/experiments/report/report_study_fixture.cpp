@@ -5,7 +5,7 @@
 #include "core/files.h"
 #include "experiments/results/cells/study_rows.h"
 #include "experiments/results/evaluation.h"
-#include "experiments/results/tables/manifest.h"
+#include "experiments/results/files/manifest.h"
 #include "experiments/results/verdicts/effects/effects.h"
 #include "experiments/results/verdicts/effects/time_effects.h"
 #include "experiments/results/verdicts/interval.h"
@@ -18,7 +18,7 @@ namespace {
 using nlohmann::json;
 
 struct StudyPoint {
-    std::string variant, point;
+    std::string technique, point;
     double error;  ///< relative to the baseline's
     unsigned seeds;
     json parameters;
@@ -73,7 +73,7 @@ struct RowMaker {
                     .frame = frame,
                     .width = 160,
                     .height = 90,
-                    .variant = point.variant,
+                    .technique = point.technique,
                     .point = point.point,
                     .seed = seed,
                     .target = target,
@@ -119,7 +119,7 @@ void add_temporal(const RowMaker& make) {
             make.add(over_frames, "specular", "relmse", "relmse_a", "disoccluded", make.error(5.0));
     }
     if (make.shot.name != study_step_shot) return;
-    const bool is_without_ghosts = make.point.variant == "none" || make.point.point == "first round_up_tiles=true";
+    const bool is_without_ghosts = make.point.technique == "none" || make.point.point == "first round_up_tiles=true";
     add("ghost_length", "ghost_projection_0.05", is_without_ghosts ? 0.0 : 6.0);
     if (make.point.point != "fixed") add("settling_length", "squared_error_step_0.05", 3.0);
     if (make.point.point == "fixed") add("settling_length", "squared_error_step_0.05", std::nullopt);
@@ -128,7 +128,7 @@ void add_temporal(const RowMaker& make) {
 void add_split(const StudyShot& shot, const StudyPoint& point, Cell& cell) {
     if (point.seeds < 2) return;
     const double variance = 0.001 * point.error, bias = point.point == "fixed" ? -1e-5 : 0.05 * point.error;
-    cell.splits.push_back({shot.name, std::to_string(shot.frames.back()), point.variant, point.point, "specular",
+    cell.splits.push_back({shot.name, std::to_string(shot.frames.back()), point.technique, point.point, "specular",
                            "reflective", point.seeds, bias + variance, bias, variance, 0.8 * variance, 1.2 * variance,
                            500, bias - 2e-5, bias + 3e-5});
     SplitRow& row = cell.splits.back();
@@ -169,7 +169,7 @@ void add_costs(const StudyShot& shot, const StudyPoint& point, Cell& cell) {
 void add_compiled(const StudyShot& shot, const StudyPoint& point, Cell& cell) {
     const auto add = [&](const char* chip, const char* stage, double vgprs, double waves, const std::string& hash) {
         CompiledRow row;
-        row.shot = shot.name, row.variant = point.variant, row.point = point.point, row.stage = stage;
+        row.shot = shot.name, row.technique = point.technique, row.point = point.point, row.stage = stage;
         row.chip = chip, row.driver = "radv of a test";
         cell.compiled.push_back(row);
         if (chip[0] == 'g' && point.point == "fixed" && stage == std::string("sssr/stage_1")) {
@@ -194,7 +194,8 @@ void add_compiled(const StudyShot& shot, const StudyPoint& point, Cell& cell) {
 void add_estimates(const StudyShot& shot, const StudyPoint& point, Cell& cell) {
     const auto add = [&](const std::string& chip, const char* stage) -> EstimateRow& {
         EstimateRow row;
-        row.shot = shot.name, row.variant = point.variant, row.point = point.point, row.stage = stage, row.chip = chip;
+        row.shot = shot.name, row.technique = point.technique, row.point = point.point, row.stage = stage,
+        row.chip = chip;
         return cell.estimates.emplace_back(row);
     };
     const double first = shot.name == study_step_shot ? 8 : 4, second = point.point == "first" ? 16 : 12;
@@ -227,7 +228,7 @@ void add_hits(const StudyShot& shot, const StudyPoint& point, Cell& cell) {
         const auto add_row = [&](const char* quantity, double value, bool has_interval = true) {
             HitRow row{.shot = shot.name,
                        .frame = frame,
-                       .variant = point.variant,
+                       .technique = point.technique,
                        .point = point.point,
                        .stage = stage,
                        .mask = mask,
@@ -266,7 +267,7 @@ void add_hits(const StudyShot& shot, const StudyPoint& point, Cell& cell) {
           std::pair("avoidable_miss", missed), std::pair("wrong_place", 0.625 - missed)})
         cell.hits.push_back({.shot = shot.name,
                              .frame = last,
-                             .variant = point.variant,
+                             .technique = point.technique,
                              .point = point.point,
                              .stage = "error",
                              .mask = "reflective",
@@ -314,25 +315,25 @@ json study_manifest(const std::vector<StudyShot>& shots) {
         manifest["shots"].push_back(entry);
         manifest["clock"]["aa_floors"][shot.name] = 0.02;
         manifest["clock"]["aa_pairs"].push_back({{"shot", shot.name},
-                                                 {"variant", "sssr"},
+                                                 {"technique", "sssr"},
                                                  {"point", "first"},
                                                  {"first_ms", 6.2},
                                                  {"second_ms", 6.27},
                                                  {"floor", 0.0112}});
     }
     for (const StudyPoint& p : study_points) {
-        manifest["variants"].push_back({{"variant", p.variant},
-                                        {"point", p.point},
-                                        {"title", p.variant},
-                                        {"source", ""},
-                                        {"parameters", p.parameters},
-                                        {"depends_on_seed", p.variant != "none"}});
+        manifest["techniques"].push_back({{"technique", p.technique},
+                                          {"point", p.point},
+                                          {"title", p.technique},
+                                          {"source", ""},
+                                          {"parameters", p.parameters},
+                                          {"depends_on_seed", p.technique != "none"}});
         if (const size_t swept = p.point.find(' '); swept != std::string::npos) {
             const std::string name = p.point.substr(swept + 1, p.point.find('=') - swept - 1);
-            manifest["variants"].back()["single_change"] = {{"parameter", name}, {"value", p.parameters[name]}};
+            manifest["techniques"].back()["single_change"] = {{"parameter", name}, {"value", p.parameters[name]}};
         }
-        if (p.point == "lucky") manifest["variants"].back()["label"] = "One lucky seed";
-        if (!p.not_repeatable.empty()) manifest["variants"].back()["not_repeatable"] = p.not_repeatable;
+        if (p.point == "lucky") manifest["techniques"].back()["label"] = "One lucky seed";
+        if (!p.not_repeatable.empty()) manifest["techniques"].back()["not_repeatable"] = p.not_repeatable;
     }
     return manifest;
 }
@@ -345,8 +346,8 @@ void add_rung_images(const std::filesystem::path& folder, const std::string& sho
         entry["shot"] = shot, entry["exr"] = exr;
         images.push_back(entry);
     };
-    add({{"variant", "reference"}, {"kind", "reference"}, {"target", "on_screen"}}, 0.25f);
-    add({{"variant", "sssr"}, {"point", "first"}, {"seed", 0}, {"kind", "result"}, {"target", "incident"}}, 0.5f);
+    add({{"technique", "reference"}, {"kind", "reference"}, {"target", "on_screen"}}, 0.25f);
+    add({{"technique", "sssr"}, {"point", "first"}, {"seed", 0}, {"kind", "result"}, {"target", "incident"}}, 0.5f);
 }
 
 /// Images of every frame of a sequence, each darker than the one before; all but the last are only played.
@@ -358,7 +359,7 @@ void add_frame_images(const std::filesystem::path& folder, const std::string& sh
             write_exr(folder / exr, HostImage({16, 9}, 3, (is_truth ? 1.0f : 0.5f) / float(frame)));
             images.push_back({{"shot", shot},
                               {"frame", frame},
-                              {"variant", is_truth ? "reference" : "sssr"},
+                              {"technique", is_truth ? "reference" : "sssr"},
                               {"point", is_truth ? "" : "first"},
                               {"seed", 0},
                               {"kind", frame < 6 ? "played" : kind},
@@ -390,21 +391,21 @@ void write_study_fixture(const std::filesystem::path& folder) {
             cells.push_back(std::move(cell));
         }
     }
-    std::vector<ComparedPoint> variants;
+    std::vector<ComparedPoint> techniques;
     for (const StudyPoint& p : study_points) {
-        ComparedPoint variant;
-        variant.variant = p.variant, variant.point = p.point, variant.is_baseline = p.point == "first";
-        variant.depends_on_seed = p.variant != "none";
+        ComparedPoint technique;
+        technique.technique = p.technique, technique.point = p.point, technique.is_baseline = p.point == "first";
+        technique.depends_on_seed = p.technique != "none";
         if (p.point == "fixed")
-            variant.against = "float_histories=false", variant.against_point = "first round_up_tiles=true";
-        variants.push_back(variant);
+            technique.against = "float_histories=false", technique.against_point = "first round_up_tiles=true";
+        techniques.push_back(technique);
     }
     const StudyRows rows = rows_of(cells);
     write_tables(folder, rows);
     json manifest = study_manifest(shots);
     add_rung_images(folder, shots.front().name, manifest["images"]);
     add_frame_images(folder, study_moving_shot, manifest["images"]);
-    write_evaluation(folder, rows, manifest, variants,
+    write_evaluation(folder, rows, manifest, techniques,
                      {.metric = "relmse", .mask = "reflective", .target = "specular"});
     write_text(folder / "manifest.json", manifest.dump(1));
 }

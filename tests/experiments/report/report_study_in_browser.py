@@ -27,8 +27,8 @@ def is_single_change(row):
 
 def in_matrix(rows):
     """The rows of each point, over all shots."""
-    points = list(dict.fromkeys((r["variant"], r["point"]) for r in rows))
-    return [[r for r in rows if (r["variant"], r["point"]) == point] for point in points]
+    points = list(dict.fromkeys((r["technique"], r["point"]) for r in rows))
+    return [[r for r in rows if (r["technique"], r["point"]) == point] for point in points]
 
 
 def test_results(page, folder):
@@ -85,8 +85,8 @@ def test_first_sentence(page, folder):
     first = next(r for r in rows_of(folder, "over_scenes.csv", target="specular", metric="relmse", mask="reflective") if r["rank"] == "1")
     said = page.find_element(By.ID, "answers").text
     with open(os.path.join(folder, "manifest.json"), encoding="utf-8") as stream:
-        labels = {(v["variant"], v["point"]): v.get("label") for v in json.load(stream)["variants"]}
-    name = re.escape(labels[first["variant"], first["point"]] or f"{first['variant']} {first['point']}")
+        labels = {(v["technique"], v["point"]): v.get("label") for v in json.load(stream)["techniques"]}
+    name = re.escape(labels[first["technique"], first["point"]] or f"{first['technique']} {first['point']}")
     wanted = rf"In these \d+ shots the least relmse has: .*\nIn scenes like these {name} (errs least on average for certain|measures least): .*geometric mean over {first['scenes']} scenes"
     check(re.match(wanted, said), f"what is said first is of these scenes and of others: {said[:400]}, in place of {wanted}")
 
@@ -100,7 +100,7 @@ def test_truth_ladder(page, folder):
         equal(float(cells[3][1]), 0.0123, "the limit")
         none = next(
             r
-            for r in rows_of(folder, "summary.csv", variant="none", metric="relmse", mask="reflective")
+            for r in rows_of(folder, "summary.csv", technique="none", metric="relmse", mask="reflective")
             if r["shot"] == cells[0][0] and r["frame"] == ("6" if cells[0][0] == MOVING else "0")
         )
         ratio = 0.0123 / float(none["value"])
@@ -202,7 +202,7 @@ def test_stages(page):
     keys = page.execute_script("return [...document.querySelectorAll(arguments[0] + ' .stage rect')].map(r => r.getAttribute('fill'))", part)
     equal(keys, fills[:10], "the legend's colours")
     looks = page.execute_script(  # 50 names, more than there are looks; the third technique has the first and the 33rd
-        """const of = (variant, names) => names.map((name, i) => ({variant, stage: variant + '/' + name, value: (variant === 'a' ? 200 : 100) - i}));
+        """const of = (technique, names) => names.map((name, i) => ({technique, stage: technique + '/' + name, value: (technique === 'a' ? 200 : 100) - i}));
         const numbers = (letter, count) => Array.from({length: count}, (_, i) => letter + i);
         const looks = stageLooks([...of('a', numbers('a', 30)), ...of('b', numbers('b', 20)), ...of('c', ['a0', 'b2'])]);
         return [numbers('a', 30), numbers('b', 20), ['a0', 'b2']].map(names => names.map(name => stageFill(looks.get(name))))"""

@@ -35,11 +35,11 @@ TEST_F(StudyReport, TellsSingleChangesFromPresets) {
     EXPECT_TRUE(single_changes(nlohmann::json::object()).empty());
 }
 
-TEST_F(StudyReport, KnowsTheDefaultsOfRegisteredVariants) {
+TEST_F(StudyReport, KnowsTheDefaultsOfRegisteredTechniques) {
     const nlohmann::json manifest = {
-        {"variants",
-         {{{"variant", "amd_sssr"}, {"point", "slides"}, {"parameters", {{"hierarchy.march", "slides"}}}},
-          {{"variant", "of another build"}, {"point", "default"}, {"parameters", nlohmann::json::object()}}}}};
+        {"techniques",
+         {{{"technique", "amd_sssr"}, {"point", "slides"}, {"parameters", {{"hierarchy.march", "slides"}}}},
+          {{"technique", "of another build"}, {"point", "default"}, {"parameters", nlohmann::json::object()}}}}};
     const nlohmann::json defaults = parameter_defaults(manifest);
     ASSERT_EQ(defaults.size(), 1u);
     EXPECT_EQ(defaults["amd_sssr"]["denoiser_form"], "by_device");

@@ -6,7 +6,7 @@
 #include "core/json.h"
 #include "experiments/report/report_images.h"
 #include "experiments/report/report_warnings.h"
-#include "experiments/results/tables/csv.h"
+#include "experiments/results/files/csv.h"
 #include "experiments/results/verdicts/interval.h"
 #include "experiments/results/verdicts/summary.h"
 #include "tests/error_message.h"
@@ -46,7 +46,7 @@ std::vector<ResultRow> seed_rows(std::vector<double> values, std::optional<doubl
     std::vector<ResultRow> rows;
     for (const double v : values) {
         ResultRow row{.shot = "s",
-                      .variant = "v",
+                      .technique = "v",
                       .point = "p",
                       .seed = unsigned(rows.size()),
                       .target = "specular",
@@ -341,7 +341,7 @@ TEST_F(Report, IsOneSmallFileThatNeedsNothingElse) {
 TEST_F(Report, DoesWithoutTimesAndWithOneShot) {
     write_rows(folder / "time_summary.csv", std::vector<TimeSummary>());
     auto manifest = read_json(folder / "manifest.json");
-    for (const char* key : {"clock", "provenance", "shots", "images", "variants"}) manifest.erase(key);
+    for (const char* key : {"clock", "provenance", "shots", "images", "techniques"}) manifest.erase(key);
     write_text(folder / "manifest.json", manifest.dump());
     EXPECT_EQ(message(), "");
 }

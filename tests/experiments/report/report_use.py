@@ -27,7 +27,7 @@ def changed_report(folder, change):
 def answered(data):
     """Answers of its first two shots, made up."""
     def point(name):
-        return {"variant": name[0], "point": name[1], "value": 0.125, "low": 0.12, "high": 0.13}
+        return {"technique": name[0], "point": name[1], "value": 0.125, "low": 0.12, "high": 0.13}
 
     data["in_these_scenes"] = "In these 2 shots one errs least."
     data["in_scenes_like_these"] = "In scenes like these nobody knows."
@@ -52,9 +52,9 @@ def test_without_truth(page, folder):
     page.get(changed_report(folder, capture))
     until_ready(page)
     check("without truth" in texts(page, "#over-scenes")[0], "what is said first")
-    check("3 variant points" in texts(page, "#subtitle")[0], "the points that it ran")
+    check("3 technique points" in texts(page, "#subtitle")[0], "the points that it ran")
     shots = rows_of(folder, "time_summary.csv", stage="total")
-    of_first = [r for r in shots if r["shot"] == shots[0]["shot"] and r["variant"] != "none"]
+    of_first = [r for r in shots if r["shot"] == shots[0]["shot"] and r["technique"] != "none"]
     check(texts(page, "#answer-shots button")[0].startswith("mirror_pillars 3 points, "), "the shots")
     shown = [float(row[1][1]) for row in table_of(page, "#answer-charts")]
     equal(shown, sorted(float(r["median_ms"]) for r in of_first), "times")
@@ -155,13 +155,13 @@ def test_budget(page, folder, shot):
     """Of what fits into the time the least error, what may fit, and what just misses; each with its picture."""
     check(float(page.find_element(By.ID, "budget").get_attribute("value")) > 0, "a budget to begin with")
     of_shot = dict(shot=shot, stage="total")
-    times = {(r["variant"], r["point"]): [float(r[c]) for c in ("median_ms", "low_ms")] for r in rows_of(folder, "time_summary.csv", **of_shot)}
+    times = {(r["technique"], r["point"]): [float(r[c]) for c in ("median_ms", "low_ms")] for r in rows_of(folder, "time_summary.csv", **of_shot)}
     errors = {
-        (r["variant"], r["point"]): float(r["value"])
+        (r["technique"], r["point"]): float(r["value"])
         for r in rows_of(folder, "summary.csv", shot=shot, metric="mse", mask="reflective", target="specular")
     }
-    high_of = lambda point: max(float(r["fits_from_ms"]) for r in rows_of(folder, "time_summary.csv", **of_shot) if (r["variant"], r["point"]) == point)
-    least_of = lambda point: max(float(r["may_fit_from_ms"]) for r in rows_of(folder, "time_summary.csv", **of_shot) if (r["variant"], r["point"]) == point)
+    high_of = lambda point: max(float(r["fits_from_ms"]) for r in rows_of(folder, "time_summary.csv", **of_shot) if (r["technique"], r["point"]) == point)
+    least_of = lambda point: max(float(r["may_fit_from_ms"]) for r in rows_of(folder, "time_summary.csv", **of_shot) if (r["technique"], r["point"]) == point)
     label = lambda point: point[0] if point[1] == "default" else " · ".join(point)
     by_error = sorted(times, key=errors.get)
     best, cheapest = by_error[0], min(times, key=times.get)
@@ -264,7 +264,7 @@ def test_points(page):
     choose_in(page, "results", "Sort by", "mean error")
     equal(rows(), ["mcguire_dda · stride=1", "mcguire_dda · stride=4", "none"], "points by error")
     page.find_element(By.ID, "isGrouped").click()
-    equal(texts(page, "#matrix tr.variant"), ["mcguire_dda", "none"], "groups")
+    equal(texts(page, "#matrix tr.technique"), ["mcguire_dda", "none"], "groups")
     page.find_element(By.ID, "isGrouped").click()
     choose_in(page, "results", "Sort by", "order of the study")
     choose_in(page, "results", "Colours and shapes stand for", "stride")

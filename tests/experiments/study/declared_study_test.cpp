@@ -30,13 +30,13 @@ struct DeclaredStudy : StudyTest {
         ASSERT_NE(text.find(before), std::string::npos) << file;
         write_text(technique() / file, text.replace(text.find(before), before.size(), after));
     }
-    Config study(const std::string& variants) {
+    Config study(const std::string& techniques) {
         write_text(folder / "study.json", R"({"shots": [{"scene": "fence", "resolution": [32, 18]}], "lit": "direct",
-            "reference": {"samples": 16}, "timing": {"frames": 0}, "metrics": ["mse"], "variants": )" +
-                                              variants + "}");
+            "reference": {"samples": 16}, "timing": {"frames": 0}, "metrics": ["mse"], "techniques": )" +
+                                              techniques + "}");
         return read_config(folder / "study.json");
     }
-    std::string own() const { return "{\"variant\": \"./techniques/" + name + "\"}"; }
+    std::string own() const { return "{\"technique\": \"./techniques/" + name + "\"}"; }
 
     /// Cells by what they are of.
     std::map<std::string, std::string> cells(const Config& config, const std::vector<SourceFile>& sources) const {
@@ -58,7 +58,7 @@ std::set<std::string> differing(const std::map<std::string, std::string>& a,
 }
 
 TEST_F(DeclaredStudy, RunsLikeTheTechniqueThatItIsWrittenAfter) {
-    const fs::path results = run(study("[{\"variant\": \"mcguire_dda\"}, " + own() + "]"), "out");
+    const fs::path results = run(study("[{\"technique\": \"mcguire_dda\"}, " + own() + "]"), "out");
     std::map<std::string, std::string> errors;
     std::istringstream rows(read_text(results / "results.csv"));
     for (std::string row; std::getline(rows, row);)
@@ -73,27 +73,27 @@ TEST_F(DeclaredStudy, RunsLikeTheTechniqueThatItIsWrittenAfter) {
 }
 
 TEST_F(DeclaredStudy, AnEditRedoesItsCellsAndNoOthers) {
-    const std::string variants =
-        R"([{"variant": "none"}, {"variant": "mcguire_dda"}, {"variant": "composed_ssr"}, )" + own() + "]";
+    const std::string techniques =
+        R"([{"technique": "none"}, {"technique": "mcguire_dda"}, {"technique": "composed_ssr"}, )" + own() + "]";
     const std::vector<SourceFile> sources = present_sources();
-    const auto before = cells(study(variants), sources);
+    const auto before = cells(study(techniques), sources);
     const std::set<std::string> its_own = {name + " default"};
-    EXPECT_EQ(differing(before, cells(study(variants), sources)), std::set<std::string>());
+    EXPECT_EQ(differing(before, cells(study(techniques), sources)), std::set<std::string>());
     edit("own.glsl", "nothing", "something");
-    const auto edited = cells(study(variants), sources);
+    const auto edited = cells(study(techniques), sources);
     EXPECT_EQ(differing(before, edited), its_own);
     edit("technique.json", "\"format\": \"r8\"", "\"format\": \"r16f\"");
-    const auto declared = cells(study(variants), sources);
+    const auto declared = cells(study(techniques), sources);
     EXPECT_EQ(differing(edited, declared), its_own);
     edit("technique.json", "Screen-space", "Screen space");
     edit("technique.json", "as in the paper", "as published");
     write_text(technique() / "README.md", "of no shader\n");
-    EXPECT_EQ(differing(declared, cells(study(variants), sources)), std::set<std::string>());
+    EXPECT_EQ(differing(declared, cells(study(techniques), sources)), std::set<std::string>());
 
     const auto with_edit_of = [&](const std::string& path) {
         std::vector<SourceFile> edited_sources = sources;
         std::ranges::find(edited_sources, path, &SourceFile::path)->hash += "edited";
-        return differing(declared, cells(study(variants), edited_sources));
+        return differing(declared, cells(study(techniques), edited_sources));
     };
     const std::set<std::string> of_this_march = {"mcguire_dda default", name + " default"};
     std::set<std::string> all = of_this_march;
@@ -109,13 +109,13 @@ TEST_F(DeclaredStudy, FoldersAreFoundFromTheConfigThatNamesThem) {
     study("[" + own() + "]");
     fs::create_directories(folder / "derived");
     write_text(folder / "derived/study.json",
-               "{\"extends\": \"../study.json\", \"variants\": [{\"variant\": \"../techniques/" + name +
+               "{\"extends\": \"../study.json\", \"techniques\": [{\"technique\": \"../techniques/" + name +
                    "\", \"parameters\": {\"max_roughness\": 0.25}}]}");
     const Config derived = read_config(folder / "derived/study.json");
-    ASSERT_EQ(derived.variants.size(), 1u);
-    EXPECT_EQ(derived.variants[0].variant, name);
-    EXPECT_EQ(derived.variants[0].parameters.at("max_roughness"), 0.25);
-    const std::string missing = error_message([&] { study("[{\"variant\": \"./nowhere\"}]"); });
+    ASSERT_EQ(derived.techniques.size(), 1u);
+    EXPECT_EQ(derived.techniques[0].technique, name);
+    EXPECT_EQ(derived.techniques[0].parameters.at("max_roughness"), 0.25);
+    const std::string missing = error_message([&] { study("[{\"technique\": \"./nowhere\"}]"); });
     EXPECT_NE(missing.find("study.json:2:"), std::string::npos) << missing;
     EXPECT_NE(missing.find("it has no technique.json"), std::string::npos) << missing;
 }

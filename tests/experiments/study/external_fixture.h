@@ -19,7 +19,7 @@ inline RenderedFrame rendered_frame(const fs::path& results, const std::string& 
     RenderedFrame frame;
     const nlohmann::json manifest = read_json(results / "manifest.json");
     for (const nlohmann::json& entry : manifest["images"]) {
-        if (entry["variant"] != technique || entry["kind"] != "result") continue;
+        if (entry["technique"] != technique || entry["kind"] != "result") continue;
         if (entry["target"] == "image") frame.image = read_exr_rgb(results / entry["exr"].get<std::string>());
         if (entry["target"] == "specular") frame.specular = read_exr_rgb(results / entry["exr"].get<std::string>());
     }

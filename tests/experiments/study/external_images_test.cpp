@@ -15,11 +15,11 @@ bool says(const std::string& text, const std::string& part) { return text.find(p
 struct ExternalImagesTest : StudyTest {
     const std::string view = "mirror_pillars.main.96x54";
 
-    static std::string study_of(const std::string& variants, const std::string& more = "") {
+    static std::string study_of(const std::string& techniques, const std::string& more = "") {
         return R"({"shots": [{"scene": "mirror_pillars", "resolution": [96, 54]}], "reference": {"samples": 64},
             "metrics": ["mse", "flip"], "masks": ["all", "reflective", "hit"], "targets": ["specular", "image", "incident"],
-            "timing": {"frames": 0}, "seeds": 1, "variants": [)" +
-               variants + "]" + more + "}";
+            "timing": {"frames": 0}, "seeds": 1, "techniques": [)" +
+               techniques + "]" + more + "}";
     }
     fs::path run_text(const std::string& text, const std::string& out) {
         write_text(folder / "study.json", text);
@@ -29,7 +29,7 @@ struct ExternalImagesTest : StudyTest {
 
     /// What ssrlab rendered, as a program would write it; the result's rows by target, metric and mask.
     std::map<std::string, double> write_frames() {
-        const fs::path out = run_text(study_of(R"({"variant": "none"}, {"variant": "mcguire_dda"})"), "own");
+        const fs::path out = run_text(study_of(R"({"technique": "none"}, {"technique": "mcguire_dda"})"), "own");
         frame = rendered_frame(out, "mcguire_dda");
         write(frame.image, "f0.s0"), write(frame.without_reflections(), "f0.off");
         describe();
@@ -38,16 +38,16 @@ struct ExternalImagesTest : StudyTest {
     void write(const HostImage& rgb, const std::string& name) {
         write_exr(folder / "frames" / view / (name + ".exr"), rgb);
     }
-    static std::map<std::string, double> errors_of(const fs::path& out, const std::string& variant) {
+    static std::map<std::string, double> errors_of(const fs::path& out, const std::string& technique) {
         std::map<std::string, double> errors;
         for (const ResultRow& r : read_rows<ResultRow>(out / "results.csv"))
-            if (r.variant == variant) errors[r.target + " " + r.metric + " " + r.mask] = r.value.value();
+            if (r.technique == technique) errors[r.target + " " + r.metric + " " + r.mask] = r.value.value();
         return errors;
     }
     /// What a study of the frames says; "" if it ran.
     std::string refusal() {
         try {
-            run_text(study_of(R"({"variant": "none"}, {"external": "frames"})"), "refused");
+            run_text(study_of(R"({"technique": "none"}, {"external": "frames"})"), "refused");
         } catch (const Error& e) {
             return e.what();
         }
@@ -64,7 +64,7 @@ TEST_F(ExternalImagesTest, ErrAsTheSameImagesOfATechnique) {
     describe(
         R"(, "driver": "Mesa", "licence": "MIT", "settings": {"maxDistance": 20, "blur": false}, "milliseconds": 18)");
     const std::string study =
-        study_of(R"({"variant": "none", "baseline": true}, {"external": "frames", "label": "three"})");
+        study_of(R"({"technique": "none", "baseline": true}, {"external": "frames", "label": "three"})");
     const fs::path out = run_text(study, "external");
     const std::map<std::string, double> external = errors_of(out, "three_ssr");
     std::set<std::string> compared;
@@ -78,7 +78,7 @@ TEST_F(ExternalImagesTest, ErrAsTheSameImagesOfATechnique) {
                                                "image flip all", "image flip reflective"}))
         << "no confidence, and no incident radiance";
     const nlohmann::json manifest = read_json(out / "manifest.json");
-    const nlohmann::json& entry = manifest["variants"][1];
+    const nlohmann::json& entry = manifest["techniques"][1];
     EXPECT_EQ(entry["external"]["version"], "r187");
     EXPECT_EQ(entry["external"]["stated_milliseconds"], 18);
     EXPECT_EQ(entry["parameters"]["maxDistance"], 20);
@@ -135,11 +135,11 @@ TEST_F(ExternalImagesTest, AreMeasuredFrameByFrame) {
     for (const char* name : {"s0", "off"})
         fs::copy_file(folder / "frames" / view / (std::string("f0.") + name + ".exr"),
                       folder / "frames" / view / (std::string("f1.") + name + ".exr"));
-    std::string study = study_of(R"({"variant": "none"}, {"external": "frames"})", R"(, "frame_metrics": "mse")");
+    std::string study = study_of(R"({"technique": "none"}, {"external": "frames"})", R"(, "frame_metrics": "mse")");
     study.replace(study.find(R"("resolution")"), 0, R"("frames": [0, 1], )");
     std::map<std::string, double> by_frame;
     for (const ResultRow& r : read_rows<ResultRow>(run_text(study, "sequence") / "results.csv"))
-        if (r.variant == "three_ssr" && r.target == "specular" && r.metric == "mse" && r.mask == "reflective")
+        if (r.technique == "three_ssr" && r.target == "specular" && r.metric == "mse" && r.mask == "reflective")
             by_frame[r.frame] = r.value.value();
     const double error = own.at("specular mse reflective");
     ASSERT_EQ(by_frame.size(), 3u) << "both frames and their mean";

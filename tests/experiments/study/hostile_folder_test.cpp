@@ -25,7 +25,7 @@ struct HostileFolder : StudyTest {
         write_text(
             folder / "study.json",
             R"({"shots": [{"scene": "sky_only", "resolution": [16, 9]}], "reference": {"samples": 16}, "seeds": 2,
-            "variants": [{"variant": "none"}, {"variant": "mcguire_dda"}], "timing": {"frames": 0}, "metrics": ["mse"]})");
+            "techniques": [{"technique": "none"}, {"technique": "mcguire_dda"}], "timing": {"frames": 0}, "metrics": ["mse"]})");
         return read_config(folder / "study.json");
     }
     RunSettings into(const std::string& out) {
@@ -127,13 +127,13 @@ TEST_F(HostileFolder, ARunWritesAndPrunesNothingOutside) {
 TEST_F(HostileFolder, WrongTypesInCellsAreNamed) {
     write_text(folder / "study.json",
                R"({"shots": [{"scene": "fence", "resolution": [16, 12]}], "reference": {"samples": 16}, "seeds": 2,
-        "variants": [{"variant": "mcguire_dda"}], "timing": {"frames": 0}, "hits": {}, "costs": true})");
+        "techniques": [{"technique": "mcguire_dda"}], "timing": {"frames": 0}, "hits": {}, "costs": true})");
     const fs::path out = run(read_config(folder / "study.json"), "a");
     const CellStore store(out, [](const std::string&) {});
     ShotTimes times;
-    times.pairs = {{.variant = "v", .point = "p", .first_ms = 1, .second_ms = 2}};
+    times.pairs = {{.technique = "v", .point = "p", .first_ms = 1, .second_ms = 2}};
     times.saved = {{.stage = "s", .milliseconds = 1}};
-    times.savings = {{.variant = "v", .point = "p", .complete_ms = 1}};
+    times.savings = {{.technique = "v", .point = "p", .complete_ms = 1}};
     ClockProof clock;
     clock.checks.resize(1), clock.checks[0].measured_ms = {1, 2, 3}, clock.checks[0].ratio = {1, 2, 3};
     size_t count = 0;

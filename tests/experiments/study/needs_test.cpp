@@ -1,6 +1,6 @@
 #include "experiments/study/needs.h"
 #include "experiments/study/config/points/all_points.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <algorithm>
 
@@ -9,11 +9,11 @@ namespace {
 const std::vector<std::filesystem::path> scenes = {std::filesystem::path(SSRLAB_SOURCE_DIR) / "scenes"};
 
 /// A preset or more of each technique, with all that reads what scenes may lack.
-std::vector<VariantConfig> points() {
-    std::vector<VariantConfig> all;
-    const auto add = [&](const std::string& variant, const std::string& preset,
+std::vector<PointConfig> points() {
+    std::vector<PointConfig> all;
+    const auto add = [&](const std::string& technique, const std::string& preset,
                          const nlohmann::json& parameters = nlohmann::json::object()) {
-        all.push_back(single_point(variant, preset, parameters));
+        all.push_back(single_point(technique, preset, parameters));
     };
     add("mcguire_dda", "best");
     add("amd_sssr", "corrected");
@@ -24,17 +24,17 @@ std::vector<VariantConfig> points() {
     return all;
 }
 
-struct Needs : VariantTest {
+struct Needs : TechniqueTest {
     /// Names of the parts that each technique leaves out; fails where images differ by more than they say.
     std::set<std::string> left_out(const Shot& shot) {
         std::set<std::string> names;
         const Config config = timed_config(points(), 0);
         const std::unique_ptr<FrameSource> source = scene_source(device(), shot, config, false);
-        for (const VariantConfig& point : config.variants) {
+        for (const PointConfig& point : config.techniques) {
             const MeasuredSaving saving = compare_with_all_kept(*source, shot, point);
-            EXPECT_TRUE(saving.is_as_said()) << point.variant << " differs by " << saving.largest_difference;
+            EXPECT_TRUE(saving.is_as_said()) << point.technique << " differs by " << saving.largest_difference;
             for (const LeftOutBy& part : left_out_of(shot, {point}))
-                if (part.who.starts_with(point.variant)) names.insert(full_name(part.part));
+                if (part.who.starts_with(point.technique)) names.insert(full_name(part.part));
         }
         return names;
     }

@@ -9,7 +9,7 @@
 TEST_F(StudyTest, AHeldPoseDoesNotFlickerAndHasOneReference) {
     const std::string shot = R"({"scene": "passing_pillars", "resolution": [96, 54])";
     const std::string rest =
-        R"(], "reference": {"samples": 64}, "variants": [{"variant": "mcguire_dda"}], "timing": {"frames": 0}})";
+        R"(], "reference": {"samples": 64}, "techniques": [{"technique": "mcguire_dda"}], "timing": {"frames": 0}})";
     write_text(folder / "held.json", "{\"shots\": [" + shot + R"(, "warm_up": 2, "repeat": 3})" + rest);
     write_text(folder / "once.json", "{\"shots\": [" + shot + "}" + rest);
     const auto held = read_rows<ResultRow>(run(read_config(folder / "held.json"), "held") / "results.csv"),
@@ -36,7 +36,7 @@ TEST_F(StudyTest, AHeldPoseDoesNotFlickerAndHasOneReference) {
 TEST_F(StudyTest, EachFrameIsMeasuredAgainstItsOwnTruth) {
     const std::string shot = R"({"shots": [{"scene": "moving_emitter", "resolution": [96, 54], "frames": )";
     const std::string rest =
-        R"(}], "reference": {"samples": 64}, "variants": [{"variant": "mcguire_dda"}], "metrics": ["mse", "flip"], "frame_metrics": ["mse", "smape"], "timing": {"frames": 0}})";
+        R"(}], "reference": {"samples": 64}, "techniques": [{"technique": "mcguire_dda"}], "metrics": ["mse", "flip"], "frame_metrics": ["mse", "smape"], "timing": {"frames": 0}})";
     write_text(folder / "three.json", shot + R"([4, 5, 6], "warm_up": 1)" + rest);
     write_text(folder / "one.json", shot + "[5]" + rest);
     const auto three = read_rows<ResultRow>(run(read_config(folder / "three.json"), "three") / "results.csv"),
@@ -72,7 +72,7 @@ TEST_F(StudyTest, EachFrameIsMeasuredAgainstItsOwnTruth) {
 TEST_F(StudyTest, AStepGhostsOnlyWhereSomethingRemembers) {
     const std::string shot = R"({"shots": [{"scene": "stepping_emitter", "resolution": [96, 54], "frames": )";
     const std::string rest =
-        R"("change": 30, "repeat": 12}], "reference": {"samples": 64}, "variants": [{"variant": "mcguire_dda"}], "metrics": "mse", "timing": {"frames": 0}})";
+        R"("change": 30, "repeat": 12}], "reference": {"samples": 64}, "techniques": [{"technique": "mcguire_dda"}], "metrics": "mse", "timing": {"frames": 0}})";
     write_text(folder / "step.json", shot + "[29, 30], " + rest);
     size_t ghosts = 0;
     for (const ResultRow& r : read_rows<ResultRow>(run(read_config(folder / "step.json"), "step") / "results.csv"))
@@ -94,7 +94,7 @@ TEST_F(StudyTest, AHistoryGhosts) {
     // old one: taken for each other, the two states would leave a ghost as long, and no settling that can be told.
     write_text(folder / "step.json", R"({"shots": [{"scene": "stepping_emitter", "resolution": [96, 54], "warm_up": 8,
         "frames": [29, 30], "change": 30, "repeat": 40, "measure": "last"}], "reference": {"samples": 256},
-        "variants": [{"variant": "amd_sssr", "preset": "corrected",
+        "techniques": [{"technique": "amd_sssr", "preset": "corrected",
                       "parameters": {"max_samples": 12, "min_history_samples": 6, "clip_scale": 100}}],
         "metrics": "mse", "targets": "specular", "masks": "reflective", "seeds": 1, "timing": {"frames": 0}})");
     std::map<std::string, std::optional<double>> lengths;
@@ -112,7 +112,7 @@ TEST_F(StudyTest, SeedsKnowNothingOfEachOther) {
     // sdk_1_5: its exit of thinly occupied subgroups depends on which rays share one, and so on the order of atomics.
     const std::string shot =
         R"({"shots": [{"scene": "moving_emitter", "resolution": [96, 54], "frames": [4, 5, 6], "warm_up": 3}],
-        "reference": {"samples": 16}, "variants": [{"variant": "amd_sssr", "preset": "corrected"}], "metrics": "mse", "targets": "specular", "timing": {"frames": 0}, )";
+        "reference": {"samples": 16}, "techniques": [{"technique": "amd_sssr", "preset": "corrected"}], "metrics": "mse", "targets": "specular", "timing": {"frames": 0}, )";
     write_text(folder / "both.json", shot + R"("seeds": [3, 7]})");
     write_text(folder / "alone.json", shot + R"("seeds": [7]})");
     const auto both = read_rows<ResultRow>(run(read_config(folder / "both.json"), "both") / "results.csv");
@@ -152,7 +152,7 @@ TEST_F(StudyTest, StoredFramesAreThoseThatAreRendered) {
             FrameStore* const stores[] = {&keeps, &forgets};
             for (size_t i = 0; i < 2; ++i) {
                 const FrameStore::Frame frame = stores[i]->frame(step, {});
-                host[i] = download_gbuffer(source->graph(), frame.gbuffer, frame.camera, DepthFormat::d32f);
+                host[i] = download_gbuffer(source->pass_list(), frame.gbuffer, frame.camera, DepthFormat::d32f);
                 EXPECT_NE(frame.gbuffer.environment, nullptr);
             }
             EXPECT_EQ(host[0].camera.frame, glm::uvec4(step.index, 0, 0, step.previous_frame.has_value()));
@@ -182,7 +182,7 @@ TEST_F(StudyTest, NonFiniteInputsAreCountedOnce) {
         for (const FrameStep& step : shot.steps) store->frame(step, {});
         size_t surfaces = 0;
         const FrameStore::Frame frame = store->frame(shot.steps.back(), {});
-        for (const float material : source->graph().download(frame.gbuffer.material_id).values)
+        for (const float material : source->pass_list().download(frame.gbuffer.material_id).values)
             surfaces += material > 0;
         EXPECT_GT(surfaces, 100u);
         EXPECT_EQ(shot.steps.size(), 3u);  // of two kinds: the first frame has none before it
@@ -194,7 +194,7 @@ TEST_F(StudyTest, NonFiniteInputsAreCountedOnce) {
 TEST_F(StudyTest, EffectsOnFlipHoldTheNoiseOfTheReference) {
     write_text(folder / "flip.json",
                R"({"shots": [{"scene": "roughness_gradient", "resolution": [96, 54]}], "reference": {"samples": 64},
-        "variants": [{"variant": "none", "baseline": true}, {"variant": "mcguire_dda"}], "metrics": ["flip", "mse"],
+        "techniques": [{"technique": "none", "baseline": true}, {"technique": "mcguire_dda"}], "metrics": ["flip", "mse"],
         "targets": "specular", "masks": "reflective", "timing": {"frames": 0}})");
     const auto effects = read_rows<EffectRow>(run(read_config(folder / "flip.json"), "flip") / "effects.csv");
     const auto flip = std::ranges::find(effects, "flip", &EffectRow::metric);

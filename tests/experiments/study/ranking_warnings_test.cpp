@@ -10,7 +10,7 @@ struct RankingWarnings : StudyTest {
                                 const std::string& size = "[16, 9]") {
         write_text(folder / "study.json",
                    R"({"shots": [{"scene": )" + scenes + R"(, "resolution": )" + size + R"(}], )" + more +
-                       R"("variants": [{"variant": "none"}, {"variant": "amd_sssr", "preset": "best"}]})");
+                       R"("techniques": [{"technique": "none"}, {"technique": "amd_sssr", "preset": "best"}]})");
         const Config config = read_config(folder / "study.json");
         const StudyPlan plan =
             plan_study(config, {.name = "d", .driver = "1"}, {fs::path(SSRLAB_SOURCE_DIR) / "scenes"}, false);

@@ -1,4 +1,4 @@
-// Points whose results differ from run to run, from the variant to the report.
+// Points whose results differ from run to run, from the technique to the report.
 #include "core/json.h"
 #include "experiments/report/report_warnings.h"
 #include "tests/experiments/study/study_fixture.h"
@@ -6,7 +6,9 @@
 
 namespace {
 
-std::string reason(const nlohmann::json& parameters) { return make_variant("amd_sssr", parameters)->not_repeatable(); }
+std::string reason(const nlohmann::json& parameters) {
+    return make_technique("amd_sssr", parameters)->not_repeatable();
+}
 
 }  // namespace
 
@@ -27,21 +29,21 @@ TEST(Repeatability, IsWhatTheOrderOfThreadsCannotChange) {
     raw["denoise"] = false;
     EXPECT_EQ(reason(fixed), "");
     EXPECT_EQ(reason(raw), "");
-    EXPECT_EQ(make_variant("mcguire_dda")->not_repeatable(), "");
+    EXPECT_EQ(make_technique("mcguire_dda")->not_repeatable(), "");
 }
 
 TEST_F(StudyTest, SaysWhichPointsDifferFromRunToRun) {
     write_text(folder / "study.json", R"({"shots": [{"scene": "mirror_pillars", "resolution": [64, 36]}],
         "reference": {"samples": 16}, "metrics": "mse", "targets": "specular", "masks": "reflective", "seeds": 2, "timing": {"frames": 0},
-        "variants": [{"variant": "mcguire_dda", "baseline": true},
-                     {"variant": "amd_sssr", "preset": "sdk_1_5", "parameters": {"denoise": false}},
-                     {"variant": "amd_sssr", "preset": "corrected", "parameters": {"denoise": false}}]})");
+        "techniques": [{"technique": "mcguire_dda", "baseline": true},
+                     {"technique": "amd_sssr", "preset": "sdk_1_5", "parameters": {"denoise": false}},
+                     {"technique": "amd_sssr", "preset": "corrected", "parameters": {"denoise": false}}]})");
     const fs::path out = run(read_config(folder / "study.json"), "a");
     const nlohmann::json manifest = read_json(out / "manifest.json");
-    ASSERT_EQ(manifest["variants"].size(), 3u);
-    EXPECT_TRUE(manifest["variants"][1].contains("not_repeatable"));
-    for (const size_t i : {0, 2}) EXPECT_FALSE(manifest["variants"][i].contains("not_repeatable"));
-    const std::string point = manifest["variants"][1]["point"];
+    ASSERT_EQ(manifest["techniques"].size(), 3u);
+    EXPECT_TRUE(manifest["techniques"][1].contains("not_repeatable"));
+    for (const size_t i : {0, 2}) EXPECT_FALSE(manifest["techniques"][i].contains("not_repeatable"));
+    const std::string point = manifest["techniques"][1]["point"];
 
     const std::vector<EffectRow> effects = read_rows<EffectRow>(out / "effects.csv");
     ASSERT_EQ(effects.size(), 2u * 3u) << "on the squared error and its parts";

@@ -1,8 +1,8 @@
-// Which variants depend on their seed: what they declare, and what they render.
+// Which techniques depend on their seed: what they declare, and what they render.
 #include "core/gbuffer/composite.h"
 #include "core/gpu/device.h"
 #include "experiments/study/measuring/frames/frame_source.h"
-#include "experiments/study/measuring/render_variant.h"
+#include "experiments/study/measuring/render_technique.h"
 #include "experiments/study/shots/result_images.h"
 #include "tests/experiments/study/study_fixture.h"
 #include "variants/registry.h"
@@ -16,12 +16,12 @@ struct Point {
     nlohmann::json parameters = nlohmann::json::object();
 };
 
-/// The default, all presets, and what the declarations turn on. Every parameter of every variant at both ends of its
+/// The default, all presets, and what the declarations turn on. Every parameter of every technique at both ends of its
 /// range, and every choice, was tried once, which takes minutes: a point that declares itself free of seeds always is.
 /// Six that do not are none the less equal for two seeds, as they find nothing in this scene:
 /// hierarchy.max_traversal_intersections = 0 of both, hierarchy.min_traversal_occupancy = 128, dark_exit_radiance = 1,
 /// and at 32x18 hierarchy.most_detailed_mip = 6 and alpha_interpolation = 0.
-std::vector<Point> points_of(const VariantEntry& entry) {
+std::vector<Point> points_of(const TechniqueEntry& entry) {
     std::vector<Point> points = {{}};
     for (const Preset& preset : entry.presets) points.push_back({.preset = preset.name});
     if (entry.name == "amd_sssr")
@@ -55,16 +55,16 @@ struct SeedDependence : testing::Test {
     void TearDown() override { EXPECT_EQ(device.validation_messages(), std::vector<std::string>()); }
 
     /// All bits of what a seed gives.
-    std::vector<float> rendered(const std::string& variant, const Point& point, unsigned seed) {
-        const std::unique_ptr<Variant> made = make_variant(variant, point.parameters, point.preset);
-        PassGraph graph(device, shot.config.extent);
-        Compositor compositor(graph);
+    std::vector<float> rendered(const std::string& technique, const Point& point, unsigned seed) {
+        const std::unique_ptr<Technique> made = make_technique(technique, point.parameters, point.preset);
+        PassList pass_list(device, shot.config.extent);
+        Compositor compositor(pass_list);
         std::vector<float> values;
         for (const FrameStep& step : shot.steps) {
             const FrameStore::Frame frame = store.frame(step, {});
-            const Reflections reflections = render_variant(graph, *made, frame.camera, seed, frame.gbuffer);
+            const Reflections reflections = render_technique(pass_list, *made, frame.camera, seed, frame.gbuffer);
             const Composite composite = compositor.render(frame.gbuffer, reflections);
-            const CompositedImages images = download_results(graph, frame.gbuffer, reflections, composite, {});
+            const CompositedImages images = download_results(pass_list, frame.gbuffer, reflections, composite, {});
             values.insert(values.end(), images.specular.values.begin(), images.specular.values.end());
         }
         return values;
@@ -78,9 +78,9 @@ bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
 }  // namespace
 
 TEST_F(SeedDependence, IsAsDeclared) {
-    for (const VariantEntry& entry : variant_table())
+    for (const TechniqueEntry& entry : technique_table())
         for (const Point& point : points_of(entry)) {
-            const bool is_declared = make_variant(entry.name, point.parameters, point.preset)->depends_on_seed();
+            const bool is_declared = make_technique(entry.name, point.parameters, point.preset)->depends_on_seed();
             const bool depends = !same_bits(rendered(entry.name, point, 1), rendered(entry.name, point, 2));
             EXPECT_EQ(is_declared, depends) << entry.name << " " << point.preset << " " << point.parameters;
         }

@@ -8,7 +8,7 @@ namespace {
 
 const std::string compiled_study =
     R"({"shots": [{"scene": "mirror_pillars", "resolution": [32, 24]}], "reference": "none", "lit": "direct",
-"variants": [{"variant": "none"}, {"variant": "mcguire_dda", "sweep": {"tracer": ["dda", "exact_scene"]}}],
+"techniques": [{"technique": "none"}, {"technique": "mcguire_dda", "sweep": {"tracer": ["dda", "exact_scene"]}}],
 "timing": {"frames": 0}, "gpu_compilers": [)";
 
 }  // namespace

@@ -27,7 +27,7 @@ struct StudyTest : testing::Test {
         write_text(folder / "study.json",
                    R"({"shots": [{"scene": )" + scenes +
                        R"(, "resolution": [96, 54]}], "reference": {"samples": 64},
-            "variants": [{"variant": "none"}, {"variant": "mcguire_dda"}], "timing": {"frames": 0}, "seeds": 2)" +
+            "techniques": [{"technique": "none"}, {"technique": "mcguire_dda"}], "timing": {"frames": 0}, "seeds": 2)" +
                        (more.find("\"metrics\"") == more.npos ? R"(, "metrics": ["mse", "relmse"])" : "") + more + "}");
         return read_config(folder / "study.json");
     }

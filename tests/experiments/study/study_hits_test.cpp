@@ -11,8 +11,8 @@ namespace {
 /// A random technique with a few rays, one without chance, and one that has no rays.
 const std::string hits_study =
     R"({"shots": [{"scene": "mirror_pillars", "resolution": [48, 27]}], "reference": {"samples": 16}, "lit": "direct",
-"variants": [{"variant": "none"}, {"variant": "mcguire_dda", "sweep": {"tracer": ["dda", "exact_scene"]}},
-{"variant": "frostbite_sssr"}], "metrics": "mse", "masks": ["all", "reflective"], "timing": {"frames": 0}, "seeds": 3)";
+"techniques": [{"technique": "none"}, {"technique": "mcguire_dda", "sweep": {"tracer": ["dda", "exact_scene"]}},
+{"technique": "frostbite_sssr"}], "metrics": "mse", "masks": ["all", "reflective"], "timing": {"frames": 0}, "seeds": 3)";
 
 }  // namespace
 
@@ -22,7 +22,7 @@ TEST_F(StudyTest, JudgesRaysWhereItIsAskedTo) {
                                 "' '" SSRLAB_PROGRAM "' run study.json --out judged --replace > log 2>&1";
     ASSERT_EQ(std::system(command.c_str()), 0) << read_text(folder / "log");
     const std::string hits = read_text(folder / "judged/hits.csv");
-    EXPECT_TRUE(hits.starts_with("shot,frame,variant,point,stage,mask,quantity,seeds,rays,value,low,high\n"));
+    EXPECT_TRUE(hits.starts_with("shot,frame,technique,point,stage,mask,quantity,seeds,rays,value,low,high\n"));
 
     std::map<std::string, double> verdicts;  // sums by point, pass and mask
     std::map<std::string, double> causes;    // of the error, likewise
@@ -30,7 +30,7 @@ TEST_F(StudyTest, JudgesRaysWhereItIsAskedTo) {
     for (const HitRow& r : read_rows<HitRow>(folder / "judged/hits.csv")) {
         const std::string where = r.point + " " + r.stage + " " + r.mask;
         EXPECT_EQ(r.shot, "mirror_pillars.main.48x27");
-        EXPECT_NE(r.variant, "none");
+        EXPECT_NE(r.technique, "none");
         EXPECT_GT(r.rays, 0) << where;
         if (r.stage == "error") causes[where] += r.value;
         for (const char* verdict : {"right", "wrong_place", "false_hit", "avoidable_miss", "unavoidable_miss", "empty"})
@@ -39,8 +39,8 @@ TEST_F(StudyTest, JudgesRaysWhereItIsAskedTo) {
             EXPECT_EQ(r.value, 1) << where;
         }
         if (r.quantity != "correct") continue;
-        seeds[r.variant] = r.seeds;
-        EXPECT_EQ(r.low.has_value(), r.variant == "frostbite_sssr") << where;
+        seeds[r.technique] = r.seeds;
+        EXPECT_EQ(r.low.has_value(), r.technique == "frostbite_sssr") << where;
     }
     EXPECT_GE(verdicts.size(), 2u * 3) << "two masks of a pass and more for each of three points";
     // Each value is rounded to 6 digits.
@@ -54,7 +54,7 @@ TEST_F(StudyTest, JudgesRaysWhereItIsAskedTo) {
     std::map<std::string, std::map<std::string, size_t>> stages, totals;  // sums by point, quantity
     for (const CostRow& r : read_rows<CostRow>(folder / "judged/costs.csv")) {
         EXPECT_EQ(r.point.find("exact_scene"), std::string::npos);
-        (r.stage == "total" ? totals : stages)[r.variant][r.quantity] += r.value;
+        (r.stage == "total" ? totals : stages)[r.technique][r.quantity] += r.value;
     }
     EXPECT_EQ(totals.size(), 3u);
     EXPECT_EQ(stages, totals);
@@ -90,7 +90,7 @@ TEST_F(StudyTest, JudgesRaysWhereItIsAskedTo) {
 TEST_F(StudyTest, AnswersAFewRaysByTheScene) {
     write_text(folder / "study.json",
                R"({"shots": [{"scene": "mirror_pillars", "resolution": [48, 27]}], "reference": {"samples": 64},
-"variants": [{"variant": "mcguire_dda"}, {"variant": "mcguire_dda", "parameters": {"exact_share": 0.1},
+"techniques": [{"technique": "mcguire_dda"}, {"technique": "mcguire_dda", "parameters": {"exact_share": 0.1},
 "sweep": {"exact_rays": ["oracle", "random"]}}], "metrics": "mse", "masks": "reflective", "timing": {"frames": 0},
 "lit": "direct", "seeds": 2, "targets": ["specular"]})");
     std::map<std::string, std::vector<double>> errors;
@@ -112,7 +112,7 @@ TEST_F(StudyTest, JudgesOnePixelInEvery) {
     const auto rays_of = [&](const std::string& hits, const std::string& out) {
         write_text(folder / "study.json",
                    R"({"shots": [{"scene": "mirror_pillars", "resolution": [48, 27]}], "reference": {"samples": 16},
-"variants": [{"variant": "mcguire_dda"}], "metrics": "mse", "masks": "all", "timing": {"frames": 0}, "lit": "direct", "hits": )" +
+"techniques": [{"technique": "mcguire_dda"}], "metrics": "mse", "masks": "all", "timing": {"frames": 0}, "lit": "direct", "hits": )" +
                        hits + "}");
         for (const HitRow& r : read_rows<HitRow>(run(read_config(folder / "study.json"), out) / "hits.csv"))
             if (r.quantity == "right") return r.rays;

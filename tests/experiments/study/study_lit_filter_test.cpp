@@ -14,7 +14,7 @@ TEST_F(StudyTest, FiltersWhatTechniquesReadAndNothingElse) {
     const auto run_with = [&](const std::string& out, const char* filter) {
         write_text(folder / "study.json",
                    std::string(R"({"shots": [{"scene": "room:3", "resolution": [48, 27]}], "seeds": 1,
-"variants": [{"variant": "none"}, {"variant": "mcguire_dda"}], "timing": {"frames": 0}, "metrics": ["mse"], "masks": ["all"],
+"techniques": [{"technique": "none"}, {"technique": "mcguire_dda"}], "timing": {"frames": 0}, "metrics": ["mse"], "masks": ["all"],
 "reference": {"samples": 16, "lit_noise": false, "lit_filter": )") +
                        filter + "}}");
         return run(read_config(folder / "study.json"), out);
@@ -28,10 +28,10 @@ TEST_F(StudyTest, FiltersWhatTechniquesReadAndNothingElse) {
     ASSERT_EQ(a.size(), b.size());
     bool is_changed = false;
     for (size_t i = 0; i < a.size(); ++i) {
-        if (a[i].variant == "none") {
+        if (a[i].technique == "none") {
             EXPECT_EQ(a[i].value, b[i].value) << a[i].target;
         }
-        is_changed |= a[i].variant == "mcguire_dda" && a[i].value != b[i].value;
+        is_changed |= a[i].technique == "mcguire_dda" && a[i].value != b[i].value;
     }
     EXPECT_TRUE(is_changed);
 }

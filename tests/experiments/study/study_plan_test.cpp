@@ -16,8 +16,8 @@ struct StudyPlanTest : StudyTest {
         StudyTest::SetUp();
         write_text(folder / "study.json",
                    R"({"shots": [{"scene": ["mirror_pillars", "fence"], "resolution": [16, 9]}], "seeds": 2,
-"variants": [{"variant": "none"}, {"variant": "mcguire_dda", "sweep": {"tracer": ["dda", "hierarchy"]}},
-{"variant": "amd_sssr"}]})");
+"techniques": [{"technique": "none"}, {"technique": "mcguire_dda", "sweep": {"tracer": ["dda", "hierarchy"]}},
+{"technique": "amd_sssr"}]})");
         study = read_config(folder / "study.json");
     }
     StudyPlan plan(std::vector<SourceFile> sources = present_sources()) const {
@@ -85,7 +85,7 @@ TEST_F(StudyPlanTest, AnEditRedoesTheCellsThatItMayChange) {
     for (const char* file :
          {"core/gpu/passes/frame.cpp", "core/shaders/gbuffer/background.frag", "core/scene/gltf/gltf_mesh.cpp",
           "core/gpu/pipelines/shader.cpp", "groundtruth/paths/path_tracer.cpp", "metrics/flip.cpp",
-          "experiments/study/measuring/shot_truth.cpp", "experiments/results/tables/targets.cpp"})
+          "experiments/study/measuring/shot_truth.cpp", "experiments/results/files/targets.cpp"})
         EXPECT_EQ(changed(file), all) << file;
     EXPECT_THROW(SourceCode(read_sources(tree.root)).needed_by({"variants/frostbyte_sssr/"}), Error);
 }
@@ -105,7 +105,7 @@ TEST_F(StudyPlanTest, CellsAreNamedByWhatIsAskedFor) {
     const auto before = names(plan());
     std::set<std::string> distinct;
     for (const auto& [what, name] : before) EXPECT_TRUE(distinct.insert(name).second) << what;
-    study.variants[3].seeds = {4, 5};
+    study.techniques[3].seeds = {4, 5};
     size_t changed = 0;
     for (const auto& [what, name] : names(plan())) changed += before.at(what) != name;
     EXPECT_EQ(changed, 2u * 2) << "the point with other seeds, and the times, which are of its first";
@@ -131,7 +131,7 @@ TEST_F(StudyPlanTest, SelectionsShareTheCells) {
     EXPECT_EQ(count({"references", "times"}), 4u);
     EXPECT_EQ(count({"renders", "shot=fence.*"}), 4u);
     EXPECT_EQ(count({"shot=*nce*16x9"}), 6u);
-    EXPECT_EQ(count({"variant=mcguire_dda", "shot=mirror*"}), 2u);
+    EXPECT_EQ(count({"technique=mcguire_dda", "shot=mirror*"}), 2u);
     EXPECT_EQ(count({"shard=1/3"}) + count({"shard=2/3"}) + count({"shard=3/3"}), 12u);
     EXPECT_LT(count({"shard=1/3"}), 12u);
     EXPECT_EQ(count({"shard=1/3", "shard=2/3", "shard=3/3"}), 12u);

@@ -35,7 +35,7 @@ TEST_F(StudyTest, RunsADesignThatTheExampleReads) {
     write_text(folder / "study.json", R"({"shots": [{"scene": "fence", "resolution": [96, 54],
             "depth_format": ["d32f", "d16"], "label": "fence {settings}", "group": "mirrors"}],
         "reference": {"samples": 64}, "metrics": "mse", "targets": "specular", "timing": {"frames": 0},
-        "variants": [{"variant": "none", "baseline": true}, {"variant": "mcguire_dda", "label": "DDA, {dda.stride} px",
+        "techniques": [{"technique": "none", "baseline": true}, {"technique": "mcguire_dda", "label": "DDA, {dda.stride} px",
             "sweep": {"dda.stride": [1, 8]}, "skip_if": {"dda.stride": 8, "shot.depth_format": "d16"}}]})");
     const fs::path out = run(read_config(folder / "study.json"), "a");
     std::set<std::string> pairs;
@@ -57,15 +57,15 @@ TEST_F(StudyTest, RunsADesignThatTheExampleReads) {
     EXPECT_EQ(manifest["shots"][1]["label"], "fence d16");
     EXPECT_EQ(manifest["shots"][1]["group"], "mirrors");
     EXPECT_EQ(manifest["shots"][1]["depth_format"], "d16");
-    EXPECT_EQ(manifest["variants"][2]["label"], "DDA, 8 px");
+    EXPECT_EQ(manifest["techniques"][2]["label"], "DDA, 8 px");
     // Debian's own Python, which has Debian's pandas.
     const std::string script = std::string(SSRLAB_SOURCE_DIR) + "/experiments/studies/examples/read_results.py ";
     ASSERT_EQ(std::system(("/usr/bin/python3 -B " + script + out.string() + " > " + out.string() + "/best").c_str()),
               0);
     std::istringstream lines(read_text(out / "best"));
     std::vector<std::string> points;
-    for (std::string line, shot, variant, point; std::getline(lines, line);)
-        if (std::istringstream(line) >> shot >> variant >> point) points.push_back(shot + " " + point);
+    for (std::string line, shot, technique, point; std::getline(lines, line);)
+        if (std::istringstream(line) >> shot >> technique >> point) points.push_back(shot + " " + point);
     ASSERT_EQ(points.size(), 3u) << "a head and two shots";
     EXPECT_EQ(points[2], "fence.main.96x54.d16 dda.stride=1");
 }
@@ -75,11 +75,12 @@ TEST_F(StudyTest, LeavingOutChangesNothing) {
     const auto lean = read_rows<ResultRow>(run(study, "lean") / "results.csv"),
                all = read_rows<ResultRow>(run(study, "all", true) / "results.csv");
     ASSERT_EQ(lean.size(), all.size());
-    // The rasteriser's and the variants' images are the same bits. The path tracer's extra features are identities that
-    // round in other places: 1e-7 of a radiance, some hundred times that where a metric subtracts; its noise is 1e-2.
+    // The rasteriser's and the techniques' images are the same bits. The path tracer's extra features are identities
+    // that round in other places: 1e-7 of a radiance, some hundred times that where a metric subtracts; its noise is
+    // 1e-2.
     for (size_t i = 0; i < lean.size(); ++i) {
-        ASSERT_EQ(lean[i].shot + lean[i].variant + lean[i].target + lean[i].metric + lean[i].mask,
-                  all[i].shot + all[i].variant + all[i].target + all[i].metric + all[i].mask);
+        ASSERT_EQ(lean[i].shot + lean[i].technique + lean[i].target + lean[i].metric + lean[i].mask,
+                  all[i].shot + all[i].technique + all[i].target + all[i].metric + all[i].mask);
         EXPECT_EQ(lean[i].pixels, all[i].pixels);
         EXPECT_NEAR(lean[i].value.value_or(0), all[i].value.value_or(0),
                     1e-7 + 1e-4 * std::abs(lean[i].value.value_or(0)))
@@ -149,8 +150,8 @@ TEST_F(StudyTest, PartsMakeTheWhole) {
     EXPECT_FALSE(fs::exists(folder / "b/results.csv")) << "tables are of all cells";
     EXPECT_EQ(merge({folder / "a", folder / "b"}, "merged"), 2u) << "the other shot's points are missing";
     EXPECT_FALSE(read_json(folder / "merged/manifest.json")["is_complete"].get<bool>());
-    run_part("c", {"renders", "variant=none"});
-    run_part("c", {"renders", "variant=mcguire_dda", "shot=mirror*"});
+    run_part("c", {"renders", "technique=none"});
+    run_part("c", {"renders", "technique=mcguire_dda", "shot=mirror*"});
     EXPECT_EQ(merge({folder / "a", folder / "b", folder / "c"}, "merged"), 0u);
     EXPECT_EQ(read_text(folder / "merged/results.csv"), alone);
     EXPECT_EQ(read_text(folder / "merged/splits.csv"), read_text(folder / "alone/splits.csv"));
@@ -268,7 +269,7 @@ TEST_F(StudyTest, WhatIsFinishedIsNotReadAgain) {
 
     // Another study in the same folder is no end of this one.
     Config other = study;
-    other.variants.front().seeds = {5};
+    other.techniques.front().seeds = {5};
     run(other, "a");
     EXPECT_EQ(made(), 1);
     EXPECT_NE(read_text(out / "results.csv"), results);
@@ -277,7 +278,7 @@ TEST_F(StudyTest, WhatIsFinishedIsNotReadAgain) {
 TEST_F(StudyTest, OtherSeedsMakeNewCells) {
     Config study = config(R"("fence")");
     for (const unsigned seed : {0, 7}) {
-        for (VariantConfig& variant : study.variants) variant.seeds = {seed};
+        for (PointConfig& technique : study.techniques) technique.seeds = {seed};
         const auto rows = read_rows<ResultRow>(run(study, "a") / "results.csv");
         ASSERT_FALSE(rows.empty());
         for (const ResultRow& r : rows) EXPECT_EQ(r.seed, seed);
@@ -290,8 +291,9 @@ TEST_F(StudyTest, TimesEveryStageByTheProvenClock) {
     const fs::path out = run(study, "a");
     const std::string written = read_text(out / "times.csv");
     const auto times = read_rows<TimeRow>(out / "times.csv");
-    const auto frames_of = [&](const std::string& variant, const std::string& stage) {
-        return std::ranges::count_if(times, [&](const TimeRow& t) { return t.variant == variant && t.stage == stage; });
+    const auto frames_of = [&](const std::string& technique, const std::string& stage) {
+        return std::ranges::count_if(times,
+                                     [&](const TimeRow& t) { return t.technique == technique && t.stage == stage; });
     };
     EXPECT_EQ(frames_of("mcguire_dda", "mcguire_dda/trace"), 8) << "the least, of a budget of nothing";
     EXPECT_EQ(frames_of("mcguire_dda", "mcguire_dda/shade"), 8);
@@ -323,8 +325,8 @@ TEST_F(StudyTest, ACaptureIsMeasuredAsItsScene) {
     const auto study = [&](const std::string& name, const std::string& shot) {
         write_text(folder / (name + ".json"),
                    R"({"shots": [{)" + shot + R"(, "warm_up": 1, "repeat": 2}], "reference": {"samples": 16},
-            "variants": [{"variant": "mcguire_dda"},
-                {"variant": "four_mode_ssr", "preset": "corrected", "parameters": {"mode": "temporal"}}],
+            "techniques": [{"technique": "mcguire_dda"},
+                {"technique": "four_mode_ssr", "preset": "corrected", "parameters": {"mode": "temporal"}}],
             "seeds": 1, "timing": {"frames": 0}, "lit": "direct"})");
         return read_config(folder / (name + ".json"));
     };
@@ -338,12 +340,12 @@ TEST_F(StudyTest, ACaptureIsMeasuredAsItsScene) {
     ASSERT_GT(std::ranges::count(scene, "3", &ResultRow::frame), 0);
     for (size_t i = 0; i < scene.size(); ++i)
         EXPECT_EQ(capture[i].value, scene[i].value)
-            << scene[i].variant << " " << scene[i].frame << " " << scene[i].target << " " << scene[i].metric << " "
+            << scene[i].technique << " " << scene[i].frame << " " << scene[i].target << " " << scene[i].metric << " "
             << scene[i].mask;
 
     // Without a truth it is rendered all the same.
     Config alone = of_capture;
-    alone.variants.resize(1);  // whose shaders are soon compiled
+    alone.techniques.resize(1);  // whose shaders are soon compiled
     alone.shots.front().reference.clear();
     EXPECT_TRUE(read_rows<ResultRow>(run(alone, "alone") / "results.csv").empty());
     EXPECT_FALSE(read_json(folder / "alone/manifest.json")["images"].empty());

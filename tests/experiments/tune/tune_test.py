@@ -59,22 +59,22 @@ class FakeSsrlab:
     def write(self, study, out):
         points, results, costs, estimates, effects, times, time_effects, seen = [], [], [], [], [], [], [], set()
         assert study.get("gpu_compilers", []) == (["navi21"] if study["costs"] and self.is_estimated else [])
-        for entry in study["variants"]:
+        for entry in study["techniques"]:
             if "external" in entry:
                 with open(os.path.join(entry["external"], "external.json"), encoding="utf-8") as stream:
                     stated = json.load(stream)
                 assert stated["point"] in ("default", entry["point"]), stated
-                points.append({"variant": stated["name"], "point": entry["point"], "label": entry["label"], "parameters": stated["settings"]})
+                points.append({"technique": stated["name"], "point": entry["point"], "label": entry["label"], "parameters": stated["settings"]})
                 continue
             swept = {k: v[0] for k, v in entry["sweep"].items()}
             name = " ".join(f"{k}={v}" for k, v in sorted(swept.items())) or "default"
             assert name not in seen, f"{name} comes twice"
             seen.add(name)
-            points.append({"variant": "sssr", "point": name, "label": entry["label"], "parameters": DEFAULTS | entry["parameters"] | swept})
+            points.append({"technique": "sssr", "point": name, "label": entry["label"], "parameters": DEFAULTS | entry["parameters"] | swept})
         for shot in (s["scene"] for s in study["shots"]):
             base, base_operations = truth(points[0]["parameters"], shot)
             for p in points:
-                key = {"shot": shot, "variant": "sssr", "point": p["point"]}
+                key = {"shot": shot, "technique": "sssr", "point": p["point"]}
                 error, operations = truth(p["parameters"], shot)
                 self.runs += len(study["seeds"])
                 for seed in study["seeds"]:
@@ -98,9 +98,9 @@ class FakeSsrlab:
                 effects.append(key | row | {"low": error / base * 0.99, "high": error / base * 1.01, "low_holm": error / base * 0.98, "high_holm": error / base * 1.02, "verdict": "undecided"})
         shots = [{"shot": s["scene"], "scene": s["scene"], "references": [{"hash": s["scene"]}]} for s in study["shots"]]
         with open(os.path.join(out, "manifest.json"), "w", encoding="utf-8") as stream:
-            is_beside_program = any("external" in entry for entry in study["variants"])  # whose settings are not a technique's parameters
-            own = [p | {"parameters": {"of_its_own": 1}} if is_beside_program and p["variant"] == "sssr" else p for p in points]
-            json.dump({"variants": own, "shots": shots}, stream)
+            is_beside_program = any("external" in entry for entry in study["techniques"])  # whose settings are not a technique's parameters
+            own = [p | {"parameters": {"of_its_own": 1}} if is_beside_program and p["technique"] == "sssr" else p for p in points]
+            json.dump({"techniques": own, "shots": shots}, stream)
         for name, rows in (("results", results), ("costs", costs), ("estimates", estimates), ("effects", effects), ("summary", []), ("time_summary", times), ("time_effects", time_effects)):
             with open(os.path.join(out, name + ".csv"), "w", newline="", encoding="utf-8") as stream:
                 writer = csv.DictWriter(stream, rows[0].keys() if rows else ["shot", "frame", "represents_shot", "standing", "dominated", "fits_from_ms"])
@@ -153,7 +153,7 @@ def search(folder, fake, rules=None, renders=None):
     """Exit code, what was said. `renders`: the program, where the search is over one."""
     given = [("default", {}, True), ("rays=2", {"rays": 2}, False)]
     given = given[1:] if renders else given  # what the program is compared with
-    points = [{"variant": "sssr", "preset": "", "parameters": s, "swept": s, "point": n, "label": "", "baseline": b or bool(renders)} for n, s, b in given]
+    points = [{"technique": "sssr", "preset": "", "parameters": s, "swept": s, "point": n, "label": "", "baseline": b or bool(renders)} for n, s, b in given]
     rules = {"axes": AXES, "start": "default", "time": "operations", "is_estimated": False, "metrics": ["mse"], "target": "specular", "mask": "all", "seeds": [0, 1, 2, 3],
              "budgets": [1, 2], "most_runs": 1000, "most_minutes": 1e7, "batch": 8, "seed": 0,
              "judge": {"shots": [{"scene": [f"unseen {i}" for i in range(4)]}], "seeds": [0, 1]}} | (rules or {})  # fmt: skip
@@ -288,7 +288,7 @@ def test_program(folder):
     scenes = stopped.scenes + renders.scenes
     check(len({s for _, s in scenes}) == len(scenes) == 8 and all(e == "any" for e, _ in scenes), f"{scenes}")
     presets = json.loads(read(folder, "presets.json"))["presets"]
-    check([(p["variant"], p["name"]) for p in presets] == [("engine", "best")], f"{presets}")
+    check([(p["technique"], p["name"]) for p in presets] == [("engine", "best")], f"{presets}")
     found = DEFAULTS | presets[0]["parameters"]
     ratio = [sum(truth(p, s)[0] for s in SHOTS) for p in (found, {"rays": 4, "blur": 2.0, "march": "tree", "clamp": False})]
     check(ratio[0] < 1.1 * ratio[1], f"{found} has {ratio}")

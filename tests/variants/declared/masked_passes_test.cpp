@@ -60,12 +60,12 @@ TEST_F(DeclaredMasks, DrawWhereTheBufferSaysSo) {
     for (const auto& [by, left, right] :
          {std::tuple("stencil", 0.0f, 1.0f), {"depth", 1.0f, 0.0f}, {"nothing", 1.0f, 1.0f}}) {
         SCOPED_TRACE(by);
-        const auto variant = make_variant(name, {{"by", by}});
-        EXPECT_EQ(variant->limits, Limits::webgl2);
-        const Frame frame = render(*variant, floor_before_white, 1);
+        const auto technique = make_technique(name, {{"by", by}});
+        EXPECT_EQ(technique->limits, Limits::webgl2);
+        const Frame frame = render(*technique, floor_before_white, 1);
         for (unsigned x = 0; x < 16; ++x) EXPECT_EQ(*frame.confidence.pixel(x, 3), x < 8 ? left : right) << x;
     }
-    EXPECT_EQ(make_variant(name, {{"lifted", true}})->limits, Limits::none);
+    EXPECT_EQ(make_technique(name, {{"lifted", true}})->limits, Limits::none);
 }
 
 TEST_F(DeclaredMasks, Refusals) {

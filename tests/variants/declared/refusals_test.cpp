@@ -140,8 +140,10 @@ TEST_F(DeclaredRefusals, Denoisers) {
     expect_part(error_of({{"denoiser", {{"defaults", {{"lobee", "normals"}}}}}}), "did you mean 'lobe'?");
     expect_part(error_of({{"result", sound["result"]}}), "a technique with a 'denoiser' has no 'result'");
     expect_part(error_of({{"reflects", {{"up_to", "limit"}}}}), "a technique with a 'denoiser' has no 'reflects'");
-    expect_part(error_of({{"pass", {{"buffers", {"directions"}}}}}), "denoiser: no pass has 'hits' among its 'buffers'");
-    expect_part(error_of({{"pass", {{"when", {{"mode", "a"}}}}}}), "'buffers', for rays that the denoiser reads, where");
+    expect_part(error_of({{"pass", {{"buffers", {"directions"}}}}}),
+                "denoiser: no pass has 'hits' among its 'buffers'");
+    expect_part(error_of({{"pass", {{"when", {{"mode", "a"}}}}}}),
+                "'buffers', for rays that the denoiser reads, where");
     expect_part(error_of({{"buffers", {{{"name", "hits"}, {"bytes", 4}}}}}), "has a buffer 'hits' already");
     expect_part(error_of({{"images", {{{"name", "below_horizon"}, {"format", "r8"}}}}}),
                 "image 'below_horizon' already");
@@ -231,20 +233,20 @@ struct DeclaredShaders : HeldCamera {
     std::string error_of_shader(const std::string& text) {
         technique.write("shade.comp", text);
         technique.add();
-        return error_message([&] { render(*make_variant("shaded"), wall); });
+        return error_message([&] { render(*make_technique("shaded"), wall); });
     }
 };
 
 TEST_F(DeclaredShaders, AnEditCounts) {
     technique.write("shade.comp", shader);
     technique.add();
-    EXPECT_EQ(render(*make_variant("shaded"), wall).radiance.values[0], 0.25f);
+    EXPECT_EQ(render(*make_technique("shaded"), wall).radiance.values[0], 0.25f);
     std::string edited = shader;
     edited.replace(edited.find(".rgb"), 4, ".rgb * 2.0");
     technique.write("shade.comp", edited);
-    EXPECT_EQ(render(*make_variant("shaded"), wall).radiance.values[0], 0.25f) << "what was read is what runs";
+    EXPECT_EQ(render(*make_technique("shaded"), wall).radiance.values[0], 0.25f) << "what was read is what runs";
     technique.add();
-    EXPECT_EQ(render(*make_variant("shaded"), wall).radiance.values[0], 0.5f);
+    EXPECT_EQ(render(*make_technique("shaded"), wall).radiance.values[0], 0.5f);
 }
 
 TEST_F(DeclaredShaders, MistakesNameFileLineAndTheLineItself) {

@@ -19,7 +19,7 @@ struct TemporaryTechnique {
     TemporaryTechnique& operator=(const TemporaryTechnique&) = delete;
 
     void write(const std::string& file, const std::string& text) const { write_text(folder / file, text); }
-    const VariantEntry& add() const { return add_technique_folder(folder); }
+    const TechniqueEntry& add() const { return add_technique_folder(folder); }
 
     fs::path parent, folder;
 };

@@ -88,12 +88,12 @@ struct Sources {
     nlohmann::json list = nlohmann::json::array();
     std::set<std::string> seen;
 
-    void add(const VariantEntry& entry, const Variant& variant, const std::string& point) {
-        if (variant.limits != Limits::webgl2) return;  // lifted by the changed parameter
-        const std::string prelude = shader_prelude(variant.params, ShaderLanguage::webgl2);
+    void add(const TechniqueEntry& entry, const Technique& technique, const std::string& point) {
+        if (technique.limits != Limits::webgl2) return;  // lifted by the changed parameter
+        const std::string prelude = shader_prelude(technique.params, ShaderLanguage::webgl2);
         for (const std::string& folder : {entry.name, std::string("common")})
             for (const std::string& file : fragment_shaders(folder)) {
-                const Webgl2Sources sources = webgl2_sources(file, prelude, variant.shader_includes());
+                const Webgl2Sources sources = webgl2_sources(file, prelude, technique.shader_includes());
                 if (!seen.insert(file + '\n' + what_counts(sources.fragment)).second) continue;
                 list.push_back({{"name", file + " of " + entry.name + point},
                                 {"vertex", sources.vertex},
@@ -105,21 +105,21 @@ struct Sources {
 
 Sources all_sources() {
     Sources sources;
-    for (const VariantEntry& entry : variant_table()) {
+    for (const TechniqueEntry& entry : technique_table()) {
         if (entry.limits.api != Limits::webgl2) continue;
         std::vector<std::string> presets = {""};
         for (const Preset& preset : entry.presets) presets.push_back(preset.name);
         if (!std::ranges::count(presets, "corrected")) fail(entry.name, " has no preset 'corrected'");
         for (const std::string& preset : presets) {
-            const auto variant = make_variant(entry.name, {}, preset);
+            const auto technique = make_technique(entry.name, {}, preset);
             const std::string point = preset.empty() ? "" : ", preset " + preset;
-            sources.add(entry, *variant, point);
+            sources.add(entry, *technique, point);
             // Around the defaults and the preset with most corrections on; around the others it would be twice as many
             // shaders.
             if (!preset.empty() && preset != "corrected") continue;
-            for (const Parameter& p : variant->params)
+            for (const Parameter& p : technique->params)
                 for (const nlohmann::json& value : other_values(p))
-                    sources.add(entry, *make_variant(entry.name, {{p.name, value}}, preset),
+                    sources.add(entry, *make_technique(entry.name, {{p.name, value}}, preset),
                                 point + ", " + p.name + " = " + value.dump());
         }
     }

@@ -5,8 +5,8 @@
 
 namespace {
 
-void copy_level(PassGraph& graph, const Image& source, const Image& target, unsigned level) {
-    graph.fragment("diligent_ssr/copy_level.frag")
+void copy_level(PassList& pass_list, const Image& source, const Image& target, unsigned level) {
+    pass_list.fragment("diligent_ssr/copy_level.frag")
         .label(drawn_pyramid_stage)
         .read(source.as("copied"))
         .write(target.mip(level).as("copied_depth"))
@@ -14,8 +14,8 @@ void copy_level(PassGraph& graph, const Image& source, const Image& target, unsi
         .run();
 }
 
-void copy_surfaces(PassGraph& graph, const Image& depth, const Image& target) {
-    graph.fragment("diligent_ssr/copy_surfaces.frag")
+void copy_surfaces(PassList& pass_list, const Image& depth, const Image& target) {
+    pass_list.fragment("diligent_ssr/copy_surfaces.frag")
         .label(drawn_pyramid_stage)
         .read(depth.as("copied"))
         .write(target.as("copied_depth"))
@@ -23,8 +23,9 @@ void copy_surfaces(PassGraph& graph, const Image& depth, const Image& target) {
 }
 
 /// `finer_level`: of the image `finer`, which is that level alone or the whole chain.
-void draw_level(PassGraph& graph, const Image& finer, unsigned finer_level, const Image& target, bool keeps_farthest) {
-    graph.fragment("diligent_ssr/depth_hierarchy.frag")
+void draw_level(PassList& pass_list, const Image& finer, unsigned finer_level, const Image& target,
+                bool keeps_farthest) {
+    pass_list.fragment("diligent_ssr/depth_hierarchy.frag")
         .label(drawn_pyramid_stage)
         .read(finer.as("finer_depth"))
         .write(target.as("kept_depth"))
@@ -35,25 +36,26 @@ void draw_level(PassGraph& graph, const Image& finer, unsigned finer_level, cons
 
 }  // namespace
 
-Image drawn_pyramid(PassGraph& graph, const Image& depth, unsigned max_mips, bool keeps_farthest, bool has_mip_views) {
+Image drawn_pyramid(PassList& pass_list, const Image& depth, unsigned max_mips, bool keeps_farthest,
+                    bool has_mip_views) {
     const glm::uvec2 extent = depth.extent;
     const unsigned mips = std::min(max_mips, unsigned(std::bit_width(std::max(extent.x, extent.y))));
     const std::string name = keeps_farthest ? "farthest_depth_pyramid" : "depth_pyramid";
-    const Image hierarchy = graph.image_of(name, Format::r32f, extent, mips);
+    const Image hierarchy = pass_list.image_of(name, Format::r32f, extent, mips);
     if (keeps_farthest)
-        copy_surfaces(graph, depth, hierarchy.mip(0));
+        copy_surfaces(pass_list, depth, hierarchy.mip(0));
     else
-        copy_level(graph, depth, hierarchy, 0);
+        copy_level(pass_list, depth, hierarchy, 0);
     if (has_mip_views) {
         for (unsigned level = 1; level < mips; ++level)
-            draw_level(graph, hierarchy.mip(level - 1), 0, hierarchy.mip(level), keeps_farthest);
+            draw_level(pass_list, hierarchy.mip(level - 1), 0, hierarchy.mip(level), keeps_farthest);
         return hierarchy;
     }
     // The original copies the last level, too, which nothing reads.
-    const Image intermediate = graph.image_of(name + "_intermediate", Format::r32f, extent, mips);
+    const Image intermediate = pass_list.image_of(name + "_intermediate", Format::r32f, extent, mips);
     for (unsigned level = 1; level < mips; ++level) {
-        copy_level(graph, hierarchy, intermediate, level - 1);
-        draw_level(graph, intermediate, level - 1, hierarchy.mip(level), keeps_farthest);
+        copy_level(pass_list, hierarchy, intermediate, level - 1);
+        draw_level(pass_list, intermediate, level - 1, hierarchy.mip(level), keeps_farthest);
     }
     return hierarchy;
 }

@@ -4,16 +4,16 @@
 #include "core/gbuffer/gbuffer.h"
 #include "variants/common/screen_probe/width.h"
 
-ScreenProbe screen_probe(PassGraph& graph, const GBuffer& gbuffer) {
+ScreenProbe screen_probe(PassList& pass_list, const GBuffer& gbuffer) {
     const glm::uvec2 inside(screen_probe_width), extent = inside + 2u;
-    const PassGraph::History seen = graph.history("probe_seen", Format::rgba32f, inside),
-                             facts = graph.history("probe_facts", Format::rg32f, inside),
-                             environment = graph.history("probe_environment", Format::rgba32f, inside);
-    const ScreenProbe probe{graph.image_of("screen_probe", Format::rgba32f, extent),
-                            graph.image_of("screen_probe_nearness", Format::r32f, extent)};
-    const Image lit = graph.image_of("probe_lit", Format::rgba32f, inside),
-                unoccluded = graph.image_of("probe_unoccluded", Format::rgba32f, inside);
-    PassGraph::Pass gather = graph.compute("common/screen_probe/gather.comp");
+    const PassList::History seen = pass_list.history("probe_seen", Format::rgba32f, inside),
+                            facts = pass_list.history("probe_facts", Format::rg32f, inside),
+                            environment = pass_list.history("probe_environment", Format::rgba32f, inside);
+    const ScreenProbe probe{pass_list.image_of("screen_probe", Format::rgba32f, extent),
+                            pass_list.image_of("screen_probe_nearness", Format::r32f, extent)};
+    const Image lit = pass_list.image_of("probe_lit", Format::rgba32f, inside),
+                unoccluded = pass_list.image_of("probe_unoccluded", Format::rgba32f, inside);
+    PassList::Pass gather = pass_list.compute("common/screen_probe/gather.comp");
     gather.read(gbuffer.lit.as("lit"))
         .read(seen.previous)
         .read(facts.previous)
@@ -24,7 +24,7 @@ ScreenProbe screen_probe(PassGraph& graph, const GBuffer& gbuffer) {
         .write(lit)
         .write(unoccluded);
     bind_environment(gather, gbuffer).run();
-    graph.compute("common/screen_probe/spread.comp")
+    pass_list.compute("common/screen_probe/spread.comp")
         .read_linear(seen.current.as("probe_seen"))
         .read_linear(facts.current.as("probe_facts"))
         .read_linear(lit)

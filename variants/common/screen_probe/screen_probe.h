@@ -1,5 +1,5 @@
 #pragma once
-#include "core/gpu/passes/pass_graph.h"
+#include "core/gpu/passes/pass_list.h"
 
 struct GBuffer;
 
@@ -19,5 +19,5 @@ struct ScreenProbe {
 
 /// Adds two passes, the stages of screen_probe_stages(). Directions that leave the screen keep what they were until
 /// they are seen again; where the camera has no previous frame all begins anew.
-ScreenProbe screen_probe(PassGraph& graph, const GBuffer& gbuffer);
+ScreenProbe screen_probe(PassList& pass_list, const GBuffer& gbuffer);
 std::vector<std::string> screen_probe_stages();

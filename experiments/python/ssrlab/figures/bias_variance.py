@@ -12,12 +12,12 @@ def draw(results, chosen):
         s
         for s in results.splits
         if (s["target"], s["mask"]) == (chosen.target, chosen.mask)
-        and (s["variant"], s["point"]) not in results.hidden
+        and (s["technique"], s["point"]) not in results.hidden
     ]
     shots = list(dict.fromkeys(s["shot"] for s in rows))
     if not shots:
         return None
-    points = list(dict.fromkeys((s["variant"], s["point"]) for s in rows))
+    points = list(dict.fromkeys((s["technique"], s["point"]) for s in rows))
     parts = {
         name: [results.measured(s, (name, f"{name}_low", f"{name}_high")) for s in rows] for name in NAMES
     }
@@ -30,12 +30,12 @@ def draw(results, chosen):
         for index, (name, part) in enumerate(parts.items()):
             for row, measured in zip(rows, part):
                 if row["shot"] == shot:
-                    _draw_part(axes, points.index((row["variant"], row["point"])), index, name, measured, limits)
+                    _draw_part(axes, points.index((row["technique"], row["point"])), index, name, measured, limits)
         axes.set_title(style.panel_title(results.shot_label(shot), axes))
         axes.tick_params(labelbottom=True)
         axes.grid(axis="y", visible=False)
         axes.set_xlabel("part of the MSE (radiance\N{SUPERSCRIPT TWO})")
-    seeds = {p: "/".join(sorted({s["seeds"] for s in rows if (s["variant"], s["point"]) == p})) for p in points}
+    seeds = {p: "/".join(sorted({s["seeds"] for s in rows if (s["technique"], s["point"]) == p})) for p in points}
     panels[0].set_yticks(range(len(points)), [f"{results.point_label(*p)}\n({seeds[p]} seed{'s' * (seeds[p] != '1')})" for p in points])
     panels[0].set_ylim(len(points) - 0.5, -0.5)
     style.draw_legend(figure, panels)

@@ -37,10 +37,10 @@ def _over_time(results, chosen, errors, shot):
     totals = {key: stages["total"] for key, stages in results.times_of(shot).items() if "total" in stages}
     places = {}
     for (s, *key), error in errors.items():
-        variant, point = key
-        inside = sweeps.is_inside(variant, results.parameters_of(variant, point), chosen.option("where", {}))
-        if s == shot and (variant, point) in totals and inside:
-            places.setdefault(results.labels.get(variant, variant), {})[variant, point] = (totals[variant, point], error)
+        technique, point = key
+        inside = sweeps.is_inside(technique, results.parameters_of(technique, point), chosen.option("where", {}))
+        if s == shot and (technique, point) in totals and inside:
+            places.setdefault(results.labels.get(technique, technique), {})[technique, point] = (totals[technique, point], error)
     return {name: [(own[k][0].value, own[k][1]) for k in front(own)] for name, own in places.items()}
 
 
@@ -53,7 +53,7 @@ def _over_frames(results, chosen, errors, shot):
     for r in results.all_errors:
         if r["shot"] != shot or is_over_frames(r) or (r["target"], r["metric"], r["mask"]) != (chosen.target, chosen.metric, chosen.mask):
             continue
-        key = (r["variant"], r["point"])
+        key = (r["technique"], r["point"])
         if key not in results.hidden and frame_number(r) in frames:
             lines.setdefault(results.point_label(*key), []).append((first + frames.index(frame_number(r)), results.measured(r)))
     return lines
@@ -63,7 +63,7 @@ def _over_seeds(results, chosen, errors, shot):
     """bias^2 + variance / n: what the mean over n of the seeds' images has to be expected to err, up to the seeds that ran."""
     lines = {}
     for s in results.splits:
-        key = (s["variant"], s["point"])
+        key = (s["technique"], s["point"])
         if (s["shot"], s["target"], s["mask"]) != (shot, chosen.target, chosen.mask) or key in results.hidden or (whole(s, "seeds") or 0) < 2:
             continue
         bias, variance = (results.measured(s, (q, f"{q}_low", f"{q}_high")) for q in ("bias_squared", "variance"))

@@ -27,7 +27,7 @@ class ShotCrops:
     crops: list
     target: str
     frame: int | None  # None: the shot's last
-    points: dict  # (variant, point) to file and place where it is first named
+    points: dict  # (technique, point) to file and place where it is first named
 
 
 class _Reader:
@@ -71,7 +71,7 @@ def _are_points(value):
     return (
         isinstance(value, list)
         and value
-        and all(isinstance(p, dict) and set(p) == {"variant", "point"} and all(isinstance(t, str) for t in p.values()) for p in value)
+        and all(isinstance(p, dict) and set(p) == {"technique", "point"} and all(isinstance(t, str) for t in p.values()) for p in value)
     )
 
 
@@ -88,8 +88,8 @@ def read_crops(file, content, results):
         for key, value, first in (("target", target, own.target), ("frame", frame, own.frame)):
             if value != first:
                 read.fail(key, f"{json.dumps(first)} as in the first crop of {shot}: they share a figure")
-        for p in read.value("points", _are_points, 'an array of {"variant", "point"}'):
-            own.points.setdefault((p["variant"], p["point"]), read.where)
+        for p in read.value("points", _are_points, 'an array of {"technique", "point"}'):
+            own.points.setdefault((p["technique"], p["point"]), read.where)
         own.crops.append(
             Crop(
                 tuple(read.value("box", is_box, "[x, y, width, height] in pixels")),

@@ -94,13 +94,13 @@ def auto_exposure(truth, tone_curve="none"):
 
 def best_of_each(results, images, errors, shot, metric):
     """`none`, and of each technique the point of least error that an engine could have, in the order of their errors."""
-    variants = {}
+    techniques = {}
     for key in images:
-        is_exact = results.variants.get(key, {}).get("uses_scene_data", False)
+        is_exact = results.techniques.get(key, {}).get("uses_scene_data", False)
         error = errors.get((shot, *key))
         if key[0] not in ("reference", "none") and not is_exact:
-            variants.setdefault(key[0], []).append((results.shortfall(metric, error.value) if error else np.inf, key))
-    best = sorted(min(points) for points in variants.values())
+            techniques.setdefault(key[0], []).append((results.shortfall(metric, error.value) if error else np.inf, key))
+    best = sorted(min(points) for points in techniques.values())
     return [key for key in images if key[0] == "none"][:1] + [key for _, key in best][: MOST_POINTS - 1]
 
 

@@ -17,9 +17,9 @@ def _preset(point):
 
 
 def _groups(results, rows):
-    """(variant, point) to its label: single changes of the baseline in the order of the study, then whole points, to which
+    """(technique, point) to its label: single changes of the baseline in the order of the study, then whole points, to which
     changes of other baselines belong."""
-    found = dict.fromkeys((e["variant"], e["point"]) for e in rows)
+    found = dict.fromkeys((e["technique"], e["point"]) for e in rows)
     preset = _preset(rows[0]["against_point"])
     changes = {k: c for k, c in results.single_changes.items() if k in found and _preset(k[1]) == preset}
     singles = {k: f"{p} = {value_text(v)}" for k, (p, v) in changes.items()}
@@ -31,7 +31,7 @@ def _rows(results, chosen):
         e
         for e in results.effects
         if (e["target"], e["metric"], e["mask"]) == (chosen.target, chosen.metric, chosen.mask)
-        and e["variant"] == e["against_variant"]
+        and e["technique"] == e["against_technique"]
     ]
 
 
@@ -41,7 +41,7 @@ def comparisons(results, chosen):
     found = {}
     for e in _rows(results, chosen):
         is_baseline = e["against"] == "baseline"
-        other = label(e["against_variant"], e["against_point"]) if is_baseline else f"{e['variant']} {e['against']}"
+        other = label(e["against_technique"], e["against_point"]) if is_baseline else f"{e['technique']} {e['against']}"
         found.setdefault(("effects" if is_baseline else "otherwise_equal", other), []).append(e)
     kinds = [kind for kind, _ in found]
     return {
@@ -52,9 +52,9 @@ def comparisons(results, chosen):
 
 def draw(results, chosen, rows):
     if rows[0]["against"] != "baseline":
-        groups = {key: results.point_label(*key) for key in dict.fromkeys((e["variant"], e["point"]) for e in rows)}
+        groups = {key: results.point_label(*key) for key in dict.fromkeys((e["technique"], e["point"]) for e in rows)}
         return _draw(results, chosen, rows, groups, f"{rows[0]['against']} and otherwise the same")
-    baseline = results.point_label(rows[0]["against_variant"], rows[0]["against_point"])
+    baseline = results.point_label(rows[0]["against_technique"], rows[0]["against_point"])
     return _draw(results, chosen, rows, _groups(results, rows), baseline)
 
 
@@ -112,7 +112,7 @@ def _draw_shot(results, axes, rows, keys):
         ratio = results.measured(e, ("ratio", "low_holm", "high_holm"))
         if ratio is None:
             continue
-        row = keys.index((e["variant"], e["point"]))
+        row = keys.index((e["technique"], e["point"]))
         if not _is_near(ratio):
             is_right = ratio.value > 1
             number = style.number(ratio.value)

@@ -15,7 +15,7 @@ def _judged(results, shot, chosen, places):
 
 
 def _places(results, errors, shot):
-    """{(variant, point): (time, error)} of what was timed and measured, but `none`."""
+    """{(technique, point): (time, error)} of what was timed and measured, but `none`."""
     times = results.times_of(shot)
     totals = {key: stages["total"] for key, stages in times.items() if "total" in stages and stages["total"].value > 0}
     return {(v, p): (totals[v, p], e) for (s, v, p), e in errors.items() if s == shot and (v, p) in totals and v != "none"}
@@ -23,9 +23,9 @@ def _places(results, errors, shot):
 
 def _draw_none(axes, results, errors, shot):
     """Returns its errors: no label may lie on the line."""
-    for (s, variant, point), error in errors.items():
-        if s == shot and variant == "none" and error.value > 0:
-            axes.axhline(error.value, color="#666666", linestyle="--", linewidth=0.8, label=results.point_label(variant, point))
+    for (s, technique, point), error in errors.items():
+        if s == shot and technique == "none" and error.value > 0:
+            axes.axhline(error.value, color="#666666", linestyle="--", linewidth=0.8, label=results.point_label(technique, point))
             if error.low is not None and error.low > 0:
                 axes.axhspan(error.low, error.high, color="#666666", alpha=0.15, linewidth=0)
             return [error.value]
@@ -45,10 +45,10 @@ def draw_mark(axes, cost, error, mark, color, is_hollow=False, alpha=1.0):
 def _draw_points(axes, results, places, groups, beaten):
     """Marks with whiskers; returns where the whiskers are."""
     whiskers = []
-    for (variant, point), (time, error) in places.items():
-        group = results.point_group(variant, point)
-        color, mark = style.series(groups.index(group), results.colors.get((variant, point)))
-        whiskers += draw_mark(axes, time, error, mark, color, is_hollow=error.is_one_seed, alpha=0.4 if (variant, point) in beaten else 1.0)
+    for (technique, point), (time, error) in places.items():
+        group = results.point_group(technique, point)
+        color, mark = style.series(groups.index(group), results.colors.get((technique, point)))
+        whiskers += draw_mark(axes, time, error, mark, color, is_hollow=error.is_one_seed, alpha=0.4 if (technique, point) in beaten else 1.0)
         axes.plot([], [], mark, color=color, label=group)
     return whiskers
 

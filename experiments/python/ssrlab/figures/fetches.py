@@ -12,14 +12,14 @@ LEAST_RESOLUTIONS = 3
 
 
 def series(results):
-    """{scene: {(variant, point): [(rows of pixels, fetches)]}} of the passes that trace a point's rays, all rays."""
+    """{scene: {(technique, point): [(rows of pixels, fetches)]}} of the passes that trace a point's rays, all rays."""
     heights = {s["shot"]: (s.get("scene", s["shot"]), s["height"]) for s in results.manifest["shots"] if "height" in s}
     found = {}
     for row in results.hits:
         if row["quantity"] != "fetches" or row["mask"] != "all" or row["shot"] not in heights:
             continue
         scene, height = heights[row["shot"]]
-        points = found.setdefault(scene, {}).setdefault((row["variant"], row["point"]), {})
+        points = found.setdefault(scene, {}).setdefault((row["technique"], row["point"]), {})
         points.setdefault(height, []).append((needed_number(row, "rays"), needed_number(row, "value")))
     return {
         scene: {
@@ -46,10 +46,10 @@ def draw(results, chosen):
     if not scenes:
         return None
     keys = list(dict.fromkeys(key for lines in scenes.values() for key in lines))
-    is_one_variant = len({variant for variant, _ in keys}) == 1
+    is_one_technique = len({technique for technique, _ in keys}) == 1
 
     def name_of(key):
-        return results.own_label(*key) or (results.point_name(*key) if is_one_variant else results.point_label(*key))
+        return results.own_label(*key) or (results.point_name(*key) if is_one_technique else results.point_label(*key))
 
     names = [name_of(key) for key in keys]
     figure, panels = style.panels(len(scenes), chosen, most_columns=3, height=5.2)

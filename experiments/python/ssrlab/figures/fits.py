@@ -22,14 +22,14 @@ class Axis:
     """One row of fits.csv."""
 
     shot: str
-    variant: str
+    technique: str
     parameter: str
     fixed: str
     status: str
     unit: str
     floor: Measured | None
     law: tuple | None  # (a, b)
-    points: dict  # {(variant, point): (cost, error)}, both Measured
+    points: dict  # {(technique, point): (cost, error)}, both Measured
 
     def error_at(self, costs):
         a, b = self.law
@@ -46,7 +46,7 @@ def _axes(results, chosen, errors):
     if "point_names" not in rows[0]:
         raise ResultsError(f"{chosen.where}: {tradeoff.FITS} is of an earlier version: {run} again")
     for row in rows:
-        keys = [(row["variant"], name) for name in row["point_names"].split("; ") if name]
+        keys = [(row["technique"], name) for name in row["point_names"].split("; ") if name]
         if row["shot"] not in shots or not keys or chosen.points is not None and not set(keys) <= set(chosen.points):
             continue
         own = {key: errors.get((row["shot"], *key)) for key in keys}
@@ -62,17 +62,17 @@ def _axes(results, chosen, errors):
         }
         law = (needed_number(row, "a"), needed_number(row, "b")) if row["status"] == FITTED else None
         floor = results.measured(row, ("floor", "floor_low", "floor_high"))
-        found.append(Axis(row["shot"], row["variant"], row["parameter"], row["fixed"], row["status"], row["unit"], floor, law, points))
+        found.append(Axis(row["shot"], row["technique"], row["parameter"], row["fixed"], row["status"], row["unit"], floor, law, points))
     return found
 
 
 def _names(results, axes):
-    """What each is called in the legend: variant and parameter, and what else its points share where others have the same."""
-    kinds = {(a.variant, a.parameter, a.fixed) for a in axes}
+    """What each is called in the legend: technique and parameter, and what else its points share where others have the same."""
+    kinds = {(a.technique, a.parameter, a.fixed) for a in axes}
 
     def name(axis):
-        is_shared = sum(kind[:2] == (axis.variant, axis.parameter) for kind in kinds) > 1
-        return f"{results.labels.get(axis.variant, axis.variant)} over {axis.parameter}" + (f" ({axis.fixed})" if is_shared and axis.fixed else "")
+        is_shared = sum(kind[:2] == (axis.technique, axis.parameter) for kind in kinds) > 1
+        return f"{results.labels.get(axis.technique, axis.technique)} over {axis.parameter}" + (f" ({axis.fixed})" if is_shared and axis.fixed else "")
 
     return [name(a) for a in axes]
 

@@ -24,7 +24,7 @@ def draw(results, chosen):
             key: [
                 (frame_number(r), results.measured(r))
                 for r in own
-                if (r["variant"], r["point"]) == key and results.measured(r) is not None
+                if (r["technique"], r["point"]) == key and results.measured(r) is not None
             ]
             for key in results.points()
         }

@@ -44,7 +44,7 @@ def draw_lines(axes, lines, names, is_log, dodge=0.0, colors=None):
 
 
 def draw_points(results, axes, lines, is_log, dodge=0.0):
-    """`lines`: {(variant, point): [(x, Measured)]}; empty ones are left out."""
+    """`lines`: {(technique, point): [(x, Measured)]}; empty ones are left out."""
     names = [results.point_label(*key) for key in results.points()]
     colors = {results.point_label(*key): color for key, color in results.colors.items()}
     draw_lines(axes, {results.point_label(*k): p for k, p in lines.items() if p}, names, is_log, dodge, colors)

@@ -48,7 +48,7 @@ class Request:
     metric: str
     mask: str
     shots: list | None = None  # None: all of the study
-    points: list | None = None  # (variant, point); None: all but single changes
+    points: list | None = None  # (technique, point); None: all but single changes
     labels: dict = field(default_factory=dict)
     width: float | None = None  # cm; None: what its kind takes
     height: float | None = None  # cm, of a row of panels
@@ -116,8 +116,8 @@ def chosen_names(where, key, patterns, names):
 
 
 def _point_names(results, labels):
-    """{name or display name: (variant, point)} of all points, single changes too."""
-    keys = list(results.variants) or results.points()
+    """{name or display name: (technique, point)} of all points, single changes too."""
+    keys = list(results.techniques) or results.points()
     shown = {labels.get(label(*k)) or results.own_label(*k): k for k in keys}
     return {name: key for name, key in shown.items() if name} | {label(*k): k for k in keys}
 
@@ -154,7 +154,7 @@ def _text_map(where, key, value):
 
 
 def read_colors(where, content, results):
-    """{(variant, point): colour} of the points that the names fit."""
+    """{(technique, point): colour} of the points that the names fit."""
     colors = {}
     for name, color in _text_map(where, "colors", content.get("colors", {})).items():
         if not re.fullmatch(r"#[0-9a-fA-F]{6}", color):

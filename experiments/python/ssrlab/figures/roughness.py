@@ -27,7 +27,7 @@ def _draw(results, chosen, target, metric, is_log):
             key: [
                 (masks.index(r["mask"]), results.measured(r))
                 for r in sorted(own, key=lambda r: masks.index(r["mask"]))
-                if (r["variant"], r["point"]) == key and results.measured(r) is not None
+                if (r["technique"], r["point"]) == key and results.measured(r) is not None
             ]
             for key in results.points()
         }

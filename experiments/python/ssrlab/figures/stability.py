@@ -39,7 +39,7 @@ def in_order(rows, name):
 
 
 def draw(rows, out):
-    techniques = in_order(rows, lambda r: (r["variant"], r["point"]))
+    techniques = in_order(rows, lambda r: (r["technique"], r["point"]))
     cases = in_order(rows, lambda r: (r["group"], r["case"]))
     width, height = (len(cases) * CELL + 6.0) * style.CENTIMETRE, (len(techniques) * CELL + 6.2) * style.CENTIMETRE
     figure = plt.figure(figsize=(width, height))
@@ -55,7 +55,7 @@ def draw(rows, out):
         points = [r for r in rows if r["verdict"] == verdict]
         axes.plot(
             [cases.index((r["group"], r["case"])) for r in points],
-            [techniques.index((r["variant"], r["point"])) for r in points],
+            [techniques.index((r["technique"], r["point"])) for r in points],
             linestyle="none",
             marker=mark,
             color=color,
@@ -72,8 +72,8 @@ def draw(rows, out):
     for i, (group, _) in enumerate(cases):
         if i and cases[i - 1][0] != group:
             axes.axvline(i - 0.5, color="#999999", linewidth=0.4)
-    for i, (variant, _) in enumerate(techniques):
-        if i and techniques[i - 1][0] != variant:
+    for i, (technique, _) in enumerate(techniques):
+        if i and techniques[i - 1][0] != technique:
             axes.axhline(i - 0.5, color="#999999", linewidth=0.4)
     figure.legend(loc="lower center", ncol=len(VERDICTS), fontsize=6, handletextpad=0.2)
     figure.savefig(out, metadata={"Date": None} if out.endswith(".svg") else None)

@@ -58,7 +58,7 @@ def _legend_lines(names, width):
 
 
 def _grouped(results, points):
-    """{variant: {point: {stage: Measured}}} of the points of whose stages one takes something."""
+    """{technique: {point: {stage: Measured}}} of the points of whose stages one takes something."""
     groups = {}
     for key, stages in points.items():
         if key not in results.hidden and any(m.value > 0 for s, m in stages.items() if s != "total"):
@@ -99,7 +99,7 @@ def draw_estimates(results, shot, chosen):
 
 
 def _draw(results, shot, chosen, points, said, total_text):
-    """`points`: {(variant, point): {stage: Measured}}; `said`: what the bars show; `total_text`: the total behind a bar."""
+    """`points`: {(technique, point): {stage: Measured}}; `said`: what the bars show; `total_text`: the total behind a bar."""
     groups = _grouped(results, points)
     if not groups:
         return None
@@ -107,12 +107,12 @@ def _draw(results, shot, chosen, points, said, total_text):
     scale = style.scale()
     longest = style.letters(0.36 * width)
     blocks = []
-    for variant, points in groups.items():
+    for technique, points in groups.items():
         named, rest = _named_stages(points)
         is_one_pass = len({s for stages in points.values() for s in stages} - {"total"}) == 1
         lines = [] if is_one_pass else _legend_lines([*named, *([REST] if rest else [])], width - 0.4)
         labels = {k: style.wrapped(results.own_label(*k) or (results.point_name(*k) or "default"), longest) for k in points}
-        blocks.append((results.labels.get(variant, variant), points, named, rest, lines, labels))
+        blocks.append((results.labels.get(technique, technique), points, named, rest, lines, labels))
     rows = {id(b): [max(ROW * scale, LINE * scale * (t.count("\n") + 1)) for t in b[5].values()] for b in blocks}
     height = sum(sum(rows[id(b)]) + LINE * scale * (1 + len(b[4])) + 0.15 for b in blocks)
     figure, axes = plt.subplots(figsize=(width * style.CENTIMETRE, (height + 1.6 * scale) * style.CENTIMETRE), layout="constrained")

@@ -11,9 +11,9 @@ def _listed(value):
     return value if isinstance(value, list) else [value]
 
 
-def is_inside(variant, parameters, where):
-    """`where`: parameter (or "variant") to the value, or array of values, that count."""
-    return all((variant if k == "variant" else parameters.get(k)) in _listed(wanted) for k, wanted in where.items())
+def is_inside(technique, parameters, where):
+    """`where`: parameter (or "technique") to the value, or array of values, that count."""
+    return all((technique if k == "technique" else parameters.get(k)) in _listed(wanted) for k, wanted in where.items())
 
 
 def _words(parameters):
@@ -21,23 +21,23 @@ def _words(parameters):
 
 
 def families(results, chosen, axes):
-    """{name: {values of the parameters `axes`: (variant, point)}} of the points that differ in these alone, two values or
+    """{name: {values of the parameters `axes`: (technique, point)}} of the points that differ in these alone, two values or
     more of each. The name says what distinguishes the families."""
     where = chosen.option("where", {})
     if not isinstance(where, dict):
         raise ResultsError(f"{chosen.where}: 'where' must be an object, not {json.dumps(where)}")
-    known = {name for entry in results.variants.values() for name in entry.get("parameters", {})}
-    for name in [*axes, *(k for k in where if k != "variant")]:
+    known = {name for entry in results.techniques.values() for name in entry.get("parameters", {})}
+    for name in [*axes, *(k for k in where if k != "technique")]:
         if name not in known:
             raise ResultsError(f"{chosen.where}: no point has the parameter '{name}'{near(name, known)}")
-    measured = {(r["variant"], r["point"]) for r in results.errors or results.times}
+    measured = {(r["technique"], r["point"]) for r in results.errors or results.times}
     found = {}
-    for (variant, point), entry in results.variants.items():
+    for (technique, point), entry in results.techniques.items():
         parameters = entry.get("parameters", {})
-        if (variant, point) not in measured or not all(a in parameters for a in axes) or not is_inside(variant, parameters, where):
+        if (technique, point) not in measured or not all(a in parameters for a in axes) or not is_inside(technique, parameters, where):
             continue
-        rest = (variant, _words({k: v for k, v in parameters.items() if k not in axes}))
-        found.setdefault(rest, {}).setdefault(tuple(parameters[a] for a in axes), (variant, point))
+        rest = (technique, _words({k: v for k, v in parameters.items() if k not in axes}))
+        found.setdefault(rest, {}).setdefault(tuple(parameters[a] for a in axes), (technique, point))
     found = {rest: points for rest, points in found.items() if all(len({v[i] for v in points}) > 1 for i in range(len(axes)))}
     if not found:
         raise ResultsError(f"{chosen.where}: no two points differ in {' and '.join(axes)} alone{' where ' + json.dumps(where) if where else ''}")
@@ -45,14 +45,14 @@ def families(results, chosen, axes):
 
 
 def _name(results, rest, every):
-    """variant, and the parameters whose values differ among the families of that variant."""
-    variant, words = rest
-    own = [w for v, w in every if v == variant]
+    """technique, and the parameters whose values differ among the families of that technique."""
+    technique, words = rest
+    own = [w for v, w in every if v == technique]
     common = frozenset.intersection(*own)
     values = [f"{name} = {value_text(json.loads(value))}" for name, value in sorted(words - common)]
-    variants = {v for v, _ in every}
-    name = results.labels.get(variant, variant)
-    return ", ".join(([name] if len(variants) > 1 or not values else []) + values)
+    techniques = {v for v, _ in every}
+    name = results.labels.get(technique, technique)
+    return ", ".join(([name] if len(techniques) > 1 or not values else []) + values)
 
 
 def axis_values(families_found, index):

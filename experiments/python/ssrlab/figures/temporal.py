@@ -16,7 +16,7 @@ def draw(results, chosen):
     rows = [
         r
         for r in results.errors
-        if r["metric"] in METRICS and r["mask"] == chosen.mask and (r["variant"], r["point"]) in results.points()
+        if r["metric"] in METRICS and r["mask"] == chosen.mask and (r["technique"], r["point"]) in results.points()
     ]
     metrics = [m for m in METRICS if any(r["metric"] == m for r in rows)]
     if not metrics:
@@ -35,16 +35,16 @@ def _draw_metric(results, axes, rows, metric):
     shots, points = list(dict.fromkeys(r["shot"] for r in rows)), results.points()
     is_log = "length" not in metric
     for r in rows:
-        index = points.index((r["variant"], r["point"]))
+        index = points.index((r["technique"], r["point"]))
         y = shots.index(r["shot"]) + 0.7 * ((index + 0.5) / len(points) - 0.5)
         value = results.measured(r)
-        color, mark = style.series(index, results.colors.get((r["variant"], r["point"])))
+        color, mark = style.series(index, results.colors.get((r["technique"], r["point"])))
         if value is None or (is_log and value.value <= 0):
             text = "not determined" if value is None else "0"
             axes.text(0.01, y, text, color=color, va="center", transform=axes.get_yaxis_transform())
             continue
         edge = 0.8 if value.is_one_seed else 0
-        style.draw_mark(axes, value, y, mark, color, value.is_one_seed, markeredgewidth=edge, label=results.point_label(r["variant"], r["point"]))
+        style.draw_mark(axes, value, y, mark, color, value.is_one_seed, markeredgewidth=edge, label=results.point_label(r["technique"], r["point"]))
     if is_log:
         axes.set_xscale("log")
         style.log_axis(axes.xaxis)

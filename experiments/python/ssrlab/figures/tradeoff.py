@@ -10,9 +10,9 @@ FRONT, FITS, ACROSS, CHANGES = (f"tradeoff/{name}.csv" for name in ("front", "fi
 
 
 def judged(results, shot, errors):
-    """{(variant, point): row of front.csv} of the shot; {} where a point of `errors` ({(variant, point): Measured}) is not in it, or has
+    """{(technique, point): row of front.csv} of the shot; {} where a point of `errors` ({(technique, point): Measured}) is not in it, or has
     another error there."""
-    rows = {(r["variant"], r["point"]): r for r in results.read_csv(FRONT, is_optional=True) if r["shot"] == shot}
+    rows = {(r["technique"], r["point"]): r for r in results.read_csv(FRONT, is_optional=True) if r["shot"] == shot}
     is_same = all(k in rows and (error := number(rows[k], "error")) and math.isclose(error, e.value, rel_tol=1e-6) for k, e in errors.items())
     return rows if is_same else {}
 
@@ -24,8 +24,8 @@ def require_primary(results, file):
     if not front or not results.read_csv(file, is_optional=True):
         raise ResultsError(f"{file} is missing: {run}")
     rows = representative_rows(results.read_csv("summary.csv"))
-    errors = {(r["shot"], r["variant"], r["point"]): number(r, "value") for r in rows if all(r[k] == primary.get(k) for k in ("metric", "mask", "target"))}
+    errors = {(r["shot"], r["technique"], r["point"]): number(r, "value") for r in rows if all(r[k] == primary.get(k) for k in ("metric", "mask", "target"))}
     for row in front:
-        error, judged_error = errors.get((row["shot"], row["variant"], row["point"])), number(row, "error")
+        error, judged_error = errors.get((row["shot"], row["technique"], row["point"])), number(row, "error")
         if judged_error and (not error or not math.isclose(judged_error, error, rel_tol=1e-6)):
             raise ResultsError(f"{FRONT} is not of the study's primary error, {primary.get('metric')} of {primary.get('target')}, as these results have it: {run}")

@@ -14,11 +14,11 @@ JUDGEMENTS = str(FINDINGS / "judgements.csv")
 
 
 def _by_shot(results, rows):
-    """{shot: {metric: {(variant, point): shortfall}}} of the rows that have a value."""
+    """{shot: {metric: {(technique, point): shortfall}}} of the rows that have a value."""
     found = {}
     for row in rows:
         if row["value"]:
-            found.setdefault(row["shot"], {}).setdefault(row["metric"], {})[(row["variant"], row["point"])] = results.shortfall(row["metric"], number(row, "value"))
+            found.setdefault(row["shot"], {}).setdefault(row["metric"], {})[(row["technique"], row["point"])] = results.shortfall(row["metric"], number(row, "value"))
     return found
 
 

@@ -33,9 +33,9 @@ SOURCES = {  # name to (file, columns of value, low and high)
 }
 OVER_SCENES = ("at_cost", "over_scenes")  # whose cells are means over scenes already
 NOT_SHARES = ("fetches", "fetches: median", "fetches: 90 %", "fetches: most", "distance_error")  # of hits.csv; all its other quantities are
-NAMING = ("shot", "frame", "variant", "point", "against", "against_variant", "against_point", "target", "metric", "mask", "stage", "quantity", "clock", "chip", "shader", "pipeline")
+NAMING = ("shot", "frame", "technique", "point", "against", "against_technique", "against_point", "target", "metric", "mask", "stage", "quantity", "clock", "chip", "shader", "pipeline")
 GROUPS = {  # what rows, columns and means are by, beside the columns of a file
-    "group": lambda results, row: results.point_group(row.get("variant"), row.get("point")),
+    "group": lambda results, row: results.point_group(row.get("technique"), row.get("point")),
     "shot_group": lambda results, row: results.shot_group(row.get("shot")),
 }
 
@@ -108,7 +108,7 @@ class Selection:
         self.proven = {shot for proof in proofs if proof["verdict"] == "passed" for shot in proof["shots"]}
         hosts = {load["shot"]: load.get("host", {}).get("name") for load in results.manifest.get("clock", {}).get("load", [])}
         self.hosts = hosts if len(set(hosts.values())) > 1 else {}  # by shot, where times are of several machines
-        self.parameters = {(v["variant"], v["point"]): v.get("parameters", {}) for v in results.manifest["variants"]}
+        self.parameters = {(v["technique"], v["point"]): v.get("parameters", {}) for v in results.manifest["techniques"]}
         if table.of in ("at_cost", "changes"):
             tradeoff.require_primary(results, SOURCES[table.of][0])
         rows = results.read_csv(SOURCES[table.of][0])
@@ -146,7 +146,7 @@ class Selection:
             return row[key]
         if key in GROUPS:
             return GROUPS[key](self.results, row)
-        value = self.parameters.get((row.get("variant"), row.get("point")), {}).get(key)
+        value = self.parameters.get((row.get("technique"), row.get("point")), {}).get(key)
         return value if value is None or isinstance(value, str) else json.dumps(value)
 
     def _variance_rows(self):
@@ -174,11 +174,11 @@ class Selection:
     def label(self, row, keys):
         """How a row is named along an axis: parameters with their names, columns of the file by their values alone, points and
         shots that have a display name by that."""
-        own = self.results.own_label(row.get("variant"), row.get("point")) if "point" in keys else None
+        own = self.results.own_label(row.get("technique"), row.get("point")) if "point" in keys else None
         words = []
         for key in keys:
             value = self.entry(row, key)
-            if value is None or own and key == "variant":
+            if value is None or own and key == "technique":
                 continue
             text = value if key in row or key in GROUPS else f"{key} = {value}"
             if key == "point" and own:
@@ -196,7 +196,7 @@ class Selection:
 
 def _timed(row, against=""):
     """What names a row of time_summary.csv; of time_effects.csv with the prefix "against_" that of the other point."""
-    return tuple(row.get(key) for key in ("shot", against + "variant", against + "point", "stage"))
+    return tuple(row.get(key) for key in ("shot", against + "technique", against + "point", "stage"))
 
 
 def _cell(selection, row, name):

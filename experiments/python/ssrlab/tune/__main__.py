@@ -51,11 +51,11 @@ class Tuning:
         if self.rules.get("program"):
             self.program, self.start = Program(self.rules["program"], asked["folder"], out, command, asked["study"]), AT_DEFAULTS
             if AT_DEFAULTS in self.names:
-                raise ResultsError(f"variants: the label '{AT_DEFAULTS}' is that of the program without settings; call yours otherwise")
+                raise ResultsError(f"techniques: the label '{AT_DEFAULTS}' is that of the program without settings; call yours otherwise")
         else:
             start = next(i for i, p in enumerate(self.given) if p["point"] == self.rules["start"])
             self.start_entry, self.start = self.given[start], self.names[start]
-            self.searched, self.declared = os.path.basename(self.start_entry["variant"]), asked["parameters"]  # of a technique's folder its name
+            self.searched, self.declared = os.path.basename(self.start_entry["technique"]), asked["parameters"]  # of a technique's folder its name
         self.studies = Studies(asked, out, command, self.baseline)
         self.out = out
         self.most_runs, self.most_minutes, self.budgets = (self.rules[key] for key in ("most_runs", "most_minutes", "budgets"))
@@ -107,27 +107,27 @@ class Tuning:
             states = f"those are {', '.join(sorted(settings))}" if settings else "it states none"
             raise ResultsError(f"tune: 'axes': '{unknown[0]}' is no setting of which external.json of the program states the value; {states}")
         self.declared = declared_by(settings, self.rules["axes"])
-        self.searched = next(v["variant"] for v in results.manifest["variants"] if v.get("label") == AT_DEFAULTS)
+        self.searched = next(v["technique"] for v in results.manifest["techniques"] if v.get("label") == AT_DEFAULTS)
 
     def cost_of_baseline(self, results):
         """Geometric mean over shots."""
-        base = next(v["point"] for v in results.manifest["variants"] if v.get("label") == self.baseline)
+        base = next(v["point"] for v in results.manifest["techniques"] if v.get("label") == self.baseline)
         costs = [cost for _, cost in self.studies.times_of(results, base).values()]
         if not costs:
             raise ResultsError(f"{results.folder}: '{self.baseline}' was not {'timed' if self.studies.has_clock else 'counted'}")
         return math.exp(sum(math.log(c) for c in costs) / len(costs))
 
     def given_entry(self, index):
-        """A point of the config, as an entry of `variants`."""
+        """A point of the config, as an entry of `techniques`."""
         point = self.given[index]
-        entry = {"variant": point["variant"], "label": self.names[index], "baseline": point["baseline"]}
+        entry = {"technique": point["technique"], "label": self.names[index], "baseline": point["baseline"]}
         return entry | self.made_of(point, point["swept"])
 
     def trial_entry(self, name, values):
-        """Of a point that is tried, as an entry of `variants`."""
+        """Of a point that is tried, as an entry of `techniques`."""
         if self.program:
             return {"external": self.program.images(name), "label": name, "point": self.program.point(name)}
-        return {"variant": self.start_entry["variant"], "label": name} | self.made_of(self.start_entry, values)
+        return {"technique": self.start_entry["technique"], "label": name} | self.made_of(self.start_entry, values)
 
     @staticmethod
     def made_of(point, swept):

@@ -81,7 +81,7 @@ class Outcome:
         return Measured(value, low, high), count, Measured(*time) if time else None
 
     def point_of(self, name):
-        return next(v["point"] for v in self.results.manifest["variants"] if v.get("label") == name)
+        return next(v["point"] for v in self.results.manifest["techniques"] if v.get("label") == name)
 
     def unseen_rows(self, name):
         """(shot, {metric: ratio to the baseline with its interval, or None}) of each judging shot."""
@@ -114,7 +114,7 @@ class Outcome:
             if judged:
                 text += f"; {with_interval(judged[0])}" + (f" in {with_interval(judged[2])}" if judged[2] else "") + f" on {judged[1]} others"
             name = f"best_{min(budgets):g}x" if self.studies.has_time else "best"
-            preset = {"variant": self.tuning.searched, "name": name, "description": text}
+            preset = {"technique": self.tuning.searched, "name": name, "description": text}
             presets.append(preset | {"parameters": self.changes(point)})
         write_text(self.file("presets.json"), json.dumps({"presets": presets}, indent=2) + "\n")
 

@@ -13,7 +13,7 @@ from ssrlab.shots import single_shots
 from ssrlab.text_files import path_inside, write_text
 from ssrlab.tune.race import NORMAL
 
-NOT_OF_STUDIES = ("tune", "tables", "variants", "shots", "seeds", "timing", "costs", "$schema")
+NOT_OF_STUDIES = ("tune", "tables", "techniques", "shots", "seeds", "timing", "costs", "$schema")
 
 
 class StudyFailed(Exception):
@@ -65,10 +65,10 @@ class Studies:
                 shot.update({k: os.path.join(folder, shot[k]) for k in ("gbuffer", "reference") if k in shot})
         return shots
 
-    def run(self, name, variants, shots, seeds, is_timed=True):
+    def run(self, name, techniques, shots, seeds, is_timed=True):
         """Runs a study and reads it; `name`: its folder within that of the search."""
         folder, config, log_file = (path_inside(self.out, name + end) for end in ("", ".json", ".log"))
-        study = self.common | {"variants": variants, "shots": shots, "seeds": seeds}
+        study = self.common | {"techniques": techniques, "shots": shots, "seeds": seeds}
         is_search = name != "judged"
         timing = self.search_timing if is_search else self.timing
         if is_search:
@@ -108,7 +108,7 @@ class Studies:
 
     def read_into(self, point, results):
         """Adds a study's results of a search's point, under the label that is its name."""
-        entry = next((v for v in results.manifest["variants"] if v.get("label") == point.name), None)
+        entry = next((v for v in results.manifest["techniques"] if v.get("label") == point.name), None)
         if entry is None:
             raise ResultsError(f"{results.folder}: no point has the label '{point.name}'")
         point.parameters = entry["parameters"]
@@ -139,13 +139,13 @@ class Studies:
         refused is missing. Without times all points count as equally fast."""
         if not self.has_time:
             return {shot["shot"]: (1.0, 1.0) for shot in results.manifest["shots"]}
-        base = next((v["point"] for v in results.manifest["variants"] if v.get("label") == self.baseline), None)
+        base = next((v["point"] for v in results.manifest["techniques"] if v.get("label") == self.baseline), None)
         return self._clock_ratios(results, point, base) if self.has_clock else self._other_ratios(results, point, base)
 
     @staticmethod
     def _clock_ratios(results, point, base):
         """Of the same frames, since machines change their speed."""
-        total = [r for r in results.times if r["variant"] and r["point"] == base and r["stage"] == "total"]
+        total = [r for r in results.times if r["technique"] and r["point"] == base and r["stage"] == "total"]
         own = {r["shot"]: _positive(r, "median_ms") for r in total}
         if point == base:
             return {shot: (1.0, ms) for shot, ms in own.items()}

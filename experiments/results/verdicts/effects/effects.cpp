@@ -16,7 +16,7 @@ namespace {
 using Quantity = std::tuple<std::string, std::string, std::string, std::string>;  // shot, target, metric, mask
 Quantity quantity_of(const ResultRow& r) { return {r.shot, r.target, r.metric, r.mask}; }
 
-using Point = std::pair<std::string, std::string>;  // variant, point
+using Point = std::pair<std::string, std::string>;  // technique, point
 
 /// Everything about one quantity of one point that its comparisons need.
 struct SeedsOfPoint {
@@ -31,10 +31,10 @@ template <class Row>
 EffectRow effect_between(const Row& point, const Row& baseline) {
     return {.shot = point.shot,
             .frame = point.frame,
-            .variant = point.variant,
+            .technique = point.technique,
             .point = point.point,
             .against = {},
-            .against_variant = baseline.variant,
+            .against_technique = baseline.technique,
             .against_point = baseline.point,
             .target = point.target,
             .mask = point.mask};
@@ -236,11 +236,11 @@ using Table = std::map<Quantity, std::map<Point, SeedsOfPoint>>;
 Table errors_by_point(std::span<const ResultRow> rows, std::span<const ReferenceNoise> noise) {
     Table table;
     for (const ResultRow& r : rows)
-        if (r.represents_shot && is_error(r.metric)) table[quantity_of(r)][{r.variant, r.point}].seeds[r.seed] = &r;
+        if (r.represents_shot && is_error(r.metric)) table[quantity_of(r)][{r.technique, r.point}].seeds[r.seed] = &r;
     for (const ReferenceNoise& n : noise) {
         const auto points = table.find({n.shot, n.target, n.metric, n.mask});
         if (points == table.end()) continue;
-        const auto side = points->second.find({n.variant, n.point});
+        const auto side = points->second.find({n.technique, n.point});
         if (side != points->second.end() && side->second.seeds.begin()->second->frame == n.frame)
             side->second.noise = &n;
     }
@@ -250,7 +250,7 @@ Table errors_by_point(std::span<const ResultRow> rows, std::span<const Reference
 void set_seed_dependence(Table& table, const std::vector<ComparedPoint>& compared) {
     for (auto& [quantity, points] : table)
         for (const ComparedPoint& v : compared)
-            if (const auto found = points.find({v.variant, v.point}); found != points.end())
+            if (const auto found = points.find({v.technique, v.point}); found != points.end())
                 found->second.depends_on_seed = v.depends_on_seed;
 }
 
@@ -261,7 +261,7 @@ std::vector<EffectRow> effects_in(Table table, const std::vector<ComparedPoint>&
     set_seed_dependence(table, compared);
     std::vector<EffectRow> effects;
     for (const PointComparison& c : comparisons_of(compared)) {
-        const Point name(c.point->variant, c.point->point), other(c.baseline->variant, c.baseline->point);
+        const Point name(c.point->technique, c.point->point), other(c.baseline->technique, c.baseline->point);
         const bool is_repeatable = !not_repeatable.contains(name) && !not_repeatable.contains(other);
         for (const auto& [quantity, points] : table) {
             const auto a = points.find(name), b = points.find(other);
@@ -290,7 +290,7 @@ PairedErrors paired_errors(std::span<const ResultRow> rows, const std::vector<Co
     return [table, not_repeatable](const EffectRow& asked) -> std::optional<EffectRow> {
         const auto points = table->find({asked.shot, asked.target, asked.metric, asked.mask});
         if (points == table->end()) return {};
-        const Point name(asked.variant, asked.point), other(asked.against_variant, asked.against_point);
+        const Point name(asked.technique, asked.point), other(asked.against_technique, asked.against_point);
         const auto a = points->second.find(name), b = points->second.find(other);
         if (a == points->second.end() || b == points->second.end()) return {};
         EffectRow effect = effects_of_rows(a->second, b->second).front();
@@ -303,7 +303,7 @@ PairedErrors paired_errors(std::span<const ResultRow> rows, const std::vector<Co
 std::vector<EffectRow> split_effects(std::span<const SplitRow> rows, const std::vector<ComparedPoint>& compared,
                                      const PointSet& not_repeatable) {
     Table table;
-    for (const SplitRow& r : rows) table[{r.shot, r.target, "", r.mask}][{r.variant, r.point}].split = &r;
+    for (const SplitRow& r : rows) table[{r.shot, r.target, "", r.mask}][{r.technique, r.point}].split = &r;
     return effects_in(table, compared, not_repeatable, effects_of_splits);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 #include "experiments/results/cells/cell.h"
-#include "experiments/results/tables/comparisons.h"
+#include "experiments/results/files/comparisons.h"
 #include "experiments/results/verdicts/interval.h"
 #include "metrics/statistics/estimates.h"
 
@@ -10,9 +10,9 @@
 
 /// What a point changes about one error of another, its baseline, or about its squared bias or its variance.
 struct EffectRow {
-    std::string shot, frame, variant, point;
+    std::string shot, frame, technique, point;
     std::string against;  ///< baseline_name, or "estimator=a": the point that differs in this value alone
-    std::string against_variant, against_point, target, metric, formula, mask;
+    std::string against_technique, against_point, target, metric, formula, mask;
     size_t seeds = 0;  ///< that both were run with; a point that does not depend on seeds has all
     std::optional<double>
         ratio;  ///< mean error of the point / of the baseline, over the seeds; none if one is not above 0
@@ -29,8 +29,8 @@ struct EffectRow {
     static constexpr auto columns() {
         return std::tuple(
             Column{"shot", &EffectRow::shot}, Column{"frame", &EffectRow::frame},
-            Column{"variant", &EffectRow::variant}, Column{"point", &EffectRow::point},
-            Column{"against", &EffectRow::against}, Column{"against_variant", &EffectRow::against_variant},
+            Column{"technique", &EffectRow::technique}, Column{"point", &EffectRow::point},
+            Column{"against", &EffectRow::against}, Column{"against_technique", &EffectRow::against_technique},
             Column{"against_point", &EffectRow::against_point}, Column{"target", &EffectRow::target},
             Column{"metric", &EffectRow::metric}, Column{"formula", &EffectRow::formula},
             Column{"mask", &EffectRow::mask}, Column{"seeds", &EffectRow::seeds}, Column{"ratio", &EffectRow::ratio},
@@ -42,7 +42,7 @@ struct EffectRow {
     }
 };
 
-/// (variant, point)
+/// (technique, point)
 using PointSet = std::set<std::pair<std::string, std::string>>;
 
 /// All comparisons_of() `compared` by errors for which less is better, over the seeds that both have
@@ -58,8 +58,8 @@ using PointSet = std::set<std::pair<std::string, std::string>>;
 std::vector<EffectRow> paired_effects(std::span<const ResultRow> rows, const std::vector<ComparedPoint>& compared,
                                       const PointSet& not_repeatable = {}, std::span<const ReferenceNoise> noise = {});
 
-/// What `variant` `point` changes about one error of `against_variant` `against_point`, as paired_effects() has it, of
-/// any two points: `asked` names them, with shot, target, metric and mask. None where either has no such error.
+/// What `technique` `point` changes about one error of `against_technique` `against_point`, as paired_effects() has it,
+/// of any two points: `asked` names them, with shot, target, metric and mask. None where either has no such error.
 using PairedErrors = std::function<std::optional<EffectRow>(const EffectRow& asked)>;
 
 /// Refers to `rows` and `noise`, which must outlive it.

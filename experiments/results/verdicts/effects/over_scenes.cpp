@@ -136,8 +136,8 @@ void set_standings(std::vector<OverScenes>& points, OverScenes& first, std::span
     for (OverScenes& point : points) {
         if (&point == &first) continue;
         Logarithms over_first;
-        const Logarithms& of_first = logarithms.at({first.variant, first.point});
-        for (const auto& [shot, of_laws] : logarithms.at({point.variant, point.point}))
+        const Logarithms& of_first = logarithms.at({first.technique, first.point});
+        for (const auto& [shot, of_laws] : logarithms.at({point.technique, point.point}))
             if (const auto own = of_first.find(shot); own != of_first.end())
                 std::ranges::transform(of_laws, own->second, over_first[shot].begin(), std::minus());
         if (over_first.empty()) continue;
@@ -277,12 +277,12 @@ std::vector<OverScenes> compare_over_scenes(std::span<const ShotErrors> shots, d
             ranked.push_back(name);
             std::erase_if(own, [&](const auto& entry) { return std::ranges::count(common, entry.first) == 0; });
         }
-        OverScenes& point = points.emplace_back(OverScenes{.variant = name.first, .point = name.second});
+        OverScenes& point = points.emplace_back(OverScenes{.technique = name.first, .point = name.second});
         point.logarithms = over_scenes(own, shots), point.shots = own.size();
     }
     std::vector<OverScenes*> of_ranked;
     for (OverScenes& point : points)
-        if (std::ranges::count(ranked, PointName(point.variant, point.point)) > 0) of_ranked.push_back(&point);
+        if (std::ranges::count(ranked, PointName(point.technique, point.point)) > 0) of_ranked.push_back(&point);
     PointsByLaw logarithms_of_ranked;
     for (const OverScenes* point : of_ranked) logarithms_of_ranked.push_back(&point->logarithms);
     const PooledByLaw pooled = pooled_scatter(logarithms_of_ranked);
@@ -304,16 +304,16 @@ std::vector<OverScenes> compare_over_scenes(std::span<const ShotErrors> shots, d
 }
 
 PointName baseline_over_scenes(const nlohmann::json& manifest) {
-    const nlohmann::json variants = manifest.value("variants", nlohmann::json::array());
+    const nlohmann::json techniques = manifest.value("techniques", nlohmann::json::array());
     const auto name_of = [](const nlohmann::json& v) {
-        return PointName(v.value("variant", ""), v.value("point", ""));
+        return PointName(v.value("technique", ""), v.value("point", ""));
     };
-    for (const nlohmann::json& v : variants)
-        if (v.value("variant", "") == "none") return name_of(v);
-    for (const nlohmann::json& v : variants)
+    for (const nlohmann::json& v : techniques)
+        if (v.value("technique", "") == "none") return name_of(v);
+    for (const nlohmann::json& v : techniques)
         if (v.value("baseline", false)) return name_of(v);
-    if (variants.empty()) fail("manifest.json has no variants");
-    return name_of(variants.front());
+    if (techniques.empty()) fail("manifest.json has no techniques");
+    return name_of(techniques.front());
 }
 
 std::optional<Extrapolated> divisor_of(std::span<const MetricSummary* const> errors, const PointName& baseline) {
@@ -321,7 +321,7 @@ std::optional<Extrapolated> divisor_of(std::span<const MetricSummary* const> err
     const MetricSummary* own = nullptr;
     for (const MetricSummary* e : errors) {
         largest = std::max(largest, *e->value);
-        if (!own && PointName(e->variant, e->point) == baseline) own = e;
+        if (!own && PointName(e->technique, e->point) == baseline) own = e;
     }
     if (!own || !own->low || !(*own->low > 0) || !(own->extrapolated().low() > 0)) return {};
     const bool is_measure = *own->value > std::max(2 * own->floor.value_or(0), 1e-6 * largest);
@@ -342,7 +342,7 @@ std::vector<OverScenesRow> errors_over_scenes(std::span<const MetricSummary> err
         if (at == shots.end()) at = shots.insert(at, {e.shot, {}});
         at->second.push_back(&e);
     }
-    if (names.empty() || manifest.value("variants", nlohmann::json::array()).empty()) return {};
+    if (names.empty() || manifest.value("techniques", nlohmann::json::array()).empty()) return {};
     const PointSet using_scene = points_using_scene_data(manifest);
     const PointName baseline = baseline_over_scenes(manifest);
     std::vector<OverScenesRow> rows;
@@ -352,7 +352,7 @@ std::vector<OverScenesRow> errors_over_scenes(std::span<const MetricSummary> err
             ShotErrors& own = shots.emplace_back(
                 ShotErrors{.asset = asset_of(manifest, shot), .divisor = divisor_of(of_shot, baseline), .errors = {}});
             for (const MetricSummary* e : of_shot)
-                if (e->counts_over_scenes()) own.errors[{e->variant, e->point}] = e->extrapolated();
+                if (e->counts_over_scenes()) own.errors[{e->technique, e->point}] = e->extrapolated();
             pairs.push_back(own);
             std::erase_if(own.errors, [&](const auto& error) { return using_scene.contains(error.first); });
         }
@@ -360,11 +360,11 @@ std::vector<OverScenesRow> errors_over_scenes(std::span<const MetricSummary> err
             OverScenesRow& row = rows.emplace_back();
             static_cast<OverScenes&>(row) = std::move(o);
             std::tie(row.target, row.metric, row.mask) = name;
-            std::tie(row.baseline_variant, row.baseline_point) = divisor;
+            std::tie(row.baseline_technique, row.baseline_point) = divisor;
         };
         for (OverScenes& o : compare_over_scenes(shots, most_lacking, margin)) add(std::move(o), baseline);
         for (const PointComparison& c : comparisons_of(compared)) {
-            const PointName own(c.point->variant, c.point->point), other(c.baseline->variant, c.baseline->point);
+            const PointName own(c.point->technique, c.point->point), other(c.baseline->technique, c.baseline->point);
             if (c.against == baseline_name) continue;
             std::vector<ShotErrors> of_pair;
             for (const ShotErrors& shot : pairs) {

@@ -1,5 +1,5 @@
 #pragma once
-#include "experiments/results/tables/comparisons.h"
+#include "experiments/results/files/comparisons.h"
 #include "experiments/results/verdicts/effects/scatter_over_scenes.h"
 #include "experiments/results/verdicts/summary.h"
 
@@ -33,7 +33,7 @@ MeanOverScenes mean_over_scenes(std::span<const ShotValue> values);
 std::optional<std::pair<double, double>> bootstrap_over_scenes(std::span<const double> values, unsigned seed = 1);
 
 /// A point, or what else is compared by name.
-using PointName = std::pair<std::string, std::string>;  // variant, point
+using PointName = std::pair<std::string, std::string>;  // technique, point
 
 /// One shot's errors of all that is compared over scenes, with and without the reference's noise.
 struct ShotErrors {
@@ -50,7 +50,7 @@ inline constexpr double worth_deciding = 0.1;  ///< 10 % more error
 
 /// What scenes say of the errors of one point.
 struct OverScenes {
-    std::string variant, point;
+    std::string technique, point;
     size_t scenes = 0, shots = 0;                     ///< in which it and the baseline have an error above 0
     double ratio = 1;                                 ///< geometric mean over scenes of error / the baseline's
     std::optional<double> low, high;                  ///< its MeanOverScenes, by all laws
@@ -87,7 +87,7 @@ MedianOverScenes median_over_scenes(std::vector<double> values);
 MedianOverScenes median_over_scenes(const ScenesByLaw& values);
 
 /// The point that errors are given as multiples of: `none`, no screen-space reflections, where the study has it, else
-/// its first baseline, else its first point. Fails with Error where the manifest has no variants.
+/// its first baseline, else its first point. Fails with Error where the manifest has no techniques.
 PointName baseline_over_scenes(const nlohmann::json& manifest);
 
 /// The baseline's error in a shot, to divide by; none where any error would be a huge multiple of it: it is not
@@ -97,13 +97,13 @@ std::optional<Extrapolated> divisor_of(std::span<const MetricSummary* const> err
 
 /// A row of over_scenes.csv.
 struct OverScenesRow : OverScenes {
-    std::string target, metric, mask, baseline_variant, baseline_point;
+    std::string target, metric, mask, baseline_technique, baseline_point;
 
     static constexpr auto columns() {
         return std::tuple(
             Column{"target", &OverScenesRow::target}, Column{"metric", &OverScenesRow::metric},
-            Column{"mask", &OverScenesRow::mask}, Column{"variant", &OverScenesRow::variant},
-            Column{"point", &OverScenesRow::point}, Column{"baseline_variant", &OverScenesRow::baseline_variant},
+            Column{"mask", &OverScenesRow::mask}, Column{"technique", &OverScenesRow::technique},
+            Column{"point", &OverScenesRow::point}, Column{"baseline_technique", &OverScenesRow::baseline_technique},
             Column{"baseline_point", &OverScenesRow::baseline_point}, Column{"scenes", &OverScenesRow::scenes},
             Column{"shots", &OverScenesRow::shots}, Column{"ratio", &OverScenesRow::ratio},
             Column{"low", &OverScenesRow::low}, Column{"high", &OverScenesRow::high},

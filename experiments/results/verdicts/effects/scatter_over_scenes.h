@@ -32,7 +32,8 @@ struct PooledScatter {
 
 /// Degrees of freedom that the variance over all points counts for, beside the n - 1 of a difference's own. Chosen
 /// among 0, 3, the points' own estimate (Smyth 2004) and infinitely many: over 4 to 16 of the kept studies' scenes
-/// intervals hold 94 to 97 % with 3, 88 to 97 with 0, 90 to 94 with the others (experiments/results/tradeoff/README.md).
+/// intervals hold 94 to 97 % with 3, 88 to 97 with 0, 90 to 94 with the others
+/// (experiments/results/tradeoff/README.md).
 inline constexpr double pooled_degrees = 3;
 
 /// Points of a study by what they err in each scene (logarithms, the same scenes of all).

@@ -1,6 +1,6 @@
 #include "experiments/results/verdicts/effects/time_effects.h"
 
-#include "experiments/results/tables/manifest.h"
+#include "experiments/results/files/manifest.h"
 #include "experiments/results/verdicts/interval.h"
 #include "metrics/statistics/estimates.h"
 #include "metrics/statistics/quantiles.h"
@@ -12,7 +12,7 @@
 
 namespace {
 
-using StageKey = std::tuple<std::string, std::string, std::string, std::string>;  // shot, stage, variant, point
+using StageKey = std::tuple<std::string, std::string, std::string, std::string>;  // shot, stage, technique, point
 struct Timed {
     std::string clock;
     std::map<unsigned, double> of_round;  ///< ms; a stage may run several times in a frame
@@ -23,15 +23,15 @@ struct Timed {
 std::vector<TimeEffectRow> time_effects(std::span<const TimeRow> times, const std::vector<ComparedPoint>& compared) {
     std::map<StageKey, Timed> table;
     for (const TimeRow& t : times) {
-        Timed& timed = table[{t.shot, t.stage, t.variant, t.point}];
+        Timed& timed = table[{t.shot, t.stage, t.technique, t.point}];
         timed.clock = t.clock, timed.of_round[t.frame] += t.milliseconds;
     }
     std::vector<TimeEffectRow> effects;
     for (const PointComparison& c : comparisons_of(compared))
         for (const auto& [key, timed] : table) {
-            const auto& [shot, stage, variant, point] = key;
-            if (variant != c.point->variant || point != c.point->point) continue;
-            const auto other = table.find({shot, stage, c.baseline->variant, c.baseline->point});
+            const auto& [shot, stage, technique, point] = key;
+            if (technique != c.point->technique || point != c.point->point) continue;
+            const auto other = table.find({shot, stage, c.baseline->technique, c.baseline->point});
             if (other == table.end()) continue;
             std::vector<double> ratios;
             for (const auto& [round, milliseconds] : timed.of_round)
@@ -40,7 +40,7 @@ std::vector<TimeEffectRow> time_effects(std::span<const TimeRow> times, const st
                     ratios.push_back(milliseconds / base->second);
             if (ratios.empty()) continue;
             const Estimate m = median_interval(ratios);
-            effects.push_back({shot, variant, point, c.against, c.baseline->variant, c.baseline->point, stage,
+            effects.push_back({shot, technique, point, c.against, c.baseline->technique, c.baseline->point, stage,
                                timed.clock, ratios.size(), m.value, m.low, m.high});
         }
     return effects;

@@ -1,6 +1,6 @@
 #pragma once
 #include "experiments/results/cells/cell.h"
-#include "experiments/results/tables/comparisons.h"
+#include "experiments/results/files/comparisons.h"
 #include "experiments/results/verdicts/effects/effects.h"
 #include "metrics/statistics/median_interval.h"
 
@@ -9,8 +9,8 @@
 
 /// What a point's time is of another's: of the total, and of each stage that both have.
 struct TimeEffectRow {
-    std::string shot, variant, point;
-    std::string against, against_variant, against_point;  ///< as in EffectRow
+    std::string shot, technique, point;
+    std::string against, against_technique, against_point;  ///< as in EffectRow
     std::string stage, clock;
     size_t rounds = 0;         ///< frames in which both were timed
     double ratio = 1;          ///< median over the rounds of time / time of the other
@@ -20,9 +20,9 @@ struct TimeEffectRow {
     std::string verdict;  ///< as EffectRow's; empty without a p
 
     static constexpr auto columns() {
-        return std::tuple(Column{"shot", &TimeEffectRow::shot}, Column{"variant", &TimeEffectRow::variant},
+        return std::tuple(Column{"shot", &TimeEffectRow::shot}, Column{"technique", &TimeEffectRow::technique},
                           Column{"point", &TimeEffectRow::point}, Column{"against", &TimeEffectRow::against},
-                          Column{"against_variant", &TimeEffectRow::against_variant},
+                          Column{"against_technique", &TimeEffectRow::against_technique},
                           Column{"against_point", &TimeEffectRow::against_point},
                           Column{"stage", &TimeEffectRow::stage}, Column{"clock", &TimeEffectRow::clock},
                           Column{"rounds", &TimeEffectRow::rounds}, Column{"ratio", &TimeEffectRow::ratio},

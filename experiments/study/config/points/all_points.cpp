@@ -5,8 +5,8 @@
 #include "variants/registry.h"
 #include "variants/tracers/tracers.h"
 
-VariantConfig single_point(const std::string& variant, const std::string& preset, const nlohmann::json& parameters) {
-    return {.variant = technique_name(variant),
+PointConfig single_point(const std::string& technique, const std::string& preset, const nlohmann::json& parameters) {
+    return {.technique = technique_name(technique),
             .preset = preset,
             .parameters = parameters,
             .point = point_name(preset, parameters),
@@ -15,15 +15,15 @@ VariantConfig single_point(const std::string& variant, const std::string& preset
             .against_point = {}};
 }
 
-std::vector<std::string> names_of_point(const VariantConfig& point) {
-    return {point.variant, point.variant + ":" + point.point};
+std::vector<std::string> names_of_point(const PointConfig& point) {
+    return {point.technique, point.technique + ":" + point.point};
 }
 
-std::vector<VariantConfig> all_points(const std::vector<std::string>& names) {
+std::vector<PointConfig> all_points(const std::vector<std::string>& names) {
     std::vector<std::string> wanted;
     for (const std::string& name : names) wanted.push_back(technique_point_name(name));
-    std::vector<VariantConfig> points;
-    for (const VariantEntry& entry : variant_table()) {
+    std::vector<PointConfig> points;
+    for (const TechniqueEntry& entry : technique_table()) {
         if (entry.presets.empty() || !entry.is_ssrlabs() || entry.name == "mcguire_dda" || entry.name == "composed_ssr")
             points.push_back(single_point(entry.name));
         for (const Preset& preset : entry.presets) points.push_back(single_point(entry.name, preset.name));

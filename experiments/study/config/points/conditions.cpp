@@ -93,15 +93,15 @@ bool is_wanted(std::vector<PointCondition>& conditions, const json& parameters) 
     return true;
 }
 
-std::string why_skipped(const VariantConfig& variant, const Shot& shot) {
-    if (variant.external) {
+std::string why_skipped(const PointConfig& technique, const Shot& shot) {
+    if (technique.external) {
         if (const std::string why = why_not_external(shot); !why.empty()) return why;
-        if (!variant.external->has_view(shot))
-            return variant.external->folder.string() + " holds no " + ExternalImages::view_name(shot);
+        if (!technique.external->has_view(shot))
+            return technique.external->folder.string() + " holds no " + ExternalImages::view_name(shot);
     }
-    if (variant.conditions.empty()) return "";
+    if (technique.conditions.empty()) return "";
     const json values = values_of(shot);
-    for (const PointCondition& condition : variant.conditions) {
+    for (const PointCondition& condition : technique.conditions) {
         const bool all_hold = std::ranges::all_of(
             condition.tests.items(), [&](const auto& test) { return holds(test.value(), values.at(test.key())); });
         if (all_hold == condition.skips) return text_of(condition);
@@ -109,10 +109,10 @@ std::string why_skipped(const VariantConfig& variant, const Shot& shot) {
     return "";
 }
 
-bool runs_on(const VariantConfig& variant, const Shot& shot) { return why_skipped(variant, shot).empty(); }
+bool runs_on(const PointConfig& technique, const Shot& shot) { return why_skipped(technique, shot).empty(); }
 
 Config config_on(const Config& study, const Shot& shot) {
     Config config = study;
-    std::erase_if(config.variants, [&](const VariantConfig& variant) { return !runs_on(variant, shot); });
+    std::erase_if(config.techniques, [&](const PointConfig& technique) { return !runs_on(technique, shot); });
     return config;
 }

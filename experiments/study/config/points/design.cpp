@@ -21,7 +21,7 @@ const Parameter& find_parameter(const ParameterSet& declared, const std::string&
         names.push_back(p.name);
     }
     fail(where, ": unknown parameter '", shortened(name), "'",
-         names.empty() ? "; this variant has none" : suggestion(name, names));
+         names.empty() ? "; this technique has none" : suggestion(name, names));
 }
 
 /// The number as the parameter holds it: in whole steps, or as a float32.

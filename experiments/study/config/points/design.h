@@ -7,13 +7,14 @@
 /// More points than anyone can run or look at: such a design is refused while it is read.
 inline constexpr size_t most_points = 100000;
 
-/// The points that an entry of `variants` asks for by one of `sweep` (all combinations, the last axis fastest, axes by
-/// name), `zip` (values that stand at the same place), `each` (one value at a time, axes in the order of `declared`),
-/// `random`, `latin_hypercube` or `sobol`: the values that each of them changes; a single point without any if there is
-/// no design. Points of the latter three that are equal count once. Every mistake is an Error that names place and key.
+/// The points that an entry of `techniques` asks for by one of `sweep` (all combinations, the last axis fastest, axes
+/// by name), `zip` (values that stand at the same place), `each` (one value at a time, axes in the order of
+/// `declared`), `random`, `latin_hypercube` or `sobol`: the values that each of them changes; a single point without
+/// any if there is no design. Points of the latter three that are equal count once. Every mistake is an Error that
+/// names place and key.
 std::vector<nlohmann::json> read_design(ConfigObject& entry, const ParameterSet& declared);
 
-/// Its keys, for a variant with these parameters.
+/// Its keys, for a technique with these parameters.
 Keys design_keys(const ParameterSet& declared);
 
 /// [from, to], with `more` numbers behind.

@@ -50,7 +50,7 @@ nlohmann::json read_settings(JsonObject& object) {
 }
 
 void refuse_own_name(JsonObject& object, const std::string& name) {
-    if (std::ranges::find(variant_table(), name, &VariantEntry::name) != variant_table().end())
+    if (std::ranges::find(technique_table(), name, &TechniqueEntry::name) != technique_table().end())
         fail(object.at("name"), ": 'name' = \"", name, "\" is a technique of ssrlab: call the images' otherwise");
 }
 

@@ -2,16 +2,16 @@
 
 #include "core/error.h"
 #include "experiments/gpu_costs/chips/occupancy.h"
-#include "experiments/study/measuring/render_variant.h"
+#include "experiments/study/measuring/render_technique.h"
 
 #include <algorithm>
 
 namespace {
 
-CompiledRow row_of(const StagePipelines::Entry& entry, const std::string& shot, const VariantConfig& point,
+CompiledRow row_of(const StagePipelines::Entry& entry, const std::string& shot, const PointConfig& point,
                    const Chip& chip) {
     CompiledRow row;
-    row.shot = shot, row.variant = point.variant, row.point = point.point;
+    row.shot = shot, row.technique = point.technique, row.point = point.point;
     row.stage = entry.stage, row.pipeline = entry.number;
     row.chip = chip.name, row.driver = chip.driver;
     return row;
@@ -19,9 +19,9 @@ CompiledRow row_of(const StagePipelines::Entry& entry, const std::string& shot, 
 
 }  // namespace
 
-void StagePipelines::collect_from(PassGraph& graph) {
-    graph.use_gpu_forms(true);
-    graph.watch(this);
+void StagePipelines::collect_from(PassList& pass_list) {
+    pass_list.use_gpu_forms(true);
+    pass_list.watch(this);
 }
 
 std::optional<InstrumentedPipeline> StagePipelines::before(const PassRun& run) {
@@ -31,23 +31,23 @@ std::optional<InstrumentedPipeline> StagePipelines::before(const PassRun& run) {
 }
 
 StagePipelines stage_pipelines(Device& device, const Shot& shot, FrameStore& store,
-                               const std::function<const HostImage&(const FrameStep&)>& lit, const VariantConfig& point,
+                               const std::function<const HostImage&(const FrameStep&)>& lit, const PointConfig& point,
                                bool keep_all) {
     StagePipelines pipelines;
     const Renderer renderer(device, shot.config.extent, point);
-    if (renderer.variant->uses_scene_data()) return pipelines;
-    if (!keep_all) renderer.variant->leave_out(shot.facts);
-    pipelines.collect_from(*renderer.graph);
+    if (renderer.technique->uses_scene_data()) return pipelines;
+    if (!keep_all) renderer.technique->leave_out(shot.facts);
+    pipelines.collect_from(*renderer.pass_list);
     for (const FrameStep& step : std::span(shot.steps).first(std::min<size_t>(shot.steps.size(), 2))) {
         const FrameStore::Frame frame = store.frame(step, lit(step));
         renderer.render(frame.camera, point.seeds.front(), frame.gbuffer);
-        renderer.graph->times();  // waits: the frame's images are gone with the next one
+        renderer.pass_list->times();  // waits: the frame's images are gone with the next one
     }
     return pipelines;
 }
 
 std::vector<CompiledRow> compiled_rows(const StagePipelines& pipelines, const std::string& shot,
-                                       const VariantConfig& point, const Chip& chip, const ChipCompilation& how,
+                                       const PointConfig& point, const Chip& chip, const ChipCompilation& how,
                                        std::vector<std::string>* assembly) {
     std::vector<PipelineRecipe> recipes;
     for (const StagePipelines::Entry& entry : pipelines.entries()) recipes.push_back(entry.recipe);
@@ -86,7 +86,7 @@ std::string refusal_in(const std::vector<CompiledRow>& rows) {
 }
 
 std::vector<CompiledRow> compiled_rows(const StagePipelines& pipelines, const std::string& shot,
-                                       const VariantConfig& point, const GpuCompilers& compilers,
+                                       const PointConfig& point, const GpuCompilers& compilers,
                                        const ChipCompilation& how) {
     std::vector<CompiledRow> rows;
     for (const GpuCompilers::Entry& compiler : compilers.entries) {

@@ -12,9 +12,9 @@
 /// The pipelines that stages of a frame use, each once, in the order in which they first ran.
 class StagePipelines : private PassWatcher {
 public:
-    /// Hears of all passes of `graph` from now on, which take the forms that they have for GPUs. It must outlive what
-    /// the graph renders.
-    void collect_from(PassGraph& graph);
+    /// Hears of all passes of `pass_list` from now on, which take the forms that they have for GPUs. It must outlive
+    /// what the pass_list renders.
+    void collect_from(PassList& pass_list);
 
     struct Entry {
         std::string stage;
@@ -31,11 +31,11 @@ private:
     std::map<std::string, unsigned> count_;
 };
 
-/// Of the first two frames of a shot, which know no history and one. Empty of a variant whose rays ask the scene where
-/// they truly end: it stands for no passes that an engine could have. `lit` gives the colour (RGB) that the variant
-/// reads.
+/// Of the first two frames of a shot, which know no history and one. Empty of a technique whose rays ask the scene
+/// where they truly end: it stands for no passes that an engine could have. `lit` gives the colour (RGB) that the
+/// technique reads.
 StagePipelines stage_pipelines(Device& device, const Shot& shot, FrameStore& store,
-                               const std::function<const HostImage&(const FrameStep&)>& lit, const VariantConfig& point,
+                               const std::function<const HostImage&(const FrameStep&)>& lit, const PointConfig& point,
                                bool keep_all);
 
 /// The chips that a study compiles for.
@@ -55,11 +55,11 @@ std::string refusal_in(const std::vector<CompiledRow>& rows);
 
 /// compiled_rows() of all chips; of those with a refusal a row for each stage, which has no numbers.
 std::vector<CompiledRow> compiled_rows(const StagePipelines& pipelines, const std::string& shot,
-                                       const VariantConfig& point, const GpuCompilers& compilers,
+                                       const PointConfig& point, const GpuCompilers& compilers,
                                        const ChipCompilation& how);
 
 /// What the compiler of `chip` makes of the pipelines: rows of compiled.csv, of the shot of that name. With
 /// `how.has_assembly`, `assembly` gets each row's text.
 std::vector<CompiledRow> compiled_rows(const StagePipelines& pipelines, const std::string& shot,
-                                       const VariantConfig& point, const Chip& chip, const ChipCompilation& how,
+                                       const PointConfig& point, const Chip& chip, const ChipCompilation& how,
                                        std::vector<std::string>* assembly = nullptr);

@@ -43,20 +43,20 @@ def rows_of(folder, name):
 
 
 def medians(folder):
-    """{shot: {(variant, point, stage): milliseconds}} of the techniques."""
+    """{shot: {(technique, point, stage): milliseconds}} of the techniques."""
     times = {}
     for row in rows_of(folder, "times.csv"):
-        if row["variant"] not in ("", "none"):
-            key = (row["variant"], row["point"], row["stage"])
+        if row["technique"] not in ("", "none"):
+            key = (row["technique"], row["point"], row["stage"])
             times.setdefault(row["shot"], {}).setdefault(key, []).append(needed_number(row, "milliseconds"))
     return {shot: {key: statistics.median(all_of) for key, all_of in own.items()} for shot, own in times.items()}
 
 
 def counts(folder):
-    """{name: {shot: {(variant, point, stage): sum of its quantities}}}"""
+    """{name: {shot: {(technique, point, stage): sum of its quantities}}}"""
     costs = {name: {} for name in COSTS}
     for row in rows_of(folder, "costs.csv"):
-        key = (row["variant"], row["point"], row["stage"])
+        key = (row["technique"], row["point"], row["stage"])
         for name, quantities in COSTS.items():
             of_shot = costs[name].setdefault(row["shot"], {})
             of_shot[key] = of_shot.get(key, 0) + (whole(row, "value") or 0) * (row["quantity"] in quantities)
@@ -69,7 +69,7 @@ def estimates(folder):
     if os.path.exists(path_inside(folder, "estimates.csv")):
         for row in rows_of(folder, "estimates.csv"):
             if (microseconds := number(row, "microseconds")) is not None:
-                key = (row["variant"], row["point"], row["stage"])
+                key = (row["technique"], row["point"], row["stage"])
                 found.setdefault(f"{row['chip']} estimate", {}).setdefault(row["shot"], {})[key] = microseconds
     return found
 
@@ -88,13 +88,13 @@ def without(shots, patterns):
 
 
 def add_totals(both):
-    """To {(variant, point, stage): (ms, cost or None)}: sums over the stages of each point whose stages all have a cost."""
+    """To {(technique, point, stage): (ms, cost or None)}: sums over the stages of each point whose stages all have a cost."""
     points = {}
-    for (variant, point, _), pair in both.items():
-        points.setdefault((variant, point), []).append(pair)
-    for (variant, point), pairs in points.items():
+    for (technique, point, _), pair in both.items():
+        points.setdefault((technique, point), []).append(pair)
+    for (technique, point), pairs in points.items():
         if all(cost is not None for _, cost in pairs):
-            both[variant, point, "total"] = tuple(map(sum, zip(*pairs)))
+            both[technique, point, "total"] = tuple(map(sum, zip(*pairs)))
 
 
 def agreement(times, costs, has_totals):

@@ -7,15 +7,14 @@
 
 std::vector<CostRow> count_costs(Device& device, const Shot& shot, FrameStore& store,
                                  const std::function<const HostImage&(const FrameStep&)>& lit,
-                                 const VariantConfig& config, bool keep_all,
-                                 const std::function<void(double)>& report) {
-    const std::unique_ptr<Variant> variant = make_variant(config.variant, config.parameters, config.preset);
-    if (variant->uses_scene_data()) return {};
-    if (!keep_all) variant->leave_out(shot.facts);
-    PassGraph graph(device, shot.config.extent);
+                                 const PointConfig& config, bool keep_all, const std::function<void(double)>& report) {
+    const std::unique_ptr<Technique> technique = make_technique(config.technique, config.parameters, config.preset);
+    if (technique->uses_scene_data()) return {};
+    if (!keep_all) technique->leave_out(shot.facts);
+    PassList pass_list(device, shot.config.extent);
     CostCounter counter;
     play_shot(
-        graph, *variant, shot, store, lit, config, [&] { graph.watch(&counter); }, report);
+        pass_list, *technique, shot, store, lit, config, [&] { pass_list.watch(&counter); }, report);
 
     std::vector<PassCost> costs = counter.costs();
     PassCost total{.stage = "total"};
@@ -25,7 +24,7 @@ std::vector<CostRow> count_costs(Device& device, const Shot& shot, FrameStore& s
     for (const PassCost& cost : costs)
         for (const CostQuantity& quantity : cost_quantities)
             rows.push_back({.shot = shot.name(),
-                            .variant = config.variant,
+                            .technique = config.technique,
                             .point = config.point,
                             .stage = cost.stage,
                             .quantity = quantity.name,

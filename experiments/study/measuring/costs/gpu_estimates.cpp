@@ -164,10 +164,10 @@ Estimate estimate_of(const StageEstimate& stage, const PassCost& cost, const Chi
     return estimate;
 }
 
-EstimateRow row_of(const std::string& shot, const VariantConfig& point, const std::string& stage,
+EstimateRow row_of(const std::string& shot, const PointConfig& point, const std::string& stage,
                    const std::string& chip) {
     EstimateRow row;
-    row.shot = shot, row.variant = point.variant, row.point = point.point, row.stage = stage, row.chip = chip;
+    row.shot = shot, row.technique = point.technique, row.point = point.point, row.stage = stage, row.chip = chip;
     return row;
 }
 
@@ -232,7 +232,7 @@ FrameCode compile_frame(const TracedFrame& frame, const Chip& chip, const ChipRa
     return code;
 }
 
-std::vector<EstimateRow> rows_of_chip(const TracedFrame& frame, const std::string& shot, const VariantConfig& point,
+std::vector<EstimateRow> rows_of_chip(const TracedFrame& frame, const std::string& shot, const PointConfig& point,
                                       const Chip& chip, const ChipRates& rates, const ChipCompilation& how) {
     const FrameCode code = compile_frame(frame, chip, rates, how);
     std::map<std::string, StageEstimate> traced;
@@ -275,7 +275,7 @@ std::string refusal_in(const std::vector<EstimateRow>& rows) {
     return "";
 }
 
-std::vector<EstimateRow> refused_estimates(const std::string& why, const std::string& shot, const VariantConfig& point,
+std::vector<EstimateRow> refused_estimates(const std::string& why, const std::string& shot, const PointConfig& point,
                                            const GpuCompilers& compilers) {
     std::vector<EstimateRow> rows;
     for (const GpuCompilers::Entry& compiler : compilers.entries)
@@ -283,7 +283,7 @@ std::vector<EstimateRow> refused_estimates(const std::string& why, const std::st
     return rows;
 }
 
-std::vector<EstimateRow> estimate_rows(const TracedFrame& frame, const std::string& shot, const VariantConfig& point,
+std::vector<EstimateRow> estimate_rows(const TracedFrame& frame, const std::string& shot, const PointConfig& point,
                                        const GpuCompilers& compilers, const ChipCompilation& how) {
     std::vector<EstimateRow> rows;
     if (frame.passes.empty()) return rows;

@@ -31,19 +31,19 @@ TracedFrame::Pass traced_pass(const PassTrace& trace) {
 }  // namespace
 
 TracedFrame trace_last_frame(Device& device, const Shot& shot, FrameStore& store,
-                             const std::function<const HostImage&(const FrameStep&)>& lit, const VariantConfig& point,
+                             const std::function<const HostImage&(const FrameStep&)>& lit, const PointConfig& point,
                              bool keep_all, const std::function<void(double)>& report) {
     TracedFrame result;
     for (const bool is_traced : {false, true}) {
-        const std::unique_ptr<Variant> variant = make_variant(point.variant, point.parameters, point.preset);
-        if (variant->uses_scene_data()) return {};
-        if (!keep_all) variant->leave_out(shot.facts);
-        PassGraph graph(device, shot.config.extent);
-        graph.use_gpu_forms(true);
+        const std::unique_ptr<Technique> technique = make_technique(point.technique, point.parameters, point.preset);
+        if (technique->uses_scene_data()) return {};
+        if (!keep_all) technique->leave_out(shot.facts);
+        PassList pass_list(device, shot.config.extent);
+        pass_list.use_gpu_forms(true);
         CostCounter counter;
         PassTracer tracer([&](const PassTrace& trace) { result.passes.push_back(traced_pass(trace)); });
-        const auto watch = [&] { graph.watch(is_traced ? static_cast<PassWatcher*>(&tracer) : &counter); };
-        play_shot(graph, *variant, shot, store, lit, point, watch,
+        const auto watch = [&] { pass_list.watch(is_traced ? static_cast<PassWatcher*>(&tracer) : &counter); };
+        play_shot(pass_list, *technique, shot, store, lit, point, watch,
                   [&](double share) { report((double(is_traced) + share) / 2); });
         if (!is_traced) result.costs = counter.costs();
     }

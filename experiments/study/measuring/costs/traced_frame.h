@@ -22,8 +22,8 @@ struct TracedFrame {
     std::vector<PassCost> costs;  ///< by stage
 };
 
-/// Renders the shot twice: the last frame is counted once and traced once. Empty of a variant whose rays ask the scene
-/// where they truly end. `lit` gives the colour (RGB) that the variant reads; `report` gets the share done.
+/// Renders the shot twice: the last frame is counted once and traced once. Empty of a technique whose rays ask the
+/// scene where they truly end. `lit` gives the colour (RGB) that the technique reads; `report` gets the share done.
 TracedFrame trace_last_frame(Device& device, const Shot& shot, FrameStore& store,
-                             const std::function<const HostImage&(const FrameStep&)>& lit, const VariantConfig& point,
+                             const std::function<const HostImage&(const FrameStep&)>& lit, const PointConfig& point,
                              bool keep_all, const std::function<void(double)>& report);

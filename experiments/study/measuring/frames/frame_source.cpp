@@ -4,13 +4,13 @@
 #include "core/gbuffer/composite.h"
 #include "core/gbuffer/environment_images.h"
 #include "core/gbuffer/gbuffer_transfer.h"
-#include "experiments/study/config/points/variant_of.h"
+#include "experiments/study/config/points/technique_of.h"
 
 #include <algorithm>
 
 namespace {
 
-bool needs_depth_layers(const VariantConfig& variant) { return variant_of(variant)->needs_depth_layers(); }
+bool needs_depth_layers(const PointConfig& technique) { return technique_of(technique)->needs_depth_layers(); }
 
 class SceneSource final : public FrameSource {
 public:
@@ -20,12 +20,12 @@ public:
                       {.extent = shot.config.extent,
                        .depth_format = shot.config.depth_format,
                        .normal_bits = shot.config.normal_bits,
-                       .has_depth_layers = std::ranges::any_of(config.variants, needs_depth_layers),
+                       .has_depth_layers = std::ranges::any_of(config.techniques, needs_depth_layers),
                        .probe = probe,
                        .is_still = shot.facts.is_still(),
                        .keep_all = keep_all}),
-          compositor_(rasterizer_.graph()) {
-        rasterizer_.graph().set_changes(gbuffer_changes(shot.config.gbuffer_formats));
+          compositor_(rasterizer_.pass_list()) {
+        rasterizer_.pass_list().set_changes(gbuffer_changes(shot.config.gbuffer_formats));
     }
 
     GBuffer render(const FrameStep& step, unsigned seed, const HostImage& lit) override {
@@ -43,7 +43,7 @@ public:
         return gbuffer;
     }
     const CameraData& camera() const override { return rasterizer_.camera(); }
-    PassGraph& graph() override { return rasterizer_.graph(); }
+    PassList& pass_list() override { return rasterizer_.pass_list(); }
 
 private:
     const Shot& shot_;
@@ -57,10 +57,10 @@ public:
         : capture_(capture),
           reads_own_lit_(reads_own_lit),
           lit_has_environment_(shot.config.lit_has_environment),
-          graph_(device, shot.config.extent),
-          compositor_(graph_) {
-        graph_.set_changes(gbuffer_changes(shot.config.gbuffer_formats));
-        if (capture.environment()) environment_.emplace(graph_, *capture.environment(), false);
+          pass_list_(device, shot.config.extent),
+          compositor_(pass_list_) {
+        pass_list_.set_changes(gbuffer_changes(shot.config.gbuffer_formats));
+        if (capture.environment()) environment_.emplace(pass_list_, *capture.environment(), false);
     }
 
     GBuffer render(const FrameStep& step, unsigned seed, const HostImage& lit) override {
@@ -76,20 +76,20 @@ public:
         }
         camera_ = host.camera;
         camera_.frame.x = step.index, camera_.frame.y = seed;
-        graph_.begin_frame(camera_, no_params_, {});
-        GBuffer gbuffer = upload_gbuffer(graph_, host);
+        pass_list_.begin_frame(camera_, no_params_, {});
+        GBuffer gbuffer = upload_gbuffer(pass_list_, host);
         if (lit_has_environment_) compositor_.add_environment(gbuffer);
         if (environment_) gbuffer.environment = &*environment_;
         return gbuffer;
     }
     const CameraData& camera() const override { return camera_; }
-    PassGraph& graph() override { return graph_; }
+    PassList& pass_list() override { return pass_list_; }
 
 private:
     Capture& capture_;
     bool reads_own_lit_, lit_has_environment_;
     CameraData camera_{};
-    PassGraph graph_;
+    PassList pass_list_;
     Compositor compositor_;
     ParameterSet no_params_;
     std::optional<EnvironmentImages> environment_;
@@ -108,14 +108,14 @@ std::unique_ptr<FrameSource> capture_source(Device& device, Capture& capture, co
 }
 
 struct FrameStore::Stored {
-    PassGraph graph;  ///< owns the images
+    PassList pass_list;  ///< owns the images
     GBuffer gbuffer;
     CameraData camera;
 
     Stored(Device& device, const HostGBuffer& host, GBufferFormats formats)
-        : graph(device, host.extent()), camera(host.camera) {
-        graph.set_changes(gbuffer_changes(formats));
-        gbuffer = upload_gbuffer(graph, host);
+        : pass_list(device, host.extent()), camera(host.camera) {
+        pass_list.set_changes(gbuffer_changes(formats));
+        gbuffer = upload_gbuffer(pass_list, host);
     }
 };
 
@@ -134,13 +134,13 @@ FrameStore::Frame FrameStore::frame(const FrameStep& step, const HostImage& lit)
     if (found == stored_.end() || !found->second) {
         const GBuffer rendered = source_.render(step, 0, lit);
         if (found != stored_.end()) return {rendered, source_.camera()};
-        const HostGBuffer host = download_gbuffer(source_.graph(), rendered, source_.camera(), depth_format_);
+        const HostGBuffer host = download_gbuffer(source_.pass_list(), rendered, source_.camera(), depth_format_);
         for (const auto& [layer, count] : count_non_finite(host)) non_finite_[layer] += count;
         found = stored_.emplace(key, nullptr).first;
         const size_t bytes = bytes_per_pixel * host.depth.pixel_count();
         if (bytes_ + bytes > max_bytes_) return {rendered, source_.camera()};
         bytes_ += bytes;
-        found->second = std::make_unique<Stored>(source_.graph().device(), host, formats_);
+        found->second = std::make_unique<Stored>(source_.pass_list().device(), host, formats_);
         found->second->gbuffer.environment = rendered.environment;
     }
     Frame frame{found->second->gbuffer, found->second->camera};

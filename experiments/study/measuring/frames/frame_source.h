@@ -14,11 +14,11 @@ class FrameSource {
 public:
     virtual ~FrameSource() = default;
 
-    /// The G-buffer of a frame with the lit colour `lit` (RGB), and camera() of it. Its times are those of graph(), and
-    /// its images are valid until the next one is rendered.
+    /// The G-buffer of a frame with the lit colour `lit` (RGB), and camera() of it. Its times are those of pass_list(),
+    /// and its images are valid until the next one is rendered.
     virtual GBuffer render(const FrameStep& step, unsigned seed, const HostImage& lit) = 0;
     virtual const CameraData& camera() const = 0;
-    virtual PassGraph& graph() = 0;
+    virtual PassList& pass_list() = 0;
 };
 
 /// Rasterises shot.scene. With shot.config.direct_lit its lit colour is rasterised direct light, and `lit` is not

@@ -21,7 +21,7 @@ public:
     /// free of the reference's noise. Pixels that are not finite do not count.
     void finish(const MetricReference& reference, const HostImage& tested, const std::vector<Mask>& masks);
 
-    /// `shared`: shot, frame, variant and point. Quantities: "error: " and a name of ray_verdict_names(), or
+    /// `shared`: shot, frame, technique and point. Quantities: "error: " and a name of ray_verdict_names(), or
     /// "error: untraced"; as shares of the whole error, which add up to 1. A share may come out below 0, where noise
     /// was taken off. Means over the seeds with Student's interval; none with a single seed. A mask without an error
     /// above 0 has no rows.

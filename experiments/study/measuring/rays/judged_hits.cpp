@@ -1,6 +1,6 @@
 #include "experiments/study/measuring/rays/judged_hits.h"
 
-#include "experiments/results/tables/verdict_map.h"
+#include "experiments/results/files/verdict_map.h"
 #include "metrics/statistics/estimates.h"
 #include "variants/tracers/outcome.h"
 

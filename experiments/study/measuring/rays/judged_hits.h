@@ -38,9 +38,9 @@ public:
     void add(unsigned seed, const RecordedRays& recorded, const std::vector<ExactHit>& truth, glm::uvec2 extent,
              unsigned every, const std::vector<Mask>& masks);
 
-    /// `shared`: shot, frame, variant and point. Means over the seeds with an interval: of shares that of counts, where
-    /// few rays change with the seed, else Student's; none with a single seed, nor of distances and fetches with fewer
-    /// than 4 seeds or 20 rays. A quantity that a seed lacks (no ray in the mask) is left to the others.
+    /// `shared`: shot, frame, technique and point. Means over the seeds with an interval: of shares that of counts,
+    /// where few rays change with the seed, else Student's; none with a single seed, nor of distances and fetches with
+    /// fewer than 4 seeds or 20 rays. A quantity that a seed lacks (no ray in the mask) is left to the others.
     std::vector<HitRow> rows(const HitRow& shared) const;
 
 private:

@@ -4,7 +4,7 @@
 
 #include "core/elapsed.h"
 #include "core/gpu/device.h"
-#include "experiments/study/measuring/render_variant.h"
+#include "experiments/study/measuring/render_technique.h"
 #include "experiments/study/measuring/times/clock_proofs.h"
 #include "experiments/study/measuring/times/timed_rounds.h"
 #include "variants/registry.h"
@@ -27,12 +27,12 @@ void add_rows(std::vector<TimeRow>& rows, TimeRow row, const std::vector<PassTim
     }
 }
 
-/// A variant with images and pipelines of its own, ready to render.
+/// A technique with images and pipelines of its own, ready to render.
 struct TimedCopy {
-    const VariantConfig& config;
+    const PointConfig& config;
     enum class Purpose { recorded, twin, complete } purpose;
-    std::unique_ptr<PassGraph> graph;
-    std::unique_ptr<Variant> variant;
+    std::unique_ptr<PassList> pass_list;
+    std::unique_ptr<Technique> technique;
     std::vector<LeftOut> kept_parts;  ///< by a complete copy: what the others leave out
     struct Frame {
         std::vector<PassTime> stages;
@@ -43,23 +43,23 @@ struct TimedCopy {
     bool is_spared = false;     ///< where time is short, as others of its technique and purpose are played
     bool plays = true;
 
-    TimedCopy(const VariantConfig& c, Purpose p, PassGraph& like)
+    TimedCopy(const PointConfig& c, Purpose p, PassList& like)
         : config(c),
           purpose(p),
-          graph(std::make_unique<PassGraph>(like.device(), like.extent())),
-          variant(make_variant(c.variant, c.parameters, c.preset)) {}
+          pass_list(std::make_unique<PassList>(like.device(), like.extent())),
+          technique(make_technique(c.technique, c.parameters, c.preset)) {}
 
     void render(const CameraData& camera, const GBuffer& gbuffer) {
-        render_variant(*graph, *variant, camera, config.seeds.front(), gbuffer);
-        graph->times();  // waits for the device: the next copy starts on an idle one
+        render_technique(*pass_list, *technique, camera, config.seeds.front(), gbuffer);
+        pass_list->times();  // waits for the device: the next copy starts on an idle one
     }
 
-    void record() { frames.push_back({graph->times(), graph->frame_milliseconds()}); }
+    void record() { frames.push_back({pass_list->times(), pass_list->frame_milliseconds()}); }
 
     /// The rows of one round; `row`: shot, frame, clock and load.
     void add_to(std::vector<TimeRow>& rows, size_t round, TimeRow row) const {
         if (purpose != Purpose::recorded) return;
-        row.variant = config.variant, row.point = config.point, row.seed = config.seeds.front();
+        row.technique = config.technique, row.point = config.point, row.seed = config.seeds.front();
         add_rows(rows, row, frames[round].stages);
         add_rows(rows, row, {{"total", frames[round].total}});
     }
@@ -98,24 +98,24 @@ TimingLoad load_of(const std::vector<RoundLoad>& rounds, const std::vector<size_
 /// Fewer tell next to nothing of the noise of times: of two pairs Student's t is 4.3.
 constexpr size_t fewest_twins = 3;
 
-std::vector<TimedCopy> make_copies(const Config& config, PassGraph& like, bool keep_all, const SceneFacts& facts) {
+std::vector<TimedCopy> make_copies(const Config& config, PassList& like, bool keep_all, const SceneFacts& facts) {
     using enum TimedCopy::Purpose;
     std::vector<TimedCopy> copies;
     std::set<std::string> has_twin, has_complete;  // techniques
     size_t twins = 0;
-    for (const VariantConfig& variant : config.variants) {
-        if (!variant.is_timed) continue;
+    for (const PointConfig& technique : config.techniques) {
+        if (!technique.is_timed) continue;
         std::vector<LeftOut> left_out;
         for (const auto purpose : {recorded, twin}) {
             if (purpose == twin && !config.timing.has_copies) continue;
-            TimedCopy& copy = copies.emplace_back(variant, purpose, like);
-            if (purpose == twin) copy.is_spared = !has_twin.insert(variant.variant).second && twins >= fewest_twins;
+            TimedCopy& copy = copies.emplace_back(technique, purpose, like);
+            if (purpose == twin) copy.is_spared = !has_twin.insert(technique.technique).second && twins >= fewest_twins;
             twins += purpose == twin;
-            if (!keep_all) left_out = copy.variant->leave_out(facts);
+            if (!keep_all) left_out = copy.technique->leave_out(facts);
         }
         if (left_out.empty() || !config.timing.has_copies) continue;
-        TimedCopy& copy = copies.emplace_back(variant, complete, like);
-        copy.is_spared = !has_complete.insert(variant.variant).second, copy.kept_parts = left_out;
+        TimedCopy& copy = copies.emplace_back(technique, complete, like);
+        copy.is_spared = !has_complete.insert(technique.technique).second, copy.kept_parts = left_out;
     }
     return copies;
 }
@@ -152,7 +152,7 @@ std::vector<Saving> savings_of(const std::vector<TimedCopy>& copies, const Round
         const TimedCopy& lean = recorded_like(copy, copies);
         std::vector<double> shares;
         for (const size_t round : rounds) shares.push_back(1 - lean.frames[round].total / copy.frames[round].total);
-        savings.push_back({.variant = copy.config.variant,
+        savings.push_back({.technique = copy.config.technique,
                            .point = copy.config.point,
                            .complete_ms = copy.median_total(rounds),
                            .share = median_interval(shares)});
@@ -165,7 +165,7 @@ std::vector<AaPair> pairs_of(const std::vector<TimedCopy>& copies, const RoundsO
     for (const TimedCopy& copy : copies)
         if (const std::vector<size_t> rounds = rounds_of(copy);
             copy.purpose == TimedCopy::Purpose::twin && !rounds.empty())
-            pairs.push_back({.variant = copy.config.variant,
+            pairs.push_back({.technique = copy.config.technique,
                              .point = copy.config.point,
                              .first_ms = recorded_like(copy, copies).median_total(rounds),
                              .second_ms = copy.median_total(rounds)});
@@ -188,7 +188,7 @@ void keep_what_fits(std::vector<TimedCopy>& copies, double most_ms) {
         if (copy.plays)
             most_ms -= copy.planned_ms;
         else
-            copy.graph.reset();  // its images
+            copy.pass_list.reset();  // its images
     }
 }
 
@@ -277,12 +277,12 @@ std::vector<std::vector<size_t>> timed_turns(size_t count, unsigned rounds) {
     return turns;
 }
 
-ShotTimes time_variants(FrameSource& source, const Shot& shot, const Config& config,
-                        const std::function<const HostImage&(unsigned frame)>& lit, bool keep_all, double budget,
-                        const std::function<void(double)>& report, const CpuTimesReader& cpu_times) {
+ShotTimes time_techniques(FrameSource& source, const Shot& shot, const Config& config,
+                          const std::function<const HostImage&(unsigned frame)>& lit, bool keep_all, double budget,
+                          const std::function<void(double)>& report, const CpuTimesReader& cpu_times) {
     ShotTimes result;
     const auto start = std::chrono::steady_clock::now();
-    std::vector<TimedCopy> copies = make_copies(config, source.graph(), keep_all, shot.facts);
+    std::vector<TimedCopy> copies = make_copies(config, source.pass_list(), keep_all, shot.facts);
     if (config.timing.frames == 0 || copies.empty()) return result;
 
     const unsigned warm_up = config.timing.warm_up, wanted = config.timing.frames,
@@ -292,7 +292,7 @@ ShotTimes time_variants(FrameSource& source, const Shot& shot, const Config& con
     std::vector<std::vector<PassTime>> source_times;  // by measured round
     const auto play = [&](const FrameStep& step) {
         const GBuffer gbuffer = source.render(step, 0, lit(step.frame));
-        source_times.push_back(source.graph().times());
+        source_times.push_back(source.pass_list().times());
         for (const size_t place : turns[step.index])
             if (copies[place].plays) copies[place].render(source.camera(), gbuffer);
     };
@@ -304,7 +304,7 @@ ShotTimes time_variants(FrameSource& source, const Shot& shot, const Config& con
         warm_seconds = seconds_since(start_of_round);
     }
     source_times.clear();
-    for (TimedCopy& copy : copies) copy.planned_ms = copy.graph->frame_milliseconds();
+    for (TimedCopy& copy : copies) copy.planned_ms = copy.pass_list->frame_milliseconds();
     const double seconds_per_ms = warm_seconds / std::max(playing_ms(copies), 1e-9);  // with the G-buffer's part
     budget -= seconds_since(start);
     keep_what_fits(copies, budget / least_rounds / seconds_per_ms);
@@ -334,7 +334,7 @@ ShotTimes time_variants(FrameSource& source, const Shot& shot, const Config& con
     const auto row_of = [&](size_t round) {
         return TimeRow{.shot = shot.name(),
                        .frame = unsigned(round),
-                       .clock = source.graph().clock() == Clock::host_fence ? "host_fence" : "gpu_timestamp",
+                       .clock = source.pass_list().clock() == Clock::host_fence ? "host_fence" : "gpu_timestamp",
                        .foreign_load = load.rounds()[round].foreign,
                        .is_disturbed = load.rounds()[round].is_disturbed()};
     };
@@ -354,7 +354,7 @@ nlohmann::json timing_entry(const ShotTimes& times, const std::string& shot, con
     if (times.load.largest) largest = *times.load.largest;
     for (const AaPair& p : times.pairs)
         pairs.push_back({{"shot", shot},
-                         {"variant", p.variant},
+                         {"technique", p.technique},
                          {"point", p.point},
                          {"first_ms", p.first_ms},
                          {"second_ms", p.second_ms},
@@ -363,7 +363,7 @@ nlohmann::json timing_entry(const ShotTimes& times, const std::string& shot, con
     nlohmann::json savings = nlohmann::json::array();
     for (const Saving& s : times.savings)
         savings.push_back({{"shot", shot},
-                           {"variant", s.variant},
+                           {"technique", s.technique},
                            {"point", s.point},
                            {"complete_ms", s.complete_ms},
                            {"share", s.share.value},

@@ -9,24 +9,24 @@
 
 #include <functional>
 
-/// Two copies of one variant, measured in the same rounds: what their medians differ by is noise.
+/// Two copies of one technique, measured in the same rounds: what their medians differ by is noise.
 struct AaPair {
-    std::string variant, point;
+    std::string technique, point;
     double first_ms = 0, second_ms = 0;  ///< medians of the total
 
     double floor() const;  ///< relative to the mean of the two
 };
 
-/// How much longer a stage, of which leave_out() names all or a part, takes in a third copy of the variant which leaves
-/// nothing out: the difference of the medians, the largest of all timed points. None under --keep-all.
+/// How much longer a stage, of which leave_out() names all or a part, takes in a third copy of the technique which
+/// leaves nothing out: the difference of the medians, the largest of all timed points. None under --keep-all.
 struct SavedTime {
     std::string stage;
     double milliseconds = 0;
 };
 
-/// What leaving out saves a variant point of its total.
+/// What leaving out saves a technique point of its total.
 struct Saving {
-    std::string variant, point;
+    std::string technique, point;
     double complete_ms = 0;  ///< median total of the copy that leaves nothing out
     Estimate share;          ///< of that, over the rounds: 1 - total / complete total
 };
@@ -51,23 +51,23 @@ struct ShotTimes {
 /// Frames that were disturbed are followed by others in their place, up to this many times config.timing.frames.
 inline constexpr unsigned most_repeated_frames = 2;
 
-/// Times the stages of every variant point that is to be timed, over config.timing.frames frames after its warm-up, if
-/// `budget` (seconds, all in all) is enough. Where it is not, every point gets least_rounds (timed_rounds.h), whatever
-/// they take; of the copies, which tell the noise of times and what leaving out saves, each technique has one of each
-/// kind, the study three twins, and the others as far as the budget allows; then the points whose order is open after
-/// least_rounds go on as long as the budget lasts. Frames in which other work took more than disturbing_load of the
-/// machine's CPU time are left out as long as the budget lasts for later ones in their place, or if enough others are
-/// there; where the machine stays busy the least disturbed count, and their rows say so (chosen_rounds()).
+/// Times the stages of every technique point that is to be timed, over config.timing.frames frames after its warm-up,
+/// if `budget` (seconds, all in all) is enough. Where it is not, every point gets least_rounds (timed_rounds.h),
+/// whatever they take; of the copies, which tell the noise of times and what leaving out saves, each technique has one
+/// of each kind, the study three twins, and the others as far as the budget allows; then the points whose order is open
+/// after least_rounds go on as long as the budget lasts. Frames in which other work took more than disturbing_load of
+/// the machine's CPU time are left out as long as the budget lasts for later ones in their place, or if enough others
+/// are there; where the machine stays busy the least disturbed count, and their rows say so (chosen_rounds()).
 ///
-/// A round is one frame of the shot, rendered once for all; the copies of the variants take turns in it, in an order
+/// A round is one frame of the shot, rendered once for all; the copies of the techniques take turns in it, in an order
 /// drawn anew each round, so that neither a drift of the machine's speed nor what ran before favours one of them. Each
 /// copy has images of its own and sees every frame of timed_steps() up to its last one, so that histories are as in
 /// the shot.
-/// `lit` gives the colour (RGB) which the variants read at a frame; it is called for frames of shot.config.frames.
+/// `lit` gives the colour (RGB) which the techniques read at a frame; it is called for frames of shot.config.frames.
 /// `report` gets the share done.
-ShotTimes time_variants(FrameSource& source, const Shot& shot, const Config& config,
-                        const std::function<const HostImage&(unsigned frame)>& lit, bool keep_all, double budget,
-                        const std::function<void(double)>& report, const CpuTimesReader& cpu_times = read_cpu_times);
+ShotTimes time_techniques(FrameSource& source, const Shot& shot, const Config& config,
+                          const std::function<const HostImage&(unsigned frame)>& lit, bool keep_all, double budget,
+                          const std::function<void(double)>& report, const CpuTimesReader& cpu_times = read_cpu_times);
 
 /// The shot's frames there and back again, `count` in all: as in the shot, each is a neighbour of the one before. At
 /// the turns no frame comes twice in a row, unless there is only one.

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/gpu/passes/pass_graph.h"
+#include "core/gpu/passes/pass_list.h"
 
 /// The shader, expanded and without #version, as one that calculates in double: every float, vector, matrix and literal
 /// of its functions becomes one of doubles. Uniforms, buffers and outputs keep their layout, and are rounded to where

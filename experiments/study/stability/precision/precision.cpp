@@ -9,7 +9,7 @@ const char* name_of(PrecisionKind kind) {
     return names[size_t(kind)];
 }
 
-std::vector<VariantConfig> precision_points() {
+std::vector<PointConfig> precision_points() {
     const auto with = [](const char* tracer) { return single_point("mcguire_dda", "", {{"tracer", tracer}}); };
     return {single_point("mcguire_dda"),
             with("hierarchy"),
@@ -32,15 +32,15 @@ std::vector<PrecisionRow> run_precision(Device& device, const StabilitySelection
                                         const std::function<void(const std::vector<PrecisionRow>&, double)>& done) {
     if (!device.has_doubles()) fail_machine("the Vulkan device '", device.info().name, "' has no doubles in shaders");
     const std::vector<StabilityCase> cases = chosen_cases(selection);
-    const std::vector<VariantConfig> points =
-        selection.variants.empty() ? precision_points() : all_points(selection.variants);
+    const std::vector<PointConfig> points =
+        selection.techniques.empty() ? precision_points() : all_points(selection.techniques);
     CaseDrawer drawer(device, folders.search_path, folders.cache, points);
     std::vector<PrecisionRow> rows = lobe_rows(device);
     for (size_t c = 0; c < cases.size(); ++c) {
         const PrecisionShot shot(drawer.draw(cases[c].scene, cases[c].faults));
         for (size_t p = 0; p < points.size(); ++p) {
             for (PrecisionRow& row : PrecisionJudge(device, shot, points[p]).rows()) {
-                row.case_name = cases[c].name, row.variant = points[p].variant, row.point = points[p].point;
+                row.case_name = cases[c].name, row.technique = points[p].technique, row.point = points[p].point;
                 rows.push_back(std::move(row));
             }
             done(rows, (double(c) + double(p + 1) / double(points.size())) / double(cases.size()));

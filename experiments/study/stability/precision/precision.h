@@ -8,7 +8,7 @@ enum class PrecisionKind {
     own,         ///< one image in the technique's own format, or all
     half,        ///< one image in half, or all
     input,       ///< one group of the G-buffer's images in half
-    arithmetic,  ///< one stage calculates in double, or all; of the variant "ggx_lobe" its functions alone
+    arithmetic,  ///< one stage calculates in double, or all; of the technique "ggx_lobe" its functions alone
     rays,        ///< the rays of a stage that calculates in double, as they begin
     march,       ///< where rays end that are the same to the bit, by a stage that calculates in double
 };
@@ -20,7 +20,7 @@ inline constexpr double negligible_share = 0.01;
 
 /// One comparison: a row of stability_precision.csv.
 struct PrecisionRow {
-    std::string case_name, variant, point;
+    std::string case_name, technique, point;
     PrecisionKind kind{};
     std::string stage, image, format;  ///< "" for all; `stage`: of an image those that write it
     std::optional<double> error;       ///< against the path-traced truth; relative_error()
@@ -41,7 +41,7 @@ struct PrecisionRow {
 
     static constexpr auto columns() {
         using Row = PrecisionRow;
-        return std::tuple(Column{"case", &Row::case_name}, Column{"variant", &Row::variant},
+        return std::tuple(Column{"case", &Row::case_name}, Column{"technique", &Row::technique},
                           Column{"point", &Row::point}, Column{"kind", &Row::kind}, Column{"stage", &Row::stage},
                           Column{"image", &Row::image}, Column{"format", &Row::format}, Column{"error", &Row::error},
                           Column{"change", &Row::change}, Column{"share_of_error", &Row::share},
@@ -55,17 +55,17 @@ struct PrecisionRow {
 
 /// Points that are compared if none are named: what each technique is known for, and a technique of one mirror ray with
 /// each kind of march.
-std::vector<VariantConfig> precision_points();
+std::vector<PointConfig> precision_points();
 
 /// Runs every point through every case of the table, one image and one stage at a time. `done` gets all rows so far
-/// with the share of the work that is behind it. Without `selection.variants` precision_points(). Fails with Error on
+/// with the share of the work that is behind it. Without `selection.techniques` precision_points(). Fails with Error on
 /// unknown names.
 std::vector<PrecisionRow> run_precision(
     Device& device, const StabilitySelection& selection, const StabilityFolders& folders,
     const std::function<void(const std::vector<PrecisionRow>& rows, double share)>& done);
 
 /// What the functions of core/shared/brdf.h and variants/common/ggx_lobe.h make of the same arguments, in rows of the
-/// variant "ggx_lobe": directions of visible normals, their densities and weights, and the BRDF, by roughness.
+/// technique "ggx_lobe": directions of visible normals, their densities and weights, and the BRDF, by roughness.
 std::vector<PrecisionRow> lobe_rows(Device& device);
 
 /// The table of cases that comes with ssrlab.

@@ -20,7 +20,7 @@ private:
 /// One technique in one case: each image in other formats, each stage in double.
 class PrecisionJudge {
 public:
-    PrecisionJudge(Device& device, const PrecisionShot& shot, VariantConfig point)
+    PrecisionJudge(Device& device, const PrecisionShot& shot, PointConfig point)
         : device_(device), shot_(shot), point_(std::move(point)) {}
 
     std::vector<PrecisionRow> rows();
@@ -45,7 +45,7 @@ private:
 
     Device& device_;
     const PrecisionShot& shot_;
-    VariantConfig point_;
+    PointConfig point_;
     PrecisionRun floats_;  ///< all in float
     double error_ = 0;     ///< of it
     std::vector<PrecisionRow> rows_;

@@ -9,35 +9,36 @@ namespace {
 class LobePasses {
 public:
     LobePasses(Device& device, float roughness, bool is_double)
-        : graph_(device, {256, 256}), alpha_(ggx_alpha(roughness)) {
-        graph_.begin_frame(CameraData{}, no_parameters_, {});
-        graph_.set_changes({.format_of = {}, .glsl_of = double_where([=](const std::string&) { return is_double; })});
+        : pass_list_(device, {256, 256}), alpha_(ggx_alpha(roughness)) {
+        pass_list_.begin_frame(CameraData{}, no_parameters_, {});
+        pass_list_.set_changes(
+            {.format_of = {}, .glsl_of = double_where([=](const std::string&) { return is_double; })});
     }
     HostImage drawn_directions() {
-        graph_.compute("experiments/study/stability/precision/lobe_draws.comp")
+        pass_list_.compute("experiments/study/stability/precision/lobe_draws.comp")
             .write(image("direction"))
             .set("alpha", alpha_)
             .run();
-        return graph_.download(image("direction"));
+        return pass_list_.download(image("direction"));
     }
     /// Density, weight and BRDF.
     std::vector<HostImage> values(const HostImage& directions) {
-        graph_.upload(image("direction"), directions);
-        PassGraph::Pass pass = graph_.compute("experiments/study/stability/precision/lobe_values.comp");
+        pass_list_.upload(image("direction"), directions);
+        PassList::Pass pass = pass_list_.compute("experiments/study/stability/precision/lobe_values.comp");
         pass.read(image("direction")).set("alpha", alpha_);
         for (const char* name : value_names) pass.write(image(name));
         pass.run({256, 256});
         std::vector<HostImage> values;
-        for (const char* name : value_names) values.push_back(channels_of(graph_.download(image(name)), 0, 1));
+        for (const char* name : value_names) values.push_back(channels_of(pass_list_.download(image(name)), 0, 1));
         return values;
     }
     static constexpr const char* value_names[] = {"density", "weight", "brdf"};
 
 private:
-    Image image(const std::string& name) { return graph_.image(name, Format::rgba32f); }
+    Image image(const std::string& name) { return pass_list_.image(name, Format::rgba32f); }
 
     const ParameterSet no_parameters_;
-    PassGraph graph_;
+    PassList pass_list_;
     float alpha_;
 };
 
@@ -47,7 +48,7 @@ std::vector<PrecisionRow> lobe_rows(Device& device) {
     std::vector<PrecisionRow> rows;
     for (const float roughness : {0.0f, 0.1f, 0.3f, 1.0f}) {
         const auto add = [&](const std::string& function, std::vector<double> differences) {
-            PrecisionRow row{.variant = "ggx_lobe",
+            PrecisionRow row{.technique = "ggx_lobe",
                              .point = "roughness=" + shortest_digits(roughness),
                              .kind = PrecisionKind::arithmetic,
                              .stage = "lobe",

@@ -1,7 +1,7 @@
 #include "experiments/study/stability/precision/precision_run.h"
 
 #include "core/gbuffer/gbuffer_transfer.h"
-#include "experiments/study/measuring/render_variant.h"
+#include "experiments/study/measuring/render_technique.h"
 #include "experiments/study/stability/amplification.h"
 
 #include <algorithm>
@@ -11,28 +11,28 @@ namespace {
 
 /// The G-buffer with some of its images in half.
 struct RoundedInputs {
-    std::unique_ptr<PassGraph> graph;
+    std::unique_ptr<PassList> pass_list;
     GBuffer gbuffer;
 };
 
 RoundedInputs rounded_inputs(Device& device, const CaseFrame& frame, const std::set<std::string>& in_half) {
-    RoundedInputs rounded{std::make_unique<PassGraph>(device, frame.host->extent()), {}};
-    rounded.graph->set_changes(
+    RoundedInputs rounded{std::make_unique<PassList>(device, frame.host->extent()), {}};
+    rounded.pass_list->set_changes(
         {.format_of = [&in_half](const std::string& image,
                                  Format asked) { return in_half.contains(image) ? as_float16(asked) : asked; },
          .glsl_of = {}});
-    rounded.gbuffer = upload_gbuffer(*rounded.graph, *frame.host);
+    rounded.gbuffer = upload_gbuffer(*rounded.pass_list, *frame.host);
     rounded.gbuffer.environment = frame.gbuffer.environment;
     return rounded;
 }
 
 }  // namespace
 
-PrecisionRun run_precisely(Device& device, const VariantConfig& point, const CaseFrames& frames,
+PrecisionRun run_precisely(Device& device, const PointConfig& point, const CaseFrames& frames,
                            const PrecisionWish& wish) {
     const Renderer technique(device, frames.shot->config.extent, point);
-    technique.variant->limits = Limits::none;  // not every API filters floats
-    PassGraph& graph = *technique.graph;
+    technique.technique->limits = Limits::none;  // not every API filters floats
+    PassList& pass_list = *technique.pass_list;
     RayProbe& probe = *technique.probe;
     PrecisionRun run;
     std::optional<RoundedInputs> inputs;
@@ -48,11 +48,12 @@ PrecisionRun run_precisely(Device& device, const VariantConfig& point, const Cas
         probe.is_recording = wish.is_recording && is_last;
         if (is_last) probe.replayed = wish.replayed;
         // From the first frame on, so that images begin alike in all runs.
-        graph.observe([&](const std::string& stage, std::span<const Image> written) {
+        pass_list.observe([&](const std::string& stage, std::span<const Image> written) {
             if (!is_last) return;
             if (!std::ranges::count(run.stages, stage)) run.stages.push_back(stage);
             for (const Image& image : written) {
-                StageValue value{stage, graph.asked_name(image), image.first_mip, image.format, graph.download(image)};
+                StageValue value{stage, pass_list.asked_name(image), image.first_mip, image.format,
+                                 pass_list.download(image)};
                 // A pass whose rays are recorded runs twice.
                 if (StageValue* known = run.find(value))
                     *known = std::move(value);
@@ -60,12 +61,12 @@ PrecisionRun run_precisely(Device& device, const VariantConfig& point, const Cas
                     run.values.push_back(std::move(value));
             }
         });
-        graph.set_changes(wish.changes);
+        pass_list.set_changes(wish.changes);
         const Reflections reflections = technique.render(frame.camera, stability_seed, gbuffer);
-        graph.observe({});
-        graph.set_changes({});
+        pass_list.observe({});
+        pass_list.set_changes({});
         const Composite composite = technique.compositor->render(frame.gbuffer, reflections);
-        if (is_last) run.specular = channels_of(graph.download(composite.specular), 0, 3);
+        if (is_last) run.specular = channels_of(pass_list.download(composite.specular), 0, 3);
     }
     run.rays = std::move(probe.recorded);
     return run;

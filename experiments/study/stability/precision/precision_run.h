@@ -29,7 +29,7 @@ struct PrecisionRun {
 };
 
 /// Renders the frames with seed 1. Fails with Error where the technique, or the device, cannot.
-PrecisionRun run_precisely(Device& device, const VariantConfig& point, const CaseFrames& frames,
+PrecisionRun run_precisely(Device& device, const PointConfig& point, const CaseFrames& frames,
                            const PrecisionWish& wish);
 
 /// How far values are apart, each as |a - b| / max(|a|, |b|): 0 of equal ones, 1 where one of them is 0 or not finite.

@@ -59,7 +59,7 @@ def check_descriptions():
 
 def check_studies():
     """The comparison names points that there are, and searches name settings."""
-    externals = [v["external"] for v in read_json(ENGINES / "engines.json", has_comments=True)["variants"] if "external" in v]
+    externals = [v["external"] for v in read_json(ENGINES / "engines.json", has_comments=True)["techniques"] if "external" in v]
     check(len(externals) > 5, "engines are compared")
     for external in externals:
         name, point = Path(external).name.split(".", 1)

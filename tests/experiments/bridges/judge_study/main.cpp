@@ -48,10 +48,10 @@ public:
     /// Of frames whose point is `point` against frames as they are.
     std::string judge(const std::string& point, std::span<const unsigned> frames,
                       std::span<const unsigned> before) const {
-        const std::vector<VariantConfig> variants = {side("frames", false), side("before", true)};
+        const std::vector<PointConfig> techniques = {side("frames", false), side("before", true)};
         StudyRows chosen;
         take(point, frames, "frames", chosen), take("as_is", before, "before", chosen);
-        std::vector<EffectRow> effects = paired_effects(chosen.results, variants, {}, chosen.reference_noise);
+        std::vector<EffectRow> effects = paired_effects(chosen.results, techniques, {}, chosen.reference_noise);
         set_verdicts(effects, {});
         return judge_effects(effects, {}, {"three_ssr", "frames"}, {"three_ssr", "before"}).verdict;
     }
@@ -67,8 +67,8 @@ public:
     }
 
 private:
-    static VariantConfig side(const std::string& point, bool is_baseline) {
-        VariantConfig v{.variant = "three_ssr", .preset = "", .parameters = {}, .swept = {}, .point = point};
+    static PointConfig side(const std::string& point, bool is_baseline) {
+        PointConfig v{.technique = "three_ssr", .preset = "", .parameters = {}, .swept = {}, .point = point};
         v.seeds.resize(seeds), v.is_baseline = is_baseline;
         std::iota(v.seeds.begin(), v.seeds.end(), 0u);
         return v;
@@ -90,14 +90,14 @@ private:
             }
     }
 
-    fs::path run(const std::string& variants, const std::string& out) {
+    fs::path run(const std::string& techniques, const std::string& out) {
         char shot[200];
         std::snprintf(shot, sizeof shot, R"({"scene": "%s", "resolution": [%u, %u], "warm_up": 4})", case_.scene,
                       extent_.x, extent_.y);
         write_text(folder_ / "study.json", R"({"shots": [)" + std::string(shot) +
                                                R"(], "reference": {"samples": 256}, "metrics": "mse",
-            "targets": ["specular", "image"], "timing": {"frames": 0}, "variants": [)" +
-                                               variants + "]}");
+            "targets": ["specular", "image"], "timing": {"frames": 0}, "techniques": [)" +
+                                               techniques + "]}");
         run_study(read_config(folder_ / "study.json"), {.out = folder_ / out,
                                                         .cache = folder_ / "cache",
                                                         .search_path = {fs::path(SSRLAB_SOURCE_DIR) / "scenes"},
@@ -107,7 +107,7 @@ private:
 
     RenderedFrame render(unsigned seed) {
         const fs::path out =
-            run(R"({"variant": ")" + std::string(case_.technique) + R"(", "seeds": [)" + std::to_string(seed) + "]}",
+            run(R"({"technique": ")" + std::string(case_.technique) + R"(", "seeds": [)" + std::to_string(seed) + "]}",
                 "own");
         if (truth_.values.empty()) {
             const nlohmann::json manifest = read_json(out / "manifest.json");

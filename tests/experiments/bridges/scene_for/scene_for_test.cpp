@@ -42,7 +42,7 @@ struct SceneForTest : StudyTest {
     HostGBuffer drawn(const Scene& scene, const SceneCamera& camera, unsigned frame) {
         Rasterizer rasterizer(device(), scene, {.extent = extent});
         const GBuffer gbuffer = rasterizer.render(camera, {.extent = extent, .frame = frame, .index = 0u});
-        return download_gbuffer(rasterizer.graph(), gbuffer, rasterizer.camera(), DepthFormat::d32f);
+        return download_gbuffer(rasterizer.pass_list(), gbuffer, rasterizer.camera(), DepthFormat::d32f);
     }
     static Device& device() {
         static Device device;
@@ -128,7 +128,7 @@ TEST_F(SceneForTest, LightIsThatOfAStudyAndItsProof) {
     describe_frames(folder / "frames");
     write_text(folder / "study.json",
                R"({"shots": [{"scene": "mirror_pillars", "resolution": [96, 54]}], "reference": {"samples": 64},
-            "variants": [{"external": "frames"}], "metrics": ["mse"], "masks": ["all"], "timing": {"frames": 0}})");
+            "techniques": [{"external": "frames"}], "metrics": ["mse"], "masks": ["all"], "timing": {"frames": 0}})");
     const fs::path out = run(read_config(folder / "study.json"), "out");
     const nlohmann::json manifest = read_json(out / "manifest.json");
     EXPECT_NE(manifest.dump().find(" pixels of background and emission 0 differ from the truth\""), std::string::npos);
@@ -158,7 +158,7 @@ TEST_F(SceneForTest, HalvesOfTheLightShowWhatItsNoiseDoesToReflections) {
     describe_frames(folder / "frames", R"(, "given_light": true)");
     write_text(folder / "study.json",
                R"({"shots": [{"scene": "normal_mapped", "resolution": [96, 54]}], "reference": {"samples": 64},
-            "variants": [{"external": "frames"}], "metrics": ["mse"], "targets": ["specular"], "masks": ["all"], "timing": {"frames": 0}})");
+            "techniques": [{"external": "frames"}], "metrics": ["mse"], "targets": ["specular"], "masks": ["all"], "timing": {"frames": 0}})");
     const auto lit_noise = [&](const std::string& out) {
         const auto rows = read_rows<ResultRow>(run(read_config(folder / "study.json"), out) / "results.csv");
         return rows.at(0).lit_noise.value();

@@ -89,7 +89,7 @@ def check(is_true, what):
 
 def record(program, folder, name, *options):
     page = os.path.join(folder, name + ".html")
-    command = [program, "record", "rotating_mirror", "--variant", "diligent_ssr", "--size", *SIZE, "--frames", FRAMES]
+    command = [program, "record", "rotating_mirror", "--technique", "diligent_ssr", "--size", *SIZE, "--frames", FRAMES]
     done = subprocess.run(
         [*command, "--samples", "4", "--out", page, *options],
         env={**os.environ, "SSRLAB_CACHE": os.path.join(folder, "cache")},

@@ -7,7 +7,7 @@
 #include "experiments/live/record/texel_stream.h"
 #include "experiments/study/config/points/all_points.h"
 #include "experiments/study/measuring/rehearsal.h"
-#include "experiments/study/measuring/render_variant.h"
+#include "experiments/study/measuring/render_technique.h"
 #include "tests/error_message.h"
 #include "tests/experiments/cli/command_line_fixture.h"
 
@@ -27,12 +27,12 @@ struct SmallRecording {
     std::set<unsigned> params_read;
     std::vector<std::vector<std::string>> stages;  ///< that were timed, of each frame
 
-    explicit SmallRecording(const VariantConfig& point) {
+    explicit SmallRecording(const PointConfig& point) {
         Device device;
         const HostGBuffer empty = empty_gbuffer({45, 27});
         const Renderer renderer(device, empty.extent(), point);
-        PassGraph inputs(device, empty.extent());
-        Recorder recorder(*renderer.graph, texels, reads);
+        PassList inputs(device, empty.extent());
+        Recorder recorder(*renderer.pass_list, texels, reads);
         for (unsigned index = 0; index < 3; ++index) {
             const GBuffer gbuffer = upload_gbuffer(inputs, empty);
             CameraData camera = empty.camera;
@@ -41,7 +41,7 @@ struct SmallRecording {
             const Reflections reflections = renderer.render(camera, 1, gbuffer);
             frames.push_back(recorder.end_frame(reflections));
             stages.emplace_back();
-            for (const PassTime& time : renderer.graph->times()) stages.back().push_back(time.stage);
+            for (const PassTime& time : renderer.pass_list->times()) stages.back().push_back(time.stage);
         }
         images = recorder.images(), programs = recorder.programs(), lists = recorder.command_lists();
         params_read = recorder.params_read();
@@ -52,18 +52,19 @@ struct SmallRecording {
 
 TEST_F(CommandLine, RecordRefusesWhatNoBrowserCanReplay) {
     const std::string record = "record mirror_pillars --size 32 18 --samples 1 --out page.html ";
-    expect_mistake(record + "--variant mcguire_dda", "pass mcguire_dda/trace is a compute shader");
-    expect_mistake(record + "--variant none", "none has no passes");
-    expect_mistake(record + "--variant diligent_ssr --preset vulkan", "pass diligent_ssr/depth_hierarchy");
-    expect_mistake(record + "--variant diligent_sr", "did you mean 'diligent_ssr'?");
-    expect_mistake(record + "--variant diligent_ssr --preset curent", "did you mean 'current'?");
-    expect_mistake(record + "--variant diligent_ssr --set roughness_treshold=1", "did you mean 'roughness_threshold'?");
-    expect_mistake(record + "--variant diligent_ssr --frames 5-2", "ends before it begins");
-    expect_mistake(record + "--variant diligent_ssr --frames all", "--frames: 'all' must be a frame");
-    expect_mistake(record + "--variant diligent_ssr --frames 0-5000", "more than the 1000 that a page holds");
-    expect_mistake(record + "--variant diligent_ssr --camera man", "did you mean 'main'?");
-    expect_mistake("record mirror_pilars --variant diligent_ssr --out page.html", "did you mean 'mirror_pillars'?");
-    expect_mistake("record mirror_pillars --variant diligent_ssr --size 1920 1080 --frames 0-9 --out page.html",
+    expect_mistake(record + "--technique mcguire_dda", "pass mcguire_dda/trace is a compute shader");
+    expect_mistake(record + "--technique none", "none has no passes");
+    expect_mistake(record + "--technique diligent_ssr --preset vulkan", "pass diligent_ssr/depth_hierarchy");
+    expect_mistake(record + "--technique diligent_sr", "did you mean 'diligent_ssr'?");
+    expect_mistake(record + "--technique diligent_ssr --preset curent", "did you mean 'current'?");
+    expect_mistake(record + "--technique diligent_ssr --set roughness_treshold=1",
+                   "did you mean 'roughness_threshold'?");
+    expect_mistake(record + "--technique diligent_ssr --frames 5-2", "ends before it begins");
+    expect_mistake(record + "--technique diligent_ssr --frames all", "--frames: 'all' must be a frame");
+    expect_mistake(record + "--technique diligent_ssr --frames 0-5000", "more than the 1000 that a page holds");
+    expect_mistake(record + "--technique diligent_ssr --camera man", "did you mean 'main'?");
+    expect_mistake("record mirror_pilars --technique diligent_ssr --out page.html", "did you mean 'mirror_pillars'?");
+    expect_mistake("record mirror_pillars --technique diligent_ssr --size 1920 1080 --frames 0-9 --out page.html",
                    "record fewer or smaller frames");
     EXPECT_FALSE(fs::exists(folder / "page.html"));
 }
@@ -130,7 +131,7 @@ TEST(Record, HoldsMipsOfOddSizesAndStencils) {
 
 TEST(Record, HasSlidersForWhatOnlyShadersRead) {
     Device device;
-    const VariantConfig point = single_point("diligent_ssr");
+    const PointConfig point = single_point("diligent_ssr");
     SmallRecording recording(point);
     const json parameters = recorded_parameters(device, point, {32, 18}, recording.params_read, recording.reads);
     std::map<std::string, json> by_name;

@@ -2,7 +2,7 @@
 #include "experiments/live/watch/page_numbers.h"
 #include "core/error.h"
 #include "experiments/results/verdicts/judgement.h"
-#include "experiments/results/verdicts/study_tables.h"
+#include "experiments/results/verdicts/study_results.h"
 #include "tests/error_message.h"
 #include "tests/experiments/report/report_fixture.h"
 #include "tests/experiments/report/report_study_fixture.h"
@@ -24,15 +24,15 @@ protected:
     void TearDown() override { fs::remove_all(folder); }
 };
 
-WatchedPoint point(const std::string& variant, const std::string& preset) {
-    return {.variant = "./technique/" + variant, .preset = preset, .label = variant + " " + preset};
+WatchedPoint point(const std::string& technique, const std::string& preset) {
+    return {.technique = "./technique/" + technique, .preset = preset, .label = technique + " " + preset};
 }
 
 }  // namespace
 
 TEST_F(PageNumbers, VerdictsAreTheJudges) {
     write_study_fixture(folder);
-    const StudyTables tables = read_study_tables(folder);
+    const StudyResults tables = read_study_results(folder);
     const WatchedPoint fixed = point("sssr", "fixed"), first = point("sssr", "first");
     const nlohmann::json page = page_numbers(folder, fixed, {first}, images);
     ASSERT_EQ(page["verdicts"].size(), 2u) << "and no reflections";
@@ -60,7 +60,7 @@ TEST_F(PageNumbers, VerdictsAreTheJudges) {
 
 TEST_F(PageNumbers, TimesEstimatesAndCausesAreThoseOfThePoint) {
     write_study_fixture(folder);
-    const StudyTables tables = read_study_tables(folder);
+    const StudyResults tables = read_study_results(folder);
     const WatchedPoint fixed = point("sssr", "fixed"), first = point("sssr", "first");
     const nlohmann::json times = page_times(folder, fixed, {first});
     const auto of_fixed = [](const auto& row) { return row.point == "fixed"; };

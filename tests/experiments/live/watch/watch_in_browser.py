@@ -232,8 +232,8 @@ def check_kept_folder(page, out):
     causes = {c["cause"]: c["share"] for c in news["why"]["causes"]}
     check(abs(sum(causes.values()) - 1) < 1e-6 and len(page.text("causes").splitlines()) >= len(causes), f"causes: {causes}")
     with open(os.path.join(out, "kept", "summary.csv"), newline="", encoding="utf-8") as file:
-        variants = {row["variant"] for row in csv.DictReader(file)}
-    check(variants == {"none", "my_ssr_1"}, f"kept versions have {variants}")
+        techniques = {row["technique"] for row in csv.DictReader(file)}
+    check(techniques == {"none", "my_ssr_1"}, f"kept versions have {techniques}")
     check(os.path.exists(os.path.join(out, "kept", "report.html")), "kept versions have no report")
     numbers = os.path.join(out, "numbers", "my_ssr_1")
     same = subprocess.run([PROGRAM, "diff", numbers, numbers], capture_output=True, text=True)

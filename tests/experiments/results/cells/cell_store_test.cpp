@@ -22,7 +22,8 @@ struct CellStoreTest : testing::Test {
     void TearDown() override { fs::remove_all(folder); }
 
     nlohmann::json image(const std::string& stem) {
-        nlohmann::json entry = {{"shot", "s"}, {"frame", 0}, {"variant", "v"}, {"kind", "result"}, {"target", "image"}};
+        nlohmann::json entry = {
+            {"shot", "s"}, {"frame", 0}, {"technique", "v"}, {"kind", "result"}, {"target", "image"}};
         for (const std::string kind : {"exr", "png"}) {
             const std::string name = "images/s/" + stem + "." + kind;
             write_text(folder / name, stem + kind);

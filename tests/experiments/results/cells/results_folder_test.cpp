@@ -138,7 +138,7 @@ TEST_F(StudyTest, KeepsTheProvenanceOfEachCell) {
 TEST_F(StudyTest, ListsWhatIsStaleAndRemovesItWhenAsked) {
     Config study = config(R"("sky_only")");
     const fs::path out = run(study, "a");
-    for (VariantConfig& variant : study.variants) variant.seeds = {7};  // other cells of the same study
+    for (PointConfig& technique : study.techniques) technique.seeds = {7};  // other cells of the same study
     write_text(out / "images/mine.png", "a user's own");
     run(study, "a");
     EXPECT_EQ(count_cells(out), 5u) << "the references are the same";
@@ -166,9 +166,9 @@ TEST_F(StudyTest, ListsWhatIsStaleAndRemovesItWhenAsked) {
 TEST_F(StudyTest, ErrorImagesHoldErrors) {
     const fs::path out = run(config(R"("mirror_pillars")"), "a");
     const nlohmann::json manifest = read_json(out / "manifest.json");
-    const auto image = [&](const char* variant, const char* kind) {
+    const auto image = [&](const char* technique, const char* kind) {
         for (const auto& i : manifest["images"])
-            if (i["variant"] == variant && i["kind"] == kind && i["target"] == "specular") return i;
+            if (i["technique"] == technique && i["kind"] == kind && i["target"] == "specular") return i;
         return nlohmann::json();
     };
     const nlohmann::json entry = image("none", "error");
@@ -212,13 +212,13 @@ TEST_F(StudyTest, SweepsOfManyParametersFitIntoFileNames) {
     write_text(folder / "study.json",
                R"({"shots": [{"scene": "fence", "resolution": [32, 18]}], "reference": {"samples": 16},
         "timing": {"frames": 0}, "targets": ["specular"], "metrics": ["mse"],
-        "variants": [{"variant": "mcguire_dda", "sweep": {"hierarchy.max_traversal_intersections": [128],
+        "techniques": [{"technique": "mcguire_dda", "sweep": {"hierarchy.max_traversal_intersections": [128],
             "hierarchy.min_traversal_occupancy": [4], "hierarchy.depth_buffer_thickness": [0.015],
             "max_roughness": [0.2], "hierarchy.thickness_at_hit_mip": [true],
             "tracer": ["hierarchy"], "hierarchy.clip_ray_to_near_plane": [true]}}]})");
     const Config study = read_config(folder / "study.json");
-    ASSERT_EQ(study.variants.size(), 1u);
-    EXPECT_LE(study.variants.front().point.size(), 58u);
+    ASSERT_EQ(study.techniques.size(), 1u);
+    EXPECT_LE(study.techniques.front().point.size(), 58u);
     const nlohmann::json manifest = read_json(run(study, "a") / "manifest.json");
     for (const auto& image : manifest["images"])
         EXPECT_TRUE(fs::exists(folder / "a" / image["png"].get<std::string>())) << image["png"];
@@ -227,7 +227,7 @@ TEST_F(StudyTest, SweepsOfManyParametersFitIntoFileNames) {
 TEST_F(StudyTest, KeepsTheImagesOfEveryMeasuredFrame) {
     Config study =
         config(R"("mirror_pillars", "camera": "dolly", "frames": 3, "measure_from": 1)", R"(, "images": "all")");
-    study.variants.erase(study.variants.begin());
+    study.techniques.erase(study.techniques.begin());
     const auto kept = [&] {
         const nlohmann::json manifest = read_json(run(study, "a") / "manifest.json");
         std::map<std::string, std::vector<std::pair<unsigned, std::string>>>

@@ -13,7 +13,7 @@ TEST(Tables, QuoteWhatNeedsIt) {
     const auto folder = std::filesystem::temp_directory_path() / "ssrlab_tables_test";
     Cell cell;
     cell.times.push_back({.shot = "a.b.1x1",
-                          .variant = "v",
+                          .technique = "v",
                           .point = "x=\"1,2\"",
                           .seed = 3,
                           .stage = "s",
@@ -24,7 +24,7 @@ TEST(Tables, QuoteWhatNeedsIt) {
                           .is_disturbed = true});
     write_tables(folder, rows_of({cell}));
     EXPECT_EQ(read_text(folder / "times.csv"),
-              "shot,variant,point,seed,stage,frame,milliseconds,clock,foreign_load,disturbed\n"
+              "shot,technique,point,seed,stage,frame,milliseconds,clock,foreign_load,disturbed\n"
               "a.b.1x1,v,\"x=\"\"1,2\"\"\",3,s,4,0.5,host_fence,0.25,1\n");
     std::filesystem::remove_all(folder);
 }
@@ -34,7 +34,7 @@ TEST(Tables, GiveSplitsAFileOfTheirOwn) {
     Cell cell;
     cell.splits.push_back({.shot = "s",
                            .frame = "7",
-                           .variant = "v",
+                           .technique = "v",
                            .point = "p",
                            .target = "specular",
                            .mask = "all",

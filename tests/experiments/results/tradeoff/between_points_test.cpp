@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/results/tables/markdown.h"
+#include "experiments/results/files/markdown.h"
 #include "experiments/results/tradeoff/numpy_random.h"
 
 // Curves, draws and fits of `ssrlab tradeoff`, by closed forms.
@@ -13,10 +13,10 @@
 namespace {
 
 /// `half`: of the error's interval; `spread`: of the times, relative; all points are slow in the same frames.
-MeasuredPoint point(const std::string& variant, double error, double half, double cost, double spread = 0,
+MeasuredPoint point(const std::string& technique, double error, double half, double cost, double spread = 0,
                     std::vector<double> seeds = {}) {
     MeasuredPoint p;
-    p.row.variant = variant, p.row.point = std::to_string(cost), p.row.verdict = "front";
+    p.row.technique = technique, p.row.point = std::to_string(cost), p.row.verdict = "front";
     p.row.error = error, p.row.error_low = error - half, p.row.error_high = error + half;
     if (seeds.empty()) seeds = {error};
     for (size_t i = 0; i < seeds.size(); ++i) p.seeds.emplace_back(unsigned(i), seeds[i]);

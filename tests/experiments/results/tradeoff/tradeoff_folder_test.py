@@ -25,15 +25,15 @@ PRESETS = {"none": (0.2, 8.0), "v:rays=1": (4.0, 2.0), "v:rays=2": (8.0, 1.0), "
 
 
 COLUMNS = {  # of the files that ssrlab reads, which refuses those that lack one
-    "summary.csv": "shot,frame,variant,point,target,metric,formula,mask,seeds,value,low,high,interval,ranked,seed_deviation,floor,lit_noise,corrected,value_of_power,value_of_bounded,pixels,non_finite,negative,represents_shot,standing,over_best,over_best_low,over_best_high,p_best,p_equivalent,fronts,dominated",
-    "results.csv": "shot,scene,camera,frame,width,height,variant,point,seed,target,metric,formula,mask,value,corrected,uncorrected,low,high,floor,lit_noise,lit_half_width,pixels,non_finite,negative,represents_shot",
-    "times.csv": "shot,variant,point,seed,stage,frame,milliseconds,clock,foreign_load,disturbed",
-    "time_summary.csv": "shot,variant,point,stage,clock,frames,median_ms,low_ms,high_ms,fits_from_ms,may_fit_from_ms,disturbed_share",
-    "effects.csv": "shot,frame,variant,point,against,against_variant,against_point,target,metric,formula,mask,seeds,ratio,low,high,interval,p,family,p_holm,low_holm,high_holm,p_equivalent,p_equivalent_holm,verdict",
-    "over_scenes.csv": "target,metric,mask,variant,point,baseline_variant,baseline_point,scenes,shots,ratio,low,high,rank,rank_low,rank_high,over_best,over_best_low,over_best_high,p_holm,p_equivalent,chance_first,chance_near,standing",
-    "time_effects.csv": "shot,variant,point,against,against_variant,against_point,stage,clock,rounds,ratio,low,high,p,p_holm,low_holm,high_holm,verdict",
-    "costs.csv": "shot,variant,point,stage,quantity,value",
-    "estimates.csv": "shot,variant,point,stage,chip,product,microseconds,low,high,bound,vector,scalar,shared_memory,textures,targets,memory,latency,caches,waves,active_lanes,unmatched,cut_lanes,refusal",
+    "summary.csv": "shot,frame,technique,point,target,metric,formula,mask,seeds,value,low,high,interval,ranked,seed_deviation,floor,lit_noise,corrected,value_of_power,value_of_bounded,pixels,non_finite,negative,represents_shot,standing,over_best,over_best_low,over_best_high,p_best,p_equivalent,fronts,dominated",
+    "results.csv": "shot,scene,camera,frame,width,height,technique,point,seed,target,metric,formula,mask,value,corrected,uncorrected,low,high,floor,lit_noise,lit_half_width,pixels,non_finite,negative,represents_shot",
+    "times.csv": "shot,technique,point,seed,stage,frame,milliseconds,clock,foreign_load,disturbed",
+    "time_summary.csv": "shot,technique,point,stage,clock,frames,median_ms,low_ms,high_ms,fits_from_ms,may_fit_from_ms,disturbed_share",
+    "effects.csv": "shot,frame,technique,point,against,against_technique,against_point,target,metric,formula,mask,seeds,ratio,low,high,interval,p,family,p_holm,low_holm,high_holm,p_equivalent,p_equivalent_holm,verdict",
+    "over_scenes.csv": "target,metric,mask,technique,point,baseline_technique,baseline_point,scenes,shots,ratio,low,high,rank,rank_low,rank_high,over_best,over_best_low,over_best_high,p_holm,p_equivalent,chance_first,chance_near,standing",
+    "time_effects.csv": "shot,technique,point,against,against_technique,against_point,stage,clock,rounds,ratio,low,high,p,p_holm,low_holm,high_holm,verdict",
+    "costs.csv": "shot,technique,point,stage,quantity,value",
+    "estimates.csv": "shot,technique,point,stage,chip,product,microseconds,low,high,bound,vector,scalar,shared_memory,textures,targets,memory,latency,caches,waves,active_lanes,unmatched,cut_lanes,refusal",
 }
 NUMBERS = ("seeds", "corrected", "pixels", "non_finite", "negative", "frames", "rounds", "width", "height", "seed", "disturbed", "represents_shot", "ranked", "frame")  # where a row says nothing of them, 0
 
@@ -46,10 +46,10 @@ def write_csv(folder, name, rows):
         writer.writerows({c: r.get(c, 0 if c in NUMBERS else "") for c in columns} for r in rows)
 
 
-def own_times(shot, variant, point, ms):
+def own_times(shot, technique, point, ms):
     """A row of time_summary.csv: two copies differ by 2 % at most."""
     ends = {"low_ms": ms / 1.01, "high_ms": 1.01 * ms, "fits_from_ms": 1.02 * ms, "may_fit_from_ms": ms / 1.02}
-    return {"shot": shot, "variant": variant, "point": point, "stage": "total", "clock": "host_fence", "median_ms": ms, "disturbed_share": 0} | ends
+    return {"shot": shot, "technique": technique, "point": point, "stage": "total", "clock": "host_fence", "median_ms": ms, "disturbed_share": 0} | ends
 
 
 def write_study(folder):
@@ -59,22 +59,22 @@ def write_study(folder):
     keys = {name: tuple(name.partition(":")[::2]) for name in PRESETS}
     keys = {name: (v, p or "default") for name, (v, p) in keys.items()}
     errors, times, counts, estimates, effects = [], [], [], [], []
-    errors += [{"shot": "moon", "variant": "none", "point": "default", "frame": 0, "target": "specular", "metric": "mse", "mask": "reflective", "value": 1, "represents_shot": 1}]
-    oracle = {"variant": "oracle", "point": "default", "frame": 0, "target": "specular", "metric": "mse", "mask": "reflective", "represents_shot": 1, "seed": 0}
+    errors += [{"shot": "moon", "technique": "none", "point": "default", "frame": 0, "target": "specular", "metric": "mse", "mask": "reflective", "value": 1, "represents_shot": 1}]
+    oracle = {"technique": "oracle", "point": "default", "frame": 0, "target": "specular", "metric": "mse", "mask": "reflective", "represents_shot": 1, "seed": 0}
     errors += [oracle | {"shot": s, "value": 0.01, "low": 0.01, "high": 0.01, "ranked": 1} for s in shots]
     # Over the frames of `sky` there is next to no error, and no time.
-    nearly_none = {"shot": "sky", "variant": "none", "frame": "", "value": 0.0015, "low": 0.0014, "high": 0.0016, "ranked": 1, "floor": 0.001}
+    nearly_none = {"shot": "sky", "technique": "none", "frame": "", "value": 0.0015, "low": 0.0014, "high": 0.0016, "ranked": 1, "floor": 0.001}
     errors.append(oracle | nearly_none)
     for number, a_shot in enumerate(shots):
         for name, (ms, error) in PRESETS.items():
-            own = {"shot": a_shot, "variant": keys[name][0], "point": keys[name][1]}
+            own = {"shot": a_shot, "technique": keys[name][0], "point": keys[name][1]}
             row = own | {"frame": 0, "target": "specular", "metric": "mse", "mask": "reflective", "value": error * (number + 1), "represents_shot": 1}
             standing = {"standing": "best"} if name == "v:rays=8" else {"standing": "behind", "p_best": 0.001, "p_equivalent": 1}
             errors.append(row | {"low": row["value"] * 0.99, "high": row["value"] * 1.01, "ranked": 1, "floor": 0.001, "seed": 0} | standing)
             for frame in range(FRAMES):
                 times.append(own | {"seed": 0, "stage": "total", "frame": frame, "milliseconds": ms * (1 + 0.01 * (frame % 3)), "clock": "host_fence", "disturbed": 0})
                 times.append(own | {"stage": "v/march", "frame": frame, "milliseconds": 500, "clock": "host_fence"})
-                times.append(own | {"variant": "", "point": "", "stage": "gbuffer/draw", "frame": frame, "milliseconds": 1000, "clock": "host_fence"})
+                times.append(own | {"technique": "", "point": "", "stage": "gbuffer/draw", "frame": frame, "milliseconds": 1000, "clock": "host_fence"})
             counts += [own | {"stage": stage, "quantity": "fetches", "value": round(50 * ms)} for stage in ("march", "shade")]
             on_chip = own | {"chip": "navi21", "product": "Radeon RX 6800 XT"}
             estimates += [on_chip | {"stage": "march", "microseconds": 500, "low": 500, "high": 500}]
@@ -82,10 +82,10 @@ def write_study(folder):
                 estimates += [on_chip | {"stage": "total", "refusal": "march: the compiler ended"}]
             else:
                 estimates += [on_chip | {"stage": "total", "microseconds": 10 * ms, "low": 9 * ms, "high": 10.5 * ms}]
-        compared = {"shot": a_shot, "variant": "v", "point": "rays=2", "against_variant": "v", "against_point": "rays=1", "target": "specular"}
+        compared = {"shot": a_shot, "technique": "v", "point": "rays=2", "against_technique": "v", "against_point": "rays=1", "target": "specular"}
         effects.append(compared | {"metric": "mse", "mask": "reflective", "ratio": 0.5, "low": 0.49, "high": 0.51, "p_holm": 0.001, "low_holm": 0.48, "high_holm": 0.52, "verdict": "less"})
     write_csv(folder, "summary.csv", errors)
-    over_scenes = {"target": "specular", "metric": "mse", "mask": "all", "variant": "v", "point": "rays=1", "scenes": 3, "ratio": 0.25, "low": 0.2, "high": 0.3}
+    over_scenes = {"target": "specular", "metric": "mse", "mask": "all", "technique": "v", "point": "rays=1", "scenes": 3, "ratio": 0.25, "low": 0.2, "high": 0.3}
     write_csv(folder, "over_scenes.csv", [over_scenes])  # tradeoff compares anew, by its own baseline and shots
     write_csv(folder, "results.csv", errors)
     write_csv(folder, "times.csv", times)
@@ -94,7 +94,7 @@ def write_study(folder):
     write_csv(folder, "costs.csv", counts)
     write_csv(folder, "estimates.csv", estimates)
     write_csv(folder, "effects.csv", effects)
-    of_times = {"variant": "v", "point": "rays=2", "against_variant": "v", "against_point": "rays=1", "stage": "total", "ratio": 2, "low": 2, "high": 2}
+    of_times = {"technique": "v", "point": "rays=2", "against_technique": "v", "against_point": "rays=1", "stage": "total", "ratio": 2, "low": 2, "high": 2}
     write_csv(folder, "time_effects.csv", [of_times | {"shot": s, "p": 0.001, "p_holm": 0.002, "low_holm": 1.9, "high_holm": 2.1, "verdict": "more"} for s in shots])
     manifest = {
         "title": "Made up",
@@ -104,9 +104,9 @@ def write_study(folder):
         "study": {"name": "made_up", "config": "made_up.json"},
         "provenance": [{"ssrlab": {"commit": "abc1234"}, "host": {"name": n, "cpu": "c", "cores": 2}, "device": {"name": "d"}, "cells": [{"what": f"{s}: {names_of_cells[n]}"} for s in of]} for n, of in MACHINES],
         "shots": [{"shot": s, "scene": s, "width": 64, "height": 36, "truth_ladder": [{"rung": "on_screen", "target": "specular", "metric": "mse", "mask": "reflective", "value": 0.1}]} for s in (*shots, "sky")],
-        "variants": [{"variant": v, "point": p, "parameters": {"rays": int(p[-1])} if "=" in p else {}} for v, p in keys.values()],
+        "techniques": [{"technique": v, "point": p, "parameters": {"rays": int(p[-1])} if "=" in p else {}} for v, p in keys.values()],
     }
-    manifest["variants"].append({"variant": "oracle", "point": "default", "uses_scene_data": True, "parameters": {}})
+    manifest["techniques"].append({"technique": "oracle", "point": "default", "uses_scene_data": True, "parameters": {}})
     with open(os.path.join(folder, "manifest.json"), "w", encoding="utf-8") as stream:
         json.dump(manifest, stream)
 
@@ -142,12 +142,12 @@ class Folder(unittest.TestCase):
         self.assertEqual(front["floor", "w"]["verdict"], "dominated")
         self.assertEqual((front["floor", "w"]["dominated_by"], front["floor", "v rays=8"]["is_nominal_front"]), ("v rays=1", "1"))
         self.assertAlmostEqual(float(front["floor", "v rays=1"]["cost"]), 4.04)  # of `total` alone, in the middle of 4, 4.04, 4.08
-        at = {(r["shot"], r["variant"], float(r["cost"])): r for r in read(self.out, "error_at_cost.csv")}
+        at = {(r["shot"], r["technique"], float(r["cost"])): r for r in read(self.out, "error_at_cost.csv")}
         self.assertAlmostEqual(float(at["wall", "v", 10]["error"]), 2 * 8.08 / 10, places=5)
         self.assertEqual(at["wall", "v", 3]["status"], "before start")
         self.assertEqual((at["wall", "v", 10]["point"], at["wall", "v", 3]["error"]), ("rays=2", ""))
         self.assertEqual((at["wall", "v", 10]["point_error"], at["wall", "v", 10]["chosen_on"]), ("2", "other scenes"))  # as it ran
-        to = {(r["shot"], r["variant"]): r for r in read(self.out, "cost_to_error.csv")}
+        to = {(r["shot"], r["technique"]): r for r in read(self.out, "cost_to_error.csv")}
         self.assertAlmostEqual(float(to["roof", "v"]["cost"]), 16.16, places=3)
         self.assertEqual((to["roof", "w"]["status"], to["roof", "w"]["cost"]), ("not reached", ""))
         self.assertEqual((at["floor", "v", 10]["status"], at["floor", "v", 4.1]["status"]), ("between", "between"))
@@ -175,7 +175,7 @@ class Folder(unittest.TestCase):
         self.assertIn("| v rays=1: rays: 1 -> 2 | wall | -50 [-52, -48] |", answers)
         self.assertIn("Multiples leave out sky:", answers)
         self.assertIn("The timer was not validated in 1 of 3 shots", answers)
-        rows = [r for r in read(self.out, "across.csv") if r["variant"] == "v" and r["cost"] == "10"]
+        rows = [r for r in read(self.out, "across.csv") if r["technique"] == "v" and r["cost"] == "10"]
         self.assertEqual([(r["machine"].split()[0], r["scenes"]) for r in rows], [("first", "2"), ("second", "1")])
         self.assertEqual(len([r for r in read(self.out, "stages.csv") if not r["shot"]]), 2)
 
@@ -185,7 +185,7 @@ class Folder(unittest.TestCase):
         return {(c.row.split(", ")[-1], c.column): c for c in cells if c.row.startswith("first")}, about
 
     def test_answers_become_tables_of_documents(self):
-        at_cost = {"of": "at_cost", "where": {"cost": ["10", "3"]}, "rows": ["machine", "variant"], "columns": "cost"}
+        at_cost = {"of": "at_cost", "where": {"cost": ["10", "3"]}, "rows": ["machine", "technique"], "columns": "cost"}
         cells, about = self.cells(**at_cost)
         self.assertAlmostEqual(cells["v", "10"].value, 0.125, places=3)
         self.assertEqual((cells["v", "10"].mean_of, about["over"], about["over_count"]), (2, "scene", 4))
@@ -194,7 +194,7 @@ class Folder(unittest.TestCase):
         self.assertAlmostEqual(changes["rays: 1 -> 2", "error"].value, 0.5)
         self.assertAlmostEqual(changes["rays: 1 -> 2", "cost"].value, 4.04)
         self.assertIsNone(changes["rays: 1 -> 2", "cost per % of error"].value, "two scenes are too few to give it")
-        _, over_scenes = cells_of(Results(self.folder), Table({"name": "t", "caption": "", "of": "over_scenes", "rows": ["variant", "point"], "columns": "mask"}))
+        _, over_scenes = cells_of(Results(self.folder), Table({"name": "t", "caption": "", "of": "over_scenes", "rows": ["technique", "point"], "columns": "mask"}))
         self.assertEqual([(c.row, c.column, c.value, c.low, c.high, c.mean_of) for c in over_scenes], [("v, rays=1", "all", 0.25, 0.2, 0.3, 3)])
         # What was answered of other errors is none of these.
         summary = os.path.join(self.folder, "summary.csv")
@@ -214,7 +214,7 @@ class Folder(unittest.TestCase):
     def test_counted_costs_take_the_place_of_times(self):
         out = os.path.join(self.folder, "counted")
         self.assertEqual(run(self.folder, "--cost", "fetches", "--times", "1000", "--out", out), (0, ""))
-        at = {(r["shot"], r["variant"]): r for r in read(out, "error_at_cost.csv")}
+        at = {(r["shot"], r["technique"]): r for r in read(out, "error_at_cost.csv")}
         self.assertAlmostEqual(float(at["floor", "v"]["error"]), 0.8, places=6)
         self.assertEqual({r["cost_low"] for r in read(out, "front.csv") if r["label"] == "w"}, {"600"})
         self.assertIn("costs.csv has no 'bytes', and estimates.csv no such chip; known are: fetches, navi21", run(self.folder, "--cost", "bytes")[1])
@@ -227,7 +227,7 @@ class Folder(unittest.TestCase):
         self.assertEqual((front["floor", "w"]["cost"], front["floor", "w"]["verdict"]), ("", "no cost"))
         unit = "us on navi21, estimated"
         self.assertEqual({r["unit"] for name in ("front", "across", "error_at_cost", "stages") for r in read(out, f"{name}.csv")}, {unit})
-        at = {(r["shot"], r["variant"], float(r["cost"])): r for r in read(out, "error_at_cost.csv")}
+        at = {(r["shot"], r["technique"], float(r["cost"])): r for r in read(out, "error_at_cost.csv")}
         self.assertEqual(at["floor", "v", 41]["fits"], "maybe")  # its interval ends at 42
         # 80 us, up to 84 by sampling: measured times were up to 12.8 times such estimates.
         self.assertEqual((at["floor", "v", 100]["point"], at["floor", "v", 100]["fits"]), ("rays=2", "maybe"))

@@ -16,7 +16,7 @@ ResultRow row(const std::string& frame, const std::string& point, unsigned seed,
               double value) {
     ResultRow r{.shot = "s",
                 .frame = frame,
-                .variant = "v",
+                .technique = "v",
                 .point = point,
                 .seed = seed,
                 .target = "specular",
@@ -27,13 +27,13 @@ ResultRow row(const std::string& frame, const std::string& point, unsigned seed,
     return r;
 }
 
-const std::vector<ComparedPoint> two_points = {{.variant = "v", .point = "base", .is_baseline = true},
-                                               {.variant = "v", .point = "better"}};
+const std::vector<ComparedPoint> two_points = {{.technique = "v", .point = "base", .is_baseline = true},
+                                               {.technique = "v", .point = "better"}};
 
-std::vector<EffectRow> effects_of(std::vector<ResultRow> rows, const std::vector<ComparedPoint>& variants,
+std::vector<EffectRow> effects_of(std::vector<ResultRow> rows, const std::vector<ComparedPoint>& techniques,
                                   const PointSet& not_repeatable = {}) {
     mark_representative_rows(rows);
-    return paired_effects(rows, variants, not_repeatable);
+    return paired_effects(rows, techniques, not_repeatable);
 }
 
 }  // namespace
@@ -66,17 +66,17 @@ TEST(Effects, AreRatiosPairedBySeed) {
 
 /// Beside the baseline's comparisons, under a name of their own.
 TEST(Effects, AreAlsoToldAgainstThePointThatIsOtherwiseTheSame) {
-    const std::vector<ComparedPoint> variants = {
-        {.variant = "v", .point = "base", .is_baseline = true},
-        {.variant = "v", .point = "plain"},
-        {.variant = "v", .point = "changed", .against = "form=x taps=4", .against_point = "plain"}};
+    const std::vector<ComparedPoint> techniques = {
+        {.technique = "v", .point = "base", .is_baseline = true},
+        {.technique = "v", .point = "plain"},
+        {.technique = "v", .point = "changed", .against = "form=x taps=4", .against_point = "plain"}};
     const std::map<std::string, double> errors = {{"base", 8}, {"plain", 2}, {"changed", 1}};
     std::vector<ResultRow> rows;
     for (const auto& [point, error] : errors)
         for (unsigned seed = 0; seed < 3; ++seed)
             rows.push_back(row("0", point, seed, "mse", error * (1 + 0.01 * double(seed * (point == "base" ? 1 : 2)))));
     std::map<std::string, const EffectRow*> found;
-    const std::vector<EffectRow> effects = effects_of(rows, variants);
+    const std::vector<EffectRow> effects = effects_of(rows, techniques);
     for (const EffectRow& e : effects) found[e.point + "/" + e.against + "/" + e.against_point] = &e;
     ASSERT_EQ(effects.size(), 3u);
     ASSERT_EQ(found.size(), 3u);
@@ -90,20 +90,21 @@ TEST(Effects, AreAlsoToldAgainstThePointThatIsOtherwiseTheSame) {
 TEST(Effects, CompareWithAPointWithoutSeeds) {
     std::vector<ResultRow> rows = {row("0", "base", 0, "mse", 2)};
     for (unsigned seed = 3; seed < 6; ++seed) rows.push_back(row("0", "better", seed, "mse", 0.9 + 0.1 * (seed - 3)));
-    std::vector<ComparedPoint> variants = two_points;
-    EXPECT_EQ(effects_of(rows, variants).at(0).interval, interval::no_value) << "no seed in common";
-    variants[0].depends_on_seed = false;
-    const EffectRow e = effects_of(rows, variants).at(0);
+    std::vector<ComparedPoint> techniques = two_points;
+    EXPECT_EQ(effects_of(rows, techniques).at(0).interval, interval::no_value) << "no seed in common";
+    techniques[0].depends_on_seed = false;
+    const EffectRow e = effects_of(rows, techniques).at(0);
     EXPECT_EQ(e.seeds, 3u);
     EXPECT_NEAR(*e.ratio, 0.5, 1e-12);
     // Student's interval of the mean of 0.9, 1, 1.1 over 2: 4.303 * 0.1 / sqrt(3) / 2 about 0.5, a little more above
     // than below as the logarithm is what is normal.
     EXPECT_NEAR(*e.high / *e.low, std::exp(2 * 4.3027 * 0.1 / std::sqrt(3.0)), 0.005);
-    std::swap(variants[0].is_baseline, variants[1].is_baseline);
-    EXPECT_NEAR(*effects_of(rows, variants).at(0).low, 1 / *e.high, 1e-12);
+    std::swap(techniques[0].is_baseline, techniques[1].is_baseline);
+    EXPECT_NEAR(*effects_of(rows, techniques).at(0).low, 1 / *e.high, 1e-12);
     // Nothing is random but the reference, of which nothing is known.
-    rows.back().seed = 0, variants[1].depends_on_seed = false;
-    EXPECT_EQ(effects_of(std::vector{rows.front(), rows.back()}, variants).at(0).interval, interval::unknown_reference);
+    rows.back().seed = 0, techniques[1].depends_on_seed = false;
+    EXPECT_EQ(effects_of(std::vector{rows.front(), rows.back()}, techniques).at(0).interval,
+              interval::unknown_reference);
 }
 
 TEST(Effects, PairSeedsByTheirNumber) {
@@ -231,7 +232,7 @@ TEST(Effects, OfWhatVariesFromRunToRunAreRatiosAlone) {
         rows.push_back(row("0", "third", seed, "mse", 2 + seed));
     }
     std::vector<ComparedPoint> points = two_points;
-    points.push_back({.variant = "v", .point = "third"});
+    points.push_back({.technique = "v", .point = "third"});
     for (const char* varies : {"base", "better"}) {
         const std::vector<EffectRow> effects = effects_of(rows, points, {{"v", varies}});
         ASSERT_EQ(effects.size(), 2u);
@@ -284,17 +285,17 @@ TEST(Effects, HoldWhatNoisyLightMayHaveAdded) {
 TEST(Effects, HaveNoEndsBeyondAllNumbers) {
     constexpr int points = 20;
     for (const double half_width : {600.0, 800.0}) {  // of the logarithm; e^709 is the largest number
-        std::vector<ComparedPoint> variants = {{.variant = "v", .point = "base", .is_baseline = true}};
+        std::vector<ComparedPoint> techniques = {{.technique = "v", .point = "base", .is_baseline = true}};
         std::vector<ResultRow> rows;
         for (unsigned seed = 0; seed < 3; ++seed) rows.push_back(row("0", "base", seed, "mse", 1 + 0.1 * seed));
         for (int i = 0; i < points; ++i) {
-            variants.push_back({.variant = "v", .point = std::to_string(i)});
+            techniques.push_back({.technique = "v", .point = std::to_string(i)});
             for (unsigned seed = 0; seed < 3; ++seed) {
-                rows.push_back(row("0", variants.back().point, seed, "mse", 1 + 0.1 * seed));
+                rows.push_back(row("0", techniques.back().point, seed, "mse", 1 + 0.1 * seed));
                 rows.back().lit_noise = 0, rows.back().lit_half_width = half_width * 1.1;  // the mean is 1.1
             }
         }
-        std::vector<EffectRow> effects = effects_of(rows, variants);
+        std::vector<EffectRow> effects = effects_of(rows, techniques);
         set_verdicts(effects, {.metric = "mse", .mask = "all", .target = "specular"});
         ASSERT_EQ(effects.size(), size_t(points));
         for (const EffectRow& e : effects) {
@@ -337,7 +338,7 @@ TEST(Effects, TellBiasFromVariance) {
     std::vector<SplitRow> rows;
     for (const auto& [point, split] : {std::pair("base", &base), std::pair("better", &better)})
         for (SplitRow& r : split_rows(*split, std::vector{full_mask({64, 64})},
-                                      {.shot = "s", .frame = "7", .variant = "v", .point = point, .target = "t"}))
+                                      {.shot = "s", .frame = "7", .technique = "v", .point = point, .target = "t"}))
             rows.push_back(std::move(r));
     const std::vector<EffectRow> effects = split_effects(rows, two_points);
     ASSERT_EQ(effects.size(), 2u);

@@ -75,13 +75,13 @@ def judge(folder):
     errors = {}
     for r in rows("summary.csv"):
         if r["standing"]:
-            errors.setdefault(r["shot"], {})[r["variant"], r["point"]] = r
+            errors.setdefault(r["shot"], {})[r["technique"], r["point"]] = r
     for shot, points in errors.items():
         ordered = sorted(points, key=lambda p: (points[p]["p_best"] != "", float(points[p]["value"])))
         of_standings(witnesses, "summary.csv", shot, {p: points[p]["standing"] for p in ordered})
     for r in rows("effects.csv"):
         if r["verdict"]:
-            witnesses.add("effects.csv", r["shot"], (r["variant"], r["point"]), (r["against_variant"], r["against_point"]), r["verdict"])
+            witnesses.add("effects.csv", r["shot"], (r["technique"], r["point"]), (r["against_technique"], r["against_point"]), r["verdict"])
     page = report(witnesses, folder, errors)
     tables(witnesses, folder, errors, rows("effects.csv"))
     tradeoff(witnesses, folder)
@@ -101,8 +101,8 @@ def report(witnesses, folder, errors):
     for answer in page["answers"]:
         if not answer["best"]:
             continue
-        best = (answer["best"]["variant"], answer["best"]["point"])
-        of = {kind: {(t["variant"], t["point"]) for t in answer[kind]} for kind in ("near", "tied")}
+        best = (answer["best"]["technique"], answer["best"]["point"])
+        of = {kind: {(t["technique"], t["point"]) for t in answer[kind]} for kind in ("near", "tied")}
         for point, row in errors.get(answer["shot"], {}).items():
             if point == best:
                 continue
@@ -116,8 +116,8 @@ def report(witnesses, folder, errors):
 
 def add_tables(folder, manifest, names):
     """Asks for a table of all errors and one of all effects."""
-    levels = {"name": "levels", "caption": "c", "of": "results", "where": names, "rows": ["variant", "point"], "columns": "shot", "best": "column"}
-    changes = {"name": "changes", "caption": "c", "of": "effects", "where": names, "rows": ["variant", "point", "against_variant", "against_point", "against"], "columns": "shot"}
+    levels = {"name": "levels", "caption": "c", "of": "results", "where": names, "rows": ["technique", "point"], "columns": "shot", "best": "column"}
+    changes = {"name": "changes", "caption": "c", "of": "effects", "where": names, "rows": ["technique", "point", "against_technique", "against_point", "against"], "columns": "shot"}
     manifest["config"] = (manifest.get("config") or {}) | {"tables": [levels, changes]}
     maker = {"ssrlab": {"commit": "abc1234", "dirty": False, "code": "00ff", "estimators": 7}, "device": {"name": "d"}, "finished": "2026-01-31T12:05:00Z"}
     manifest.setdefault("provenance", [maker | {"cells": []}])
@@ -126,7 +126,7 @@ def add_tables(folder, manifest, names):
         proof.setdefault("shots", [])
     for shot in manifest["shots"]:
         shot.update({"width": shot.get("width", 64), "height": shot.get("height", 36)})
-    for entry in manifest["variants"]:  # rows are named by variant and point, not by labels
+    for entry in manifest["techniques"]:  # rows are named by technique and point, not by labels
         entry.pop("label", None)
     with open(os.path.join(folder, "manifest.json"), "w", encoding="utf-8") as stream:
         json.dump(manifest, stream)
@@ -153,12 +153,12 @@ def tables(witnesses, folder, errors, effects):
     assert len(head) == len(lines[0]), (head, lines[0])
     rows = {line[0].replace("\\", ""): line[1:] for line in lines[2:]}
     for r in effects:
-        name = ", ".join(r[k] for k in ("variant", "point", "against_variant", "against_point", "against"))
+        name = ", ".join(r[k] for k in ("technique", "point", "against_technique", "against_point", "against"))
         if r["verdict"] and name in rows and r["shot"] in head:
             cell = rows[name][head.index(r["shot"])]
             assert ("**" in cell) == (r["verdict"] in (LESS, MORE)), (cell, r)
             verdict = r["verdict"] if "**" not in cell else LESS if float(r["ratio"]) < 1 else MORE
-            witnesses.add("table of effects", r["shot"], (r["variant"], r["point"]), (r["against_variant"], r["against_point"]), verdict)
+            witnesses.add("table of effects", r["shot"], (r["technique"], r["point"]), (r["against_technique"], r["against_point"]), verdict)
 
 
 def tradeoff(witnesses, folder):
@@ -167,12 +167,12 @@ def tradeoff(witnesses, folder):
     out = os.path.join(folder, "tradeoff")
     dominated, undecided = set(), set()
     for r in read(out, "pairs.csv"):
-        a, b = (r["variant"], r["point"]), (r["other_variant"], r["other_point"])
+        a, b = (r["technique"], r["point"]), (r["other_technique"], r["other_point"])
         witnesses.add("pairs.csv", r["shot"], a, b, r["error_verdict"])
         for key, first in (("dominates", b), ("is_dominated", a)):
             {"yes": dominated, "maybe": undecided}.get(r[key], set()).add((r["shot"], *first))
     for r in read(out, "front.csv"):
-        point = (r["shot"], r["variant"], r["point"])
+        point = (r["shot"], r["technique"], r["point"])
         if r["verdict"] in ("front", "undecided", "dominated"):
             verdict = "dominated" if point in dominated else "undecided" if point in undecided else "front"
             assert r["verdict"] == verdict, (point, r["verdict"], verdict)
@@ -241,7 +241,7 @@ def errors_by_law(r):
 
 def over_scenes(folder, manifest, found, summary, page):
     """over_scenes.csv against its rules; what the report and tradeoff say is what stands there."""
-    baseline = lambda r: (r["baseline_variant"], r["baseline_point"])  # noqa: E731
+    baseline = lambda r: (r["baseline_technique"], r["baseline_point"])  # noqa: E731
     of_pairs = [r for r in found if not r["rank"] and baseline(r) != baseline(found[0])]
     found = [r for r in found if r not in of_pairs]
     entries = {s["shot"]: s for s in manifest["shots"]}
@@ -251,12 +251,12 @@ def over_scenes(folder, manifest, found, summary, page):
     for r in representative:
         largest[r["shot"]] = max(largest.get(r["shot"], 0), float(r["value"]))
     for r in representative:
-        if (r["variant"], r["point"]) == baseline(found[0]) and r["low"] and float(r["low"]) > 0 and min(errors_by_law(r)) > 0:
+        if (r["technique"], r["point"]) == baseline(found[0]) and r["low"] and float(r["low"]) > 0 and min(errors_by_law(r)) > 0:
             if float(r["value"]) > max(2 * float(r["floor"] or 0), 1e-6 * largest[r["shot"]]):
                 base[r["shot"]] = errors_by_law(r)
-    all_logs, using_scene = {}, {(v["variant"], v["point"]) for v in manifest["variants"] if v.get("uses_scene_data")}
+    all_logs, using_scene = {}, {(v["technique"], v["point"]) for v in manifest["techniques"] if v.get("uses_scene_data")}
     for r in representative:
-        key = (r["variant"], r["point"])
+        key = (r["technique"], r["point"])
         is_without_bias = r["interval"] == "none: 1 seed" and (r["corrected"] == "1" or r["floor"] == "0" or r["value_of_power"])  # scenes are the sample
         if (r["ranked"] == "1" and r["low"] or is_without_bias) and r["shot"] in base and min(errors_by_law(r)) > 0:
             all_logs.setdefault(key, {})[r["shot"]] = np.log(errors_by_law(r) / base[r["shot"]])
@@ -264,7 +264,7 @@ def over_scenes(folder, manifest, found, summary, page):
     ranked = [k for k, v in logs.items() if len(v) >= 0.9 * len(base)]
     common = [s for s in base if all(s in logs[k] for k in ranked)]
     logs |= {k: {s: logs[k][s] for s in common} for k in ranked}
-    rows = {(r["variant"], r["point"]): r for r in found}
+    rows = {(r["technique"], r["point"]): r for r in found}
     assert rows.keys() == logs.keys(), (rows.keys(), logs.keys())
     pooled = pooled_pairs(logs, ranked, asset_of)
     means = {k: by_laws(v, asset_of, pooled) for k, v in logs.items()}
@@ -276,7 +276,7 @@ def over_scenes(folder, manifest, found, summary, page):
     adjusted = adjusted_for_choice({k: v[3] for k, v in against.items() if v[3] is not None}, degrees)
     exponential = lambda v: None if v is None else math.exp(v)  # noqa: E731
     for r in of_pairs:
-        own, other = all_logs[r["variant"], r["point"]], all_logs[baseline(r)]
+        own, other = all_logs[r["technique"], r["point"]], all_logs[baseline(r)]
         mean = by_laws({s: own[s] - other[s] for s in own if s in other}, asset_of, NOT_POOLED)
         assert all(close(r[c], exponential(v)) for c, v in zip(("ratio", "low", "high"), mean)), (r, mean)
     for key, r in rows.items():
@@ -301,7 +301,7 @@ def over_scenes(folder, manifest, found, summary, page):
         likely = max(chances, key=chances.get)
         assert not tied or f"Probability to err least on average: {name(likely)} {chances[likely]:.2f}" in sentence, (sentence, chances)
 
-    across = {(r["variant"], r["point"]): r for r in read(os.path.join(folder, "tradeoff"), "across.csv") if not r["cost"] and not r["group"]}
+    across = {(r["technique"], r["point"]): r for r in read(os.path.join(folder, "tradeoff"), "across.csv") if not r["cost"] and not r["group"]}
     assert across.keys() == rows.keys(), across.keys() ^ rows.keys()
     for key, r in rows.items():
         for column in ("scenes", "shots", "ratio", "low", "high", "rank", "rank_low", "rank_high", "p_holm", "p_equivalent", "chance_first", "chance_near", "standing"):

@@ -29,7 +29,7 @@ std::vector<ShotErrors> shots_of(const std::vector<std::vector<double>>& of_poin
 
 std::map<std::string, OverScenes> by_name(const std::vector<OverScenes>& rows) {
     std::map<std::string, OverScenes> found;
-    for (const OverScenes& row : rows) found[row.variant] = row;
+    for (const OverScenes& row : rows) found[row.technique] = row;
     return found;
 }
 
@@ -228,7 +228,7 @@ TEST(OverScenes, WhatIsTrulyTheBestIsHardlyEverBehind) {
 }
 
 TEST(OverScenes, DivisorsAreNoNoise) {
-    MetricSummary base{.shot = "s", .variant = "none", .point = "default"}, large{.shot = "s", .variant = "x"};
+    MetricSummary base{.shot = "s", .technique = "none", .point = "default"}, large{.shot = "s", .technique = "x"};
     base.value = 1, base.low = 0.9, base.floor = 0.4, large.value = 100;
     const auto divisor = [&] {
         const MetricSummary* errors[] = {&base, &large};
@@ -249,20 +249,22 @@ TEST(OverScenes, DivisorsAreNoNoise) {
 
 TEST(OverScenes, TheBaselineIsNoneElseTheStudysFirst) {
     nlohmann::json manifest = {
-        {"variants", {{{"variant", "a"}, {"point", "x"}}, {{"variant", "b"}, {"point", "y"}, {"baseline", true}}}}};
+        {"techniques",
+         {{{"technique", "a"}, {"point", "x"}}, {{"technique", "b"}, {"point", "y"}, {"baseline", true}}}}};
     EXPECT_EQ(baseline_over_scenes(manifest), PointName("b", "y"));
-    manifest["variants"].push_back({{"variant", "none"}, {"point", "default"}});
+    manifest["techniques"].push_back({{"technique", "none"}, {"point", "default"}});
     EXPECT_EQ(baseline_over_scenes(manifest), PointName("none", "default"));
-    manifest["variants"].erase(2), manifest["variants"].erase(1);
+    manifest["techniques"].erase(2), manifest["techniques"].erase(1);
     EXPECT_EQ(baseline_over_scenes(manifest), PointName("a", "x"));
 }
 
 TEST(OverScenes, EveryErrorHasItsRows) {
     std::vector<MetricSummary> errors;
-    const auto add = [&](const std::string& shot, const std::string& variant, const std::string& metric, double value) {
+    const auto add = [&](const std::string& shot, const std::string& technique, const std::string& metric,
+                         double value) {
         MetricSummary e{.shot = shot,
                         .frame = "0",
-                        .variant = variant,
+                        .technique = technique,
                         .point = "default",
                         .target = "specular",
                         .metric = metric,
@@ -274,30 +276,31 @@ TEST(OverScenes, EveryErrorHasItsRows) {
         for (const char* metric : {"mse", "ssim"})
             add(shot, "none", metric, 1), add(shot, "half", metric, 0.5), add(shot, "exact", metric, 0.1);
     const nlohmann::json manifest = {
-        {"variants",
-         {{{"variant", "none"}, {"point", "default"}},
-          {{"variant", "exact"}, {"point", "default"}, {"uses_scene_data", true}}}},
+        {"techniques",
+         {{{"technique", "none"}, {"point", "default"}},
+          {{"technique", "exact"}, {"point", "default"}, {"uses_scene_data", true}}}},
         {"shots", {{{"shot", "u"}, {"asset", "same"}}, {{"shot", "v"}, {"asset", "same"}}}}};
     const std::vector<OverScenesRow> rows = errors_over_scenes(errors, manifest);
     ASSERT_EQ(rows.size(), 2u) << "of mse alone, for which less is better, and without what uses scene data";
-    EXPECT_EQ(rows[0].variant, "half");
+    EXPECT_EQ(rows[0].technique, "half");
     EXPECT_EQ(rows[0].metric, "mse");
     EXPECT_EQ(rows[0].scenes, 3u);
     EXPECT_EQ(rows[0].shots, 4u);
     EXPECT_NEAR(rows[0].ratio, 0.5, 1e-12);
-    EXPECT_EQ(rows[1].baseline_variant, "none");
+    EXPECT_EQ(rows[1].baseline_technique, "none");
     EXPECT_NEAR(*rows[1].over_best, 2, 1e-12);
 
     // What is compared with a point that differs in a parameter stands behind those, scene data or not.
-    std::vector<ComparedPoint> variants(2);
-    variants[0].variant = variants[1].variant = "half", variants[0].point = "default", variants[1].point = "exact";
-    variants[1].against = "p=1", variants[1].against_point = "default";
+    std::vector<ComparedPoint> techniques(2);
+    techniques[0].technique = techniques[1].technique = "half", techniques[0].point = "default",
+    techniques[1].point = "exact";
+    techniques[1].against = "p=1", techniques[1].against_point = "default";
     std::vector<MetricSummary> of_pair = errors;
     for (MetricSummary& e : of_pair)
-        if (e.variant == "exact") e.variant = "half", e.point = "exact";
+        if (e.technique == "exact") e.technique = "half", e.point = "exact";
     nlohmann::json of_exact = manifest;
-    of_exact["variants"][1]["variant"] = "half", of_exact["variants"][1]["point"] = "exact";
-    const std::vector<OverScenesRow> with_pair = errors_over_scenes(of_pair, of_exact, 0.05, variants);
+    of_exact["techniques"][1]["technique"] = "half", of_exact["techniques"][1]["point"] = "exact";
+    const std::vector<OverScenesRow> with_pair = errors_over_scenes(of_pair, of_exact, 0.05, techniques);
     ASSERT_EQ(with_pair.size(), 3u);
     EXPECT_EQ(with_pair[2].point, "exact");
     EXPECT_EQ(with_pair[2].baseline_point, "default");
@@ -307,22 +310,22 @@ TEST(OverScenes, EveryErrorHasItsRows) {
 
     // One seed has no interval in a shot, but counts over scenes, if the reference's noise is no part of its value.
     for (MetricSummary& e : errors)
-        if (e.variant == "half")
+        if (e.technique == "half")
             e.low = e.high = {}, e.holds_all_noise = false, e.interval = interval::one_seed, e.is_corrected = true;
-    EXPECT_EQ(errors_over_scenes(errors, manifest).front().variant, "half");
+    EXPECT_EQ(errors_over_scenes(errors, manifest).front().technique, "half");
     for (MetricSummary& e : errors)
-        if (e.variant == "half") e.is_corrected = false;
+        if (e.technique == "half") e.is_corrected = false;
     EXPECT_EQ(errors_over_scenes(errors, manifest).size(), 1u);
     // Or if it is known how large a part it may be.
     for (MetricSummary& e : errors) {
         e.value_of_power = *e.value - 0.4, e.value_of_bounded = *e.value - 0.1;
-        if (e.variant == "exact") e.value_of_power = e.value_of_bounded = e.value;
+        if (e.technique == "exact") e.value_of_power = e.value_of_bounded = e.value;
     }
     nlohmann::json of_four_assets = manifest;
     of_four_assets.erase("shots");
     const OverScenesRow half = errors_over_scenes(errors, of_four_assets).front();
     ASSERT_TRUE(half.low && half.high);
-    EXPECT_EQ(half.variant, "half");
+    EXPECT_EQ(half.technique, "half");
     EXPECT_NEAR(half.ratio, 0.5, 1e-12);
     EXPECT_NEAR(*half.low, 0.1 / 0.6, 1e-12);
     EXPECT_NEAR(*half.high, 0.5, 1e-12);

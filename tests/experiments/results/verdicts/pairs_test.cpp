@@ -16,28 +16,28 @@ constexpr unsigned rounds = 15;
 
 /// A shot of points whose errors and times are made up.
 struct ShotOfPairs {
-    StudyTables tables;
+    StudyResults tables;
     explicit ShotOfPairs(double floor = 0.02, size_t copies = 12) {
         tables.manifest = {{"clock", {{"aa_floors", {{"s", floor}}}, {"aa_pairs", nlohmann::json::array()}}}};
         for (size_t i = 0; i < copies; ++i) tables.manifest["clock"]["aa_pairs"].push_back({{"shot", "s"}});
     }
 
-    void add_error(const std::string& variant, double value, double half_width) {
-        MetricSummary e{.shot = "s", .frame = "0", .variant = variant, .point = "p"};
+    void add_error(const std::string& technique, double value, double half_width) {
+        MetricSummary e{.shot = "s", .frame = "0", .technique = technique, .point = "p"};
         e.target = "specular", e.metric = e.formula = "mse", e.mask = "reflective";
         e.value = value, e.low = value - half_width, e.high = value + half_width;
         e.interval = interval::reference, e.seeds = 1, e.holds_all_noise = e.represents_shot = true;
         tables.errors.push_back(e);
     }
-    void add_times(const std::string& variant, const std::vector<double>& milliseconds) {
+    void add_times(const std::string& technique, const std::vector<double>& milliseconds) {
         for (unsigned f = 0; f < milliseconds.size(); ++f)
-            tables.rounds.push_back({"s", variant, "p", 0, "total", f, milliseconds[f], "host_fence"});
+            tables.rounds.push_back({"s", technique, "p", 0, "total", f, milliseconds[f], "host_fence"});
     }
     /// `spread`: of the times, relative; all points are slow in the same frames.
-    void add(const std::string& variant, double error, double half_width, double ms, double spread = 0) {
+    void add(const std::string& technique, double error, double half_width, double ms, double spread = 0) {
         std::vector<double> milliseconds;
         for (unsigned f = 0; f < rounds; ++f) milliseconds.push_back(ms * (1 + spread * (double(7 * f % 15) - 7) / 7));
-        add_error(variant, error, half_width), add_times(variant, milliseconds);
+        add_error(technique, error, half_width), add_times(technique, milliseconds);
     }
 
     std::vector<PairRow> pairs() {
@@ -97,8 +97,8 @@ TEST(Pairs, DecideCountsOfOneSeedBeyondTheSpreadOfSeeds) {
         ShotOfPairs shot;
         shot.add_error("a", 1, 0.1), shot.add_error("b", 2, 0.1);
         set_standings(shot.tables.errors);
-        shot.tables.manifest["variants"] = {{{"variant", "a"}, {"point", "p"}, {"depends_on_seed", false}},
-                                            {{"variant", "b"}, {"point", "p"}, {"depends_on_seed", draws_numbers}}};
+        shot.tables.manifest["techniques"] = {{{"technique", "a"}, {"point", "p"}, {"depends_on_seed", false}},
+                                              {{"technique", "b"}, {"point", "p"}, {"depends_on_seed", draws_numbers}}};
         shot.tables.costs = {{"s", "a", "p", "march", "fetches", a}, {"s", "b", "p", "march", "fetches", b}};
         const PairRow pair = pairs_of(shot.tables, specular_mse, "fetches").at(0);
         return pair.cost_verdict + ", " + pair.dominates;
@@ -117,11 +117,11 @@ TEST(Pairs, DecideCountsOfOneSeedBeyondTheSpreadOfSeeds) {
 /// model is known to err.
 TEST(Pairs, DecideEstimatesBeyondWhatTheModelLeavesOpen) {
     ShotOfPairs shot;
-    for (const char* variant : {"a", "b", "c", "d", "e", "f"}) shot.add_error(variant, 1 + variant[0] - 'a', 0.1);
+    for (const char* technique : {"a", "b", "c", "d", "e", "f"}) shot.add_error(technique, 1 + technique[0] - 'a', 0.1);
     set_standings(shot.tables.errors);
-    const auto add = [&](const char* variant, double microseconds, double low, double high) {
+    const auto add = [&](const char* technique, double microseconds, double low, double high) {
         EstimateRow row;
-        row.shot = "s", row.variant = variant, row.point = "p", row.chip = "navi21";
+        row.shot = "s", row.technique = technique, row.point = "p", row.chip = "navi21";
         for (const char* stage : {"total", "march"}) {  // stages are part of the total
             row.stage = stage, row.microseconds = microseconds, row.low = low, row.high = high;
             shot.tables.estimates.push_back(row);
@@ -132,7 +132,7 @@ TEST(Pairs, DecideEstimatesBeyondWhatTheModelLeavesOpen) {
         add("e", 6.6, 6.5, 6.7), add("f", 30, 0, 40);
     const auto verdict_of = [&](const std::string& a, const std::string& b) {
         for (const PairRow& pair : pairs_of(shot.tables, specular_mse, "navi21"))
-            if (pair.variant == a && pair.other_variant == b)
+            if (pair.technique == a && pair.other_technique == b)
                 return pair.cost_verdict + ", " + pair.dominates + ", " + pair.is_dominated;
         return std::string("no such pair");
     };
@@ -143,14 +143,14 @@ TEST(Pairs, DecideEstimatesBeyondWhatTheModelLeavesOpen) {
     EXPECT_EQ(verdict_of("b", "c"), "equal, yes, no");
     EXPECT_EQ(verdict_of("a", "f"), "undecided, maybe, no") << "intervals that meet";
     for (EstimateRow& row : shot.tables.estimates)
-        if (row.variant == "b") row.microseconds = row.low = row.high = std::nullopt, row.refusal = "no radv";
+        if (row.technique == "b") row.microseconds = row.low = row.high = std::nullopt, row.refusal = "no radv";
     EXPECT_EQ(verdict_of("a", "b"), ", , ") << "without an estimate there is no cost";
 }
 
 TEST(Pairs, AreDecidedWhereTheStudyAskedForThem) {
     ShotOfPairs shot;
     shot.add("best", 0.1, 0.01, 10), shot.add("a", 1.2, 0.3, 20), shot.add("b", 1, 0.3, 10);
-    EffectRow effect{.shot = "s", .variant = "a", .point = "p", .against_variant = "b", .against_point = "p"};
+    EffectRow effect{.shot = "s", .technique = "a", .point = "p", .against_technique = "b", .against_point = "p"};
     effect.target = "specular", effect.metric = "mse", effect.mask = "reflective";
     effect.ratio = 1.2, effect.p_holm = 0.001, effect.verdict = verdict::more;
     for (const bool is_asked : {false, true}) {
@@ -189,9 +189,9 @@ TEST(Pairs, OfEqualPointsSeldomDiffer) {
         ShotOfPairs shot;
         std::vector<ResultRow> rows;
         for (int v = 0; v < 8; ++v) {
-            const std::string variant = "v" + std::to_string(v);
+            const std::string technique = "v" + std::to_string(v);
             for (unsigned seed = 0; seed < 8; ++seed) {
-                ResultRow r{.shot = "s", .frame = "0", .variant = variant, .point = "p", .seed = seed};
+                ResultRow r{.shot = "s", .frame = "0", .technique = technique, .point = "p", .seed = seed};
                 r.target = "specular", r.metric = r.formula = "mse", r.mask = "reflective";
                 r.value = std::exp(0.7 * normal(random)), r.floor = 0, r.represents_shot = true;
                 rows.push_back(r);
@@ -200,7 +200,7 @@ TEST(Pairs, OfEqualPointsSeldomDiffer) {
             std::vector<double> milliseconds;
             for (unsigned f = 0; f < rounds; ++f)
                 milliseconds.push_back(10 * of_copy * std::exp(0.01 * jitter(random)));
-            shot.add_times(variant, milliseconds);
+            shot.add_times(technique, milliseconds);
         }
         shot.tables.errors = summarise(rows);
         for (MetricSummary& e : shot.tables.errors) e.holds_all_noise = true;  // the reference has none

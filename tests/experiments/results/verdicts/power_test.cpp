@@ -13,8 +13,8 @@
 namespace {
 
 /// A ranked point whose error is `ratio` times the best's, with an interval of `half` of its logarithm.
-MetricSummary ranked_point(const std::string& variant, double ratio, double half, unsigned seeds) {
-    MetricSummary e{.shot = "s", .frame = "0", .variant = variant, .point = "default"};
+MetricSummary ranked_point(const std::string& technique, double ratio, double half, unsigned seeds) {
+    MetricSummary e{.shot = "s", .frame = "0", .technique = technique, .point = "default"};
     e.metric = "mse", e.seeds = seeds, e.value = ratio, e.standing = standing::behind;
     e.interval = seeds > 1 ? interval::reference_and_seeds : interval::reference;
     e.over_best = ratio, e.over_best_low = ratio * std::exp(-half), e.over_best_high = ratio * std::exp(half);

@@ -2,7 +2,7 @@
 #include "experiments/results/results_schema.h"
 #include "core/files.h"
 #include "core/json.h"
-#include "experiments/results/tables/columns.h"
+#include "experiments/results/files/columns.h"
 #include "experiments/study/parameters_table.h"
 
 #include <gtest/gtest.h>
@@ -43,8 +43,8 @@ std::map<std::string, std::set<std::string>> explained_columns() {
     return columns;
 }
 
-VariantConfig point(const std::string& variant, const std::string& name, const json& parameters) {
-    return {.variant = variant,
+PointConfig point(const std::string& technique, const std::string& name, const json& parameters) {
+    return {.technique = technique,
             .preset = "",
             .parameters = parameters,
             .swept = parameters,
@@ -97,12 +97,12 @@ TEST(ResultsSchema, SaysTypesAndUnits) {
 
 TEST(ResultsSchema, ParametersAreColumns) {
     const fs::path folder = fs::path(testing::TempDir()) / ("ssrlab_parameters_" + std::to_string(getpid()));
-    VariantConfig labelled = point("mcguire_dda", "dda.stride=4", {{"dda.stride", 4}, {"dda.refine", true}});
+    PointConfig labelled = point("mcguire_dda", "dda.stride=4", {{"dda.stride", 4}, {"dda.refine", true}});
     labelled.label = "DDA, 4 px", labelled.group = "marches";
     write_parameters(folder, {point("none", "default", json::object()), labelled});
     CsvReader csv(folder / "parameters.csv");
     ASSERT_TRUE(csv.next());
-    EXPECT_EQ(csv.text("variant"), "none");
+    EXPECT_EQ(csv.text("technique"), "none");
     EXPECT_EQ(csv.text("dda.stride"), "");
     ASSERT_TRUE(csv.next());
     EXPECT_EQ(csv.text("point"), "dda.stride=4");

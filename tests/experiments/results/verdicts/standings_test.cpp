@@ -8,10 +8,10 @@
 
 namespace {
 
-MetricSummary error_of(const std::string& variant, double value, double half, const std::string& metric = "mse") {
+MetricSummary error_of(const std::string& technique, double value, double half, const std::string& metric = "mse") {
     MetricSummary e{.shot = "s",
                     .frame = "0",
-                    .variant = variant,
+                    .technique = technique,
                     .point = "default",
                     .target = "specular",
                     .metric = metric,
@@ -77,8 +77,8 @@ TEST(Standings, PairBySeedWherePairsHoldAllNoise) {
     std::vector<ResultRow> rows;
     const double scatter[] = {1.0, 1.6, 0.7, 1.2};
     for (unsigned seed = 1; seed <= 4; ++seed)
-        for (const auto& [variant, value] : {std::pair("a", 1.0), std::pair("b", 1.05)}) {
-            ResultRow r{.shot = "s", .frame = "0", .variant = variant, .point = "default", .seed = seed};
+        for (const auto& [technique, value] : {std::pair("a", 1.0), std::pair("b", 1.05)}) {
+            ResultRow r{.shot = "s", .frame = "0", .technique = technique, .point = "default", .seed = seed};
             r.target = "specular", r.metric = r.formula = "mse", r.mask = "reflective", r.floor = 0;
             r.value = value * scatter[seed - 1] * (1 + 0.001 * double(seed)), r.represents_shot = true;
             rows.push_back(r);
@@ -103,7 +103,7 @@ TEST(Standings, KeepTheTrueBestAmongBestAndTiedOnHeavyTails) {
             std::vector<ResultRow> rows;
             for (unsigned seed = 1; seed <= seeds; ++seed)
                 for (int p = 0; p < points; ++p) {
-                    ResultRow r{.shot = "s", .frame = "0", .variant = std::to_string(p), .point = "", .seed = seed};
+                    ResultRow r{.shot = "s", .frame = "0", .technique = std::to_string(p), .point = "", .seed = seed};
                     r.target = "specular", r.metric = r.formula = "mse", r.mask = "reflective", r.floor = 0;
                     const double truth = p == 0 ? 1 : 1.02;
                     r.value = truth * std::exp(std::normal_distribution<double>(-0.5, 1)(random));
@@ -146,29 +146,29 @@ TEST(Standings, AreWrongInAtMostOneStudyOfTwenty) {
     for (const bool is_at_margin : {false, true})
         for (int study = 0; study < studies; ++study) {
             std::vector<ResultRow> rows;
-            std::vector<ComparedPoint> variants;
+            std::vector<ComparedPoint> techniques;
             for (int p = 0; p < points; ++p)
-                variants.push_back({.variant = std::to_string(p), .point = "", .is_baseline = p == 0});
+                techniques.push_back({.technique = std::to_string(p), .point = "", .is_baseline = p == 0});
             for (int shot = 0; shot < shots; ++shot)
                 for (unsigned seed = 1; seed <= 4; ++seed)
                     for (int p = 0; p < points; ++p) {
-                        ResultRow r{.shot = std::to_string(shot), .frame = "0", .variant = std::to_string(p)};
+                        ResultRow r{.shot = std::to_string(shot), .frame = "0", .technique = std::to_string(p)};
                         r.target = "specular", r.metric = r.formula = "mse", r.mask = "reflective", r.floor = 0;
                         r.seed = seed, r.represents_shot = true;
                         r.value = (is_at_margin && p > 0 ? 1.05 : 1.0) * std::exp(0.02 * normal(random));
                         rows.push_back(r);
                     }
             std::vector<MetricSummary> errors = summarise(rows);
-            std::vector<EffectRow> effects = paired_effects(rows, variants);
+            std::vector<EffectRow> effects = paired_effects(rows, techniques);
             const PrimaryComparisons primary{.metric = "mse"};
-            set_standings(errors, paired_errors(rows, variants));
+            set_standings(errors, paired_errors(rows, techniques));
             set_verdicts(effects, primary, decided_by_standings(errors));
             match_effects(errors, effects);
             const auto is_significant = [](const EffectRow& e) {
                 return e.verdict == verdict::less || e.verdict == verdict::more;
             };
             const auto is_wrongly_near = [](const MetricSummary& e) {
-                return e.variant != "0" && e.p_equivalent.value_or(1) < significance;
+                return e.technique != "0" && e.p_equivalent.value_or(1) < significance;
             };
             if (is_at_margin) {
                 equivalent += std::ranges::any_of(errors, is_wrongly_near);
@@ -188,8 +188,8 @@ TEST(Standings, AgreeWithTheirPairsAmongEffects) {
     std::vector<MetricSummary> errors = {error_of("a", 1, 0.1), error_of("b", 2, 0.1), error_of("c", 3, 0.1)};
     set_standings(errors);
     ASSERT_EQ(errors[1].standing, standing::behind);
-    const auto effect = [](const std::string& variant, const std::string& against) {
-        EffectRow e{.shot = "s", .variant = variant, .point = "default", .against_variant = against};
+    const auto effect = [](const std::string& technique, const std::string& against) {
+        EffectRow e{.shot = "s", .technique = technique, .point = "default", .against_technique = against};
         e.against_point = "default", e.target = "specular", e.metric = "mse", e.mask = "reflective";
         e.ratio = 1.5, e.low = 1.4, e.high = 1.6, e.p = 0.001;
         e.estimate = {.value = 1.5, .standard_error = 0.03, .degrees = 7};
@@ -230,16 +230,16 @@ TEST(Fronts, HoldWhatNoRankedPointBeatsAtLess) {
     set_standings(errors);
     std::vector<TimeSummary> times;
     std::vector<CostRow> costs;
-    for (const auto& [variant, ms, fetches, read, written] : {std::tuple("a", 5.0, 30u, 10u, 1u),
-                                                              {"b", 1.0, 20u, 2u, 7u},
-                                                              {"c", 4.0, 20u, 1u, 9u},
-                                                              {"single_seed", 0.1, 1u, 1u, 1u}}) {
+    for (const auto& [technique, ms, fetches, read, written] : {std::tuple("a", 5.0, 30u, 10u, 1u),
+                                                                {"b", 1.0, 20u, 2u, 7u},
+                                                                {"c", 4.0, 20u, 1u, 9u},
+                                                                {"single_seed", 0.1, 1u, 1u, 1u}}) {
         TimeSummary t;
-        t.shot = "s", t.variant = variant, t.point = "default", t.stage = "total", t.median = ms;
+        t.shot = "s", t.technique = technique, t.point = "default", t.stage = "total", t.median = ms;
         times.push_back(t);
         for (const auto& [quantity, count] :
              {std::pair("fetches", fetches), {"bytes_read", read}, {"bytes_written", written}})
-            costs.push_back({"s", variant, "default", "total", quantity, count});
+            costs.push_back({"s", technique, "default", "total", quantity, count});
     }
     set_fronts(errors, times, costs);
     std::vector<std::string> fronts;

@@ -53,7 +53,7 @@ class Statistics(unittest.TestCase):
         np.testing.assert_allclose(statistics.mean(values), (values.mean(), low, high), rtol=QUANTILES)
 
     def test_constants_are_those_of_the_program(self):
-        model, counts = ((ROOT / file).read_text() for file in ("experiments/gpu_costs/chips/model_range.h", "experiments/results/tables/counts_spread.h"))
+        model, counts = ((ROOT / file).read_text() for file in ("experiments/gpu_costs/chips/model_range.h", "experiments/results/files/counts_spread.h"))
         self.assertIn("model_range{{{:g}, {:g}}}".format(*statistics.MODEL_RANGE), model)
         self.assertIn(f'"{statistics.MODEL_RANGE_TEXT}"', model)
         self.assertIn(f"counts_spread = {statistics.COUNTS_SPREAD:g};", counts)

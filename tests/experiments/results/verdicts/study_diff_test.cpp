@@ -6,7 +6,7 @@
 #include "experiments/cli/diff_command.h"
 #include "experiments/results/cells/study_rows.h"
 #include "experiments/results/evaluation.h"
-#include "experiments/results/tables/manifest.h"
+#include "experiments/results/files/manifest.h"
 #include "experiments/results/verdicts/study_points.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ struct MadeUpStudy {
     std::vector<TimeRow> times;
     json manifest = {{"clock", {{"aa_floors", json::object()}, {"aa_pairs", json::array()}, {"load", json::array()}}},
                      {"shots", json::array()},
-                     {"variants", json::array()},
+                     {"techniques", json::array()},
                      {"provenance", {{{"host", {{"name", "h"}, {"cpu", "c"}}}, {"device", {{"name", "d"}}}}}}};
 
     void add_shot(const std::string& shot, const std::string& truth, double floor = 0.02, int pairs = 12) {
@@ -35,19 +35,19 @@ struct MadeUpStudy {
         for (int i = 0; i < pairs; ++i) manifest["clock"]["aa_pairs"].push_back({{"shot", shot}});
     }
 
-    void add(const std::string& shot, const std::string& variant, unsigned seed, double value) {
-        ResultRow r{.shot = shot, .frame = "0", .variant = variant, .point = "p", .seed = seed};
+    void add(const std::string& shot, const std::string& technique, unsigned seed, double value) {
+        ResultRow r{.shot = shot, .frame = "0", .technique = technique, .point = "p", .seed = seed};
         r.target = "specular", r.metric = r.formula = "mse", r.mask = "all", r.value = value;
         r.floor = 0, r.represents_shot = true;  // against an exact reference: seeds are all that is random
         rows.push_back(r);
     }
 
-    void add_times(const std::string& shot, const std::string& variant, std::vector<double> milliseconds) {
+    void add_times(const std::string& shot, const std::string& technique, std::vector<double> milliseconds) {
         for (unsigned f = 0; f < milliseconds.size(); ++f)
-            times.push_back({shot, variant, "p", 0, "total", f, milliseconds[f], "host_fence"});
+            times.push_back({shot, technique, "p", 0, "total", f, milliseconds[f], "host_fence"});
     }
 
-    StudyTables tables() const {
+    StudyResults tables() const {
         std::map<std::string, double> floors;
         const json of_shots = manifest["clock"].value("aa_floors", json::object());
         for (const auto& [shot, floor] : of_shots.items()) floors[shot] = floor;
@@ -98,7 +98,7 @@ size_t changed(const StudyDiff& diff) {
 
 TEST(StudyDiff, FindsNoChangeInItself) {
     std::mt19937 random(1);
-    const StudyTables study = study_of(random, 1, "t").tables();
+    const StudyResults study = study_of(random, 1, "t").tables();
     const StudyDiff diff = diff_studies(study, study, true);
     EXPECT_EQ(count_of(diff.errors, change::equal), diff.errors.size());
     EXPECT_EQ(count_of(diff.times, change::equal), diff.times.size());
@@ -112,8 +112,8 @@ TEST(StudyDiff, SaysAChangeOfOneProgramInFivePercentAtMost) {
     for (const unsigned seeds : {4u, 8u}) {
         int alarms = 0;
         for (int pair = 0; pair < pairs; ++pair) {
-            const StudyTables before = study_of(random, 1, "t", seeds).tables(),
-                              after = study_of(random, 101, "u", seeds).tables();
+            const StudyResults before = study_of(random, 1, "t", seeds).tables(),
+                               after = study_of(random, 101, "u", seeds).tables();
             alarms += changed(diff_studies(before, after, true)) > 0;
         }
         // 400 pairs of exactly 5 % exceed 8.5 % with a probability of 0.002.
@@ -127,10 +127,10 @@ TEST(StudyDiff, FindsASmallEditByPairsOfSeeds) {
     const MadeUpStudy before = study_of(random, 1, "t");
     MadeUpStudy after = before;
     for (ResultRow& r : after.rows)  // far below the scatter of the seeds
-        if (r.variant == "v3") *r.value += 0.01 + 0.0001 * std::normal_distribution<double>()(random);
+        if (r.technique == "v3") *r.value += 0.01 + 0.0001 * std::normal_distribution<double>()(random);
     const StudyDiff diff = diff_studies(before.tables(), after.tables(), false);
     for (const NumberChange& c : diff.errors)
-        EXPECT_EQ(c.verdict, c.variant == "v3" ? change::changed : change::equal) << c.shot << c.variant;
+        EXPECT_EQ(c.verdict, c.technique == "v3" ? change::changed : change::equal) << c.shot << c.technique;
 }
 
 TEST(StudyDiff, TakesRoundingForNone) {
@@ -140,7 +140,7 @@ TEST(StudyDiff, TakesRoundingForNone) {
         MadeUpStudy one = before, other = before;
         for (MadeUpStudy* study : {&one, &other}) {
             study->rows.clear();
-            study->manifest["variants"] = {{{"variant", "exact"}, {"point", "p"}, {"depends_on_seed", false}}};
+            study->manifest["techniques"] = {{{"technique", "exact"}, {"point", "p"}, {"depends_on_seed", false}}};
         }
         one.add("s0", "exact", 0, 0.5), other.add("s0", "exact", 0, 0.5 * (1 + relative));
         EXPECT_EQ(diff_studies(one.tables(), other.tables(), false).errors.front().verdict, verdict);
@@ -152,15 +152,16 @@ TEST(StudyDiff, FindsThreeTimesTheErrorAgainstAnotherTruth) {
     const MadeUpStudy before = study_of(random, 1, "t", 8, 0.1);
     MadeUpStudy after = study_of(random, 101, "u", 8, 0.1);
     for (ResultRow& r : after.rows)
-        if (r.variant == "v5" && r.shot == "s1") *r.value *= 3;
+        if (r.technique == "v5" && r.shot == "s1") *r.value *= 3;
     const StudyDiff diff = diff_studies(before.tables(), after.tables(), false);
     ASSERT_EQ(count_of(diff.errors, change::changed), 1u);
-    EXPECT_EQ(std::ranges::find(diff.errors, change::changed, &NumberChange::verdict)->variant, "v5");
+    EXPECT_EQ(std::ranges::find(diff.errors, change::changed, &NumberChange::verdict)->technique, "v5");
 }
 
 TEST(StudyDiff, DoesNotJudgeWhatIsNotRanked) {
     std::mt19937 random(6);
-    StudyTables before = study_of(random, 1, "t", 8, 0.1).tables(), after = study_of(random, 101, "u", 8, 0.1).tables();
+    StudyResults before = study_of(random, 1, "t", 8, 0.1).tables(),
+                 after = study_of(random, 101, "u", 8, 0.1).tables();
     for (MetricSummary& e : after.errors) *e.value *= 3, e.holds_all_noise = false;
     const StudyDiff diff = diff_studies(before, after, false);
     EXPECT_EQ(count_of(diff.errors, change::not_judged), diff.errors.size());
@@ -183,7 +184,7 @@ TEST(StudyDiff, ComparesTimesOfOneMachineAlone) {
     for (TimeRow& t : slower.times) t.is_disturbed = true;
     EXPECT_EQ(count_of(diff_studies(before.tables(), slower.tables(), true).times, change::not_judged), 36u);
     slower.manifest["clock"].erase("aa_floors");
-    StudyTables unknown = slower.tables();
+    StudyResults unknown = slower.tables();
     for (TimeSummary& t : unknown.times) t.disturbed_share = 0;
     EXPECT_EQ(diff_studies(before.tables(), unknown, true).times.front().how, "no point was timed twice");
 }
@@ -196,7 +197,7 @@ TEST(DiffCommand, ExitsWithOneForAChangeAlone) {
     MadeUpStudy edited = study, slower = study, fewer = study, another = study;
     for (ResultRow& r : edited.rows) *r.value += 0.5 + 0.001 * r.seed;
     for (TimeRow& t : slower.times) t.milliseconds *= 1.5;
-    std::erase_if(fewer.rows, [](const ResultRow& r) { return r.variant == "v1"; });
+    std::erase_if(fewer.rows, [](const ResultRow& r) { return r.technique == "v1"; });
     for (ResultRow& r : another.rows) r.shot = "elsewhere";
     const std::pair<const char*, const MadeUpStudy*> folders[] = {
         {"study", &study}, {"edited", &edited}, {"slower", &slower}, {"fewer", &fewer}, {"another", &another}};
@@ -231,7 +232,7 @@ TEST(DiffCommand, ExitsWithOneForAChangeAlone) {
     json old = study.manifest;
     old["written"] = {{"ssrlab", {{"commit", "abc1234"}}}};
     write_text(place / "edited/manifest.json", old.dump());
-    write_text(place / "edited/summary.csv", "shot,frame,variant,point,value\n");
+    write_text(place / "edited/summary.csv", "shot,frame,technique,point,value\n");
     const std::string complaint = diff("edited").second;
     for (const char* words : {"ssrlab of commit abc1234 wrote the folder", "summary.csv has no column", "`ssrlab run`"})
         EXPECT_NE(complaint.find(words), std::string::npos) << complaint;

@@ -11,7 +11,7 @@ std::vector<ResultRow> rows_of(const std::string& metric, const std::vector<doub
     std::vector<ResultRow> rows;
     for (const double value : values) {
         ResultRow& row = rows.emplace_back();
-        row.shot = "s", row.frame = over_frames, row.variant = "v", row.point = "p", row.target = "specular";
+        row.shot = "s", row.frame = over_frames, row.technique = "v", row.point = "p", row.target = "specular";
         row.metric = metric, row.mask = "all", row.seed = unsigned(rows.size()), row.value = value;
     }
     return rows;

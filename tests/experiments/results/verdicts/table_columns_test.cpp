@@ -16,7 +16,7 @@ const fs::path source = SSRLAB_SOURCE_DIR, file = fs::path(testing::TempDir()) /
 std::string mistake_in(const std::string& table) {
     write_text(
         file,
-        R"({"shots": [{"scene": "fence"}], "variants": [{"variant": "mcguire_dda"}], "hits": {}, "costs": true, "gpu_compilers": ["navi21"],
+        R"({"shots": [{"scene": "fence"}], "techniques": [{"technique": "mcguire_dda"}], "hits": {}, "costs": true, "gpu_compilers": ["navi21"],
  "tables": [{"name": "a", "caption": "", )" +
             table + "}]}");
     const std::string message = error_message([] { check_table_columns(read_config(file)); });
@@ -29,8 +29,8 @@ std::string mistake_in(const std::string& table) {
 TEST(TableColumns, AreThoseOfTheFilesOrParameters) {
     EXPECT_EQ(mistake_in(R"("of": "results", "rows": ["varaint", "point"], "columns": "shot")"),
               ":2:59: tables[0]: 'rows': 'varaint' is neither a column of these rows nor a parameter; did you mean "
-              "'variant'?");
-    const std::string rest = R"(, "rows": ["variant", "dda.stride"], "columns": "metric")";
+              "'technique'?");
+    const std::string rest = R"(, "rows": ["technique", "dda.stride"], "columns": "metric")";
     EXPECT_NE(mistake_in(R"("of": "results")" + rest + R"(, "over": "shoot")").find("did you mean 'shot'?"),
               std::string::npos);
     EXPECT_NE(mistake_in(R"("of": "results", "where": {"dda.strid": 1})" + rest).find("did you mean 'dda.stride'?"),

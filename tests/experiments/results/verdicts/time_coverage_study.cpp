@@ -3,7 +3,7 @@
 // ones the trials.
 #include "core/error.h"
 #include "experiments/results/cells/cell.h"
-#include "experiments/results/tables/columns.h"
+#include "experiments/results/files/columns.h"
 #include "metrics/statistics/median_interval.h"
 
 #include <cstdio>
@@ -11,7 +11,7 @@
 
 namespace {
 
-using PointOfShot = std::tuple<std::string, std::string, std::string>;  // shot, variant, point
+using PointOfShot = std::tuple<std::string, std::string, std::string>;  // shot, technique, point
 constexpr size_t window = 15, fewest_frames = 4 * window;
 
 struct Count {
@@ -40,8 +40,8 @@ int main(int argc, char** argv) {
         if (argc != 2) fail("usage: time_coverage_study RESULTS");
         std::map<PointOfShot, std::vector<double>> totals;  // in order of time
         for (const TimeRow& row : read_rows<TimeRow>(std::filesystem::path(argv[1]) / "times.csv"))
-            if (row.stage == "total" && !row.variant.empty())
-                totals[{row.shot, row.variant, row.point}].push_back(row.milliseconds);
+            if (row.stage == "total" && !row.technique.empty())
+                totals[{row.shot, row.technique, row.point}].push_back(row.milliseconds);
         std::erase_if(totals, [](const auto& entry) { return entry.second.size() < fewest_frames; });
         if (totals.empty()) fail(argv[1], " has no point with ", fewest_frames, " timed frames");
         Count medians, ratios;

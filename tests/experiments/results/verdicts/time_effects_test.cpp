@@ -8,8 +8,8 @@
 
 namespace {
 
-const std::vector<ComparedPoint> two_points = {{.variant = "v", .point = "base", .is_baseline = true},
-                                               {.variant = "v", .point = "slow"}};
+const std::vector<ComparedPoint> two_points = {{.technique = "v", .point = "base", .is_baseline = true},
+                                               {.technique = "v", .point = "slow"}};
 
 TimeRow time_of(const std::string& point, const std::string& stage, unsigned round, double milliseconds) {
     return {"s", "v", point, 0, stage, round, milliseconds, "host_fence"};

@@ -14,16 +14,18 @@ namespace {
 using nlohmann::json;
 
 struct MadeStudy {
-    StudyTables tables;
-    MadeStudy() { tables.manifest = {{"shots", json::array()}, {"variants", json::array()}}; }
+    StudyResults tables;
+    MadeStudy() { tables.manifest = {{"shots", json::array()}, {"techniques", json::array()}}; }
 
-    void add_point(const std::string& variant, const std::string& point, json parameters = json::object()) {
-        tables.manifest["variants"].push_back({{"variant", variant}, {"point", point}, {"parameters", parameters}});
+    void add_point(const std::string& technique, const std::string& point, json parameters = json::object()) {
+        tables.manifest["techniques"].push_back(
+            {{"technique", technique}, {"point", point}, {"parameters", parameters}});
     }
-    void add(const std::string& shot, const std::string& variant, const std::string& point, double error, double cost) {
+    void add(const std::string& shot, const std::string& technique, const std::string& point, double error,
+             double cost) {
         MetricSummary e{.shot = shot,
                         .frame = "0",
-                        .variant = variant,
+                        .technique = technique,
                         .point = point,
                         .target = "specular",
                         .metric = "mse",
@@ -31,8 +33,12 @@ struct MadeStudy {
         e.value = error, e.low = 0.99 * error, e.high = 1.01 * error;
         e.holds_all_noise = e.represents_shot = true;
         tables.errors.push_back(e);
-        TimeSummary t{
-            .shot = shot, .variant = variant, .point = point, .stage = "total", .clock = "host_fence", .frames = 15};
+        TimeSummary t{.shot = shot,
+                      .technique = technique,
+                      .point = point,
+                      .stage = "total",
+                      .clock = "host_fence",
+                      .frames = 15};
         t.median = cost, t.low = 0.9 * cost, t.high = 1.1 * cost, t.fits_from = 1.1 * cost, t.may_fit_from = 0.9 * cost;
         tables.times.push_back(t);
     }
@@ -71,7 +77,7 @@ TEST(Tradeoff, NoSceneChoosesForItself) {
     for (const ChosenPoint& c : found.chosen) {
         EXPECT_EQ(c.chosen_on, "other scenes");
         EXPECT_EQ(c.fits, "surely");
-        if (c.variant != "v") continue;
+        if (c.technique != "v") continue;
         const auto ran = std::ranges::find_if(
             found.front, [&](const FrontRow& r) { return r.shot == c.shot && r.point == c.point; });
         log_mean += std::log(*ran->error) / scenes;
@@ -80,7 +86,7 @@ TEST(Tradeoff, NoSceneChoosesForItself) {
     EXPECT_NEAR(std::exp(log_mean), 0.98, 4 * 0.045);
     EXPECT_LT(std::exp(log_best), 0.8);
     const auto across =
-        std::ranges::find_if(found.across, [](const AcrossRow& r) { return r.variant == "v" && !r.cost.empty(); });
+        std::ranges::find_if(found.across, [](const AcrossRow& r) { return r.technique == "v" && !r.cost.empty(); });
     EXPECT_NEAR(across->ratio, std::exp(log_mean) / 2, 1e-12);
     EXPECT_EQ(across->scenes_that_fit, scenes);
 }
@@ -94,7 +100,7 @@ TEST(Tradeoff, APointFitsByItsMedianAndSurelyByItsEnds) {
     const Tradeoff found = made.found({8, 9.5, 10.5, 21, 30});
     std::vector<std::string> said;
     for (const ChosenPoint& c : found.chosen)
-        if (c.shot == "s" && c.variant == "v") said.push_back(c.point + " " + c.fits);
+        if (c.shot == "s" && c.technique == "v") said.push_back(c.point + " " + c.fits);
     EXPECT_EQ(said, (std::vector<std::string>{" no", " maybe", "cheap maybe", "dear maybe", "dear surely"}));
 }
 
@@ -103,7 +109,7 @@ TEST(Tradeoff, AloneASceneChoosesForItselfAndSaysSo) {
     made.add_point("none", "default");
     made.add("s", "none", "default", 3, 1), made.add("s", "v", "a", 2, 5), made.add("s", "v", "b", 1, 5);
     const Tradeoff found = made.found({5});
-    const auto chosen = std::ranges::find(found.chosen, "v", &ChosenPoint::variant);
+    const auto chosen = std::ranges::find(found.chosen, "v", &ChosenPoint::technique);
     EXPECT_EQ(chosen->point, "b");
     EXPECT_EQ(chosen->chosen_on, "this shot");
 }
@@ -119,7 +125,7 @@ TEST(Tradeoff, AFrozenPointStandsWhereverItRan) {
     made.tables.manifest["config"] = json::parse(R"({"frozen": [{"cost": 8, "points": {"v": "frozen"}}]})");
     std::vector<std::string> said;
     for (const ChosenPoint& c : made.found({6, 8}).chosen)
-        if (c.variant != "none" && c.shot != "t")
+        if (c.technique != "none" && c.shot != "t")
             said.push_back(c.shot + " " + std::to_string(int(c.cost)) + " " + c.point + " " + c.chosen_on + " " +
                            c.fits);
     EXPECT_EQ(said, (std::vector<std::string>{"s 6 better other scenes surely", "s 8 frozen frozen surely",
@@ -143,7 +149,7 @@ TEST(Tradeoff, FrozenPointsNeedNoTimesAndOneSeed) {
     made.tables.manifest["config"] = json::parse(R"({"frozen": [{"cost": 8, "points": {"v": "frozen"}}]})");
     std::map<std::string, double> ratios;
     for (const AcrossRow& row : made.found({8}).across)
-        if (row.variant == "v" && row.cost == "8") {
+        if (row.technique == "v" && row.cost == "8") {
             ratios[row.group] = row.ratio;
             EXPECT_FALSE(row.scenes_that_fit) << row.group;
             EXPECT_NEAR(row.median, row.group == "late" ? std::sqrt(0.125) : 0.25, 1e-12) << row.group;
@@ -198,14 +204,14 @@ TEST(Tradeoff, ChangesOfOneParameterHaveTheirVerdicts) {
                             : c.cost == verdict::more ? 2
                                                       : 1.01;
         for (const char* point : {"b", "both"}) {
-            EffectRow effect{.shot = "s", .variant = "v", .point = point};
-            effect.against_variant = "v", effect.against_point = "a";
+            EffectRow effect{.shot = "s", .technique = "v", .point = point};
+            effect.against_technique = "v", effect.against_point = "a";
             effect.target = "specular", effect.metric = "mse", effect.mask = "reflective";
             effect.ratio = error, effect.low_holm = 0.9 * error, effect.high_holm = 1.1 * error,
             effect.verdict = c.error;
             made.tables.effects.push_back(effect);
-            TimeEffectRow of_time{.shot = "s", .variant = "v", .point = point};
-            of_time.against_variant = "v", of_time.against_point = "a", of_time.stage = "total", of_time.ratio = time;
+            TimeEffectRow of_time{.shot = "s", .technique = "v", .point = point};
+            of_time.against_technique = "v", of_time.against_point = "a", of_time.stage = "total", of_time.ratio = time;
             of_time.low_holm = 0.9 * time, of_time.high_holm = 1.1 * time, of_time.verdict = c.cost;
             made.tables.time_effects.push_back(of_time);
         }
@@ -231,14 +237,14 @@ TEST(Tradeoff, ChangesOverScenesAreStudents) {
     for (int i = 0; i < 4; ++i) {
         const std::string shot = "s" + std::to_string(i);
         for (const char* point : {"a", "b"}) made.add(shot, "v", point, 1, 10);
-        EffectRow effect{.shot = shot, .variant = "v", .point = "b"};
-        effect.against_variant = "v", effect.against_point = "a";
+        EffectRow effect{.shot = shot, .technique = "v", .point = "b"};
+        effect.against_technique = "v", effect.against_point = "a";
         effect.target = "specular", effect.metric = "mse", effect.mask = "reflective", effect.verdict = verdict::less;
         effect.ratio = std::exp(logarithms[i]), effect.low_holm = 0.9 * *effect.ratio,
         effect.high_holm = 1.1 * *effect.ratio;
         made.tables.effects.push_back(effect);
-        TimeEffectRow of_time{.shot = shot, .variant = "v", .point = "b"};
-        of_time.against_variant = "v", of_time.against_point = "a", of_time.stage = "total";
+        TimeEffectRow of_time{.shot = shot, .technique = "v", .point = "b"};
+        of_time.against_technique = "v", of_time.against_point = "a", of_time.stage = "total";
         of_time.ratio = 1 + costs[i] / 10, of_time.low = of_time.high = of_time.ratio;
         made.tables.time_effects.push_back(of_time);
     }
@@ -263,13 +269,13 @@ TEST(Tradeoff, EstimatesGoByTheirModel) {
             for (const char* point : {"a", "b"}) {
                 made.add(shot, "v", point, 1, 10);
                 EstimateRow estimate;
-                estimate.shot = shot, estimate.variant = "v", estimate.point = point, estimate.stage = "total";
+                estimate.shot = shot, estimate.technique = "v", estimate.point = point, estimate.stage = "total";
                 estimate.chip = "navi21", estimate.microseconds = *point == 'a' ? 10 : 10 * factor;
                 estimate.low = 0.999 * *estimate.microseconds, estimate.high = 1.001 * *estimate.microseconds;
                 made.tables.estimates.push_back(estimate);
             }
-            EffectRow effect{.shot = shot, .variant = "v", .point = "b"};
-            effect.against_variant = "v", effect.against_point = "a";
+            EffectRow effect{.shot = shot, .technique = "v", .point = "b"};
+            effect.against_technique = "v", effect.against_point = "a";
             effect.target = "specular", effect.metric = "mse", effect.mask = "reflective";
             effect.verdict = verdict::less, effect.ratio = std::exp(-1 - 0.1 * i);
             effect.low_holm = 0.9 * *effect.ratio, effect.high_holm = 1.1 * *effect.ratio;
@@ -302,7 +308,7 @@ TEST(Tradeoff, ChangesOverScenesAreJudgedTogether) {
         MadeStudy made;
         std::vector<FrontRow> front;
         const auto add = [&](const std::string& shot, const std::string& point) {
-            FrontRow& row = front.emplace_back(FrontRow{.shot = shot, .variant = "v", .point = point});
+            FrontRow& row = front.emplace_back(FrontRow{.shot = shot, .technique = "v", .point = point});
             row.cost = 10;
         };
         made.add_point("v", "a", {{"rays", 1}});
@@ -311,8 +317,8 @@ TEST(Tradeoff, ChangesOverScenesAreJudgedTogether) {
             const std::string shot = "s" + std::to_string(i);
             add(shot, "a");
             for (int b = 2; b < 22; ++b) {
-                EffectRow effect{.shot = shot, .variant = "v", .point = std::to_string(b)};
-                effect.against_variant = "v", effect.against_point = "a";
+                EffectRow effect{.shot = shot, .technique = "v", .point = std::to_string(b)};
+                effect.against_technique = "v", effect.against_point = "a";
                 effect.target = "specular", effect.metric = "mse", effect.mask = "reflective";
                 effect.ratio = effect.low_holm = effect.high_holm = std::exp(scatter(random));
                 made.tables.effects.push_back(effect);

@@ -28,14 +28,14 @@ struct Kind {
 
 const PrimaryComparisons primary;
 
-StudyTables study_of(const Kind& kind, std::mt19937_64& random, bool is_at_margin = false) {
+StudyResults study_of(const Kind& kind, std::mt19937_64& random, bool is_at_margin = false) {
     std::normal_distribution<double> normal;
-    StudyTables tables;
-    std::vector<ComparedPoint> variants;
+    StudyResults tables;
+    std::vector<ComparedPoint> techniques;
     for (int p = 0; p < kind.points; ++p) {
-        ComparedPoint& v = variants.emplace_back();
-        v.variant = std::to_string(p), v.point = "default", v.is_baseline = p == 0;
-        tables.manifest["variants"].push_back({{"variant", v.variant}, {"point", v.point}, {"baseline", p == 0}});
+        ComparedPoint& v = techniques.emplace_back();
+        v.technique = std::to_string(p), v.point = "default", v.is_baseline = p == 0;
+        tables.manifest["techniques"].push_back({{"technique", v.technique}, {"point", v.point}, {"baseline", p == 0}});
     }
     for (int shot = 0; shot < kind.shots; ++shot) {
         const std::string name = "scene" + std::to_string(shot);
@@ -46,7 +46,7 @@ StudyTables study_of(const Kind& kind, std::mt19937_64& random, bool is_at_margi
                 (is_at_margin && p > 0 ? 1 + primary.margin : 1) * std::exp(kind.of_scenes * normal(random));
             for (unsigned seed = 1; seed <= kind.seeds; ++seed) {
                 ResultRow& r = tables.seeds.emplace_back();
-                r.shot = name, r.frame = "0", r.variant = std::to_string(p), r.point = "default", r.seed = seed;
+                r.shot = name, r.frame = "0", r.technique = std::to_string(p), r.point = "default", r.seed = seed;
                 r.target = primary.target, r.metric = r.formula = primary.metric, r.mask = primary.mask;
                 r.floor = 0, r.represents_shot = r.is_corrected = true;
                 r.value = truth * std::exp(kind.deviation * normal(random));
@@ -54,8 +54,8 @@ StudyTables study_of(const Kind& kind, std::mt19937_64& random, bool is_at_margi
         }
     }
     tables.errors = summarise(tables.seeds);
-    tables.effects = paired_effects(tables.seeds, variants);
-    set_standings(tables.errors, paired_errors(tables.seeds, variants));
+    tables.effects = paired_effects(tables.seeds, techniques);
+    set_standings(tables.errors, paired_errors(tables.seeds, techniques));
     set_verdicts(tables.effects, primary, decided_by_standings(tables.errors));
     match_effects(tables.errors, tables.effects);
     return tables;
@@ -68,21 +68,21 @@ void count_alarms(Alarms& alarms, const Kind& kind, std::mt19937_64& random) {
     const auto is_different = [](const std::string& verdict) {
         return verdict == verdict::less || verdict == verdict::more;
     };
-    const StudyTables tables = study_of(kind, random);
+    const StudyResults tables = study_of(kind, random);
     if (kind.of_scenes == 0) {
         alarms["a point is behind in a shot (`standing`)"] +=
             std::ranges::count(tables.errors, standing::behind, &MetricSummary::standing) > 0;
         alarms["an effect (`effects.csv`)"] += std::ranges::any_of(tables.effects, is_different, &EffectRow::verdict);
         alarms["a pair of `ssrlab tradeoff`"] +=
             std::ranges::any_of(pairs_of(tables, primary), is_different, &PairRow::error_verdict);
-        const StudyTables again = study_of(kind, random);
+        const StudyResults again = study_of(kind, random);
         alarms["a number of `ssrlab diff`"] += count_of(diff_studies(tables, again, false).errors, change::changed) > 0;
         const std::string verdict = judge_effects(tables.effects, primary, {"1", "default"}, {"0", "default"}).verdict;
         alarms["`ssrlab judge`, all views"] += verdict == judgement::better || verdict == judgement::worse;
-        const StudyTables margin = study_of(kind, random, true);
+        const StudyResults margin = study_of(kind, random, true);
         alarms["a point at the margin is equivalent (`standing`)"] += std::ranges::any_of(
             margin.errors,
-            [](const MetricSummary& e) { return e.variant != "0" && e.p_equivalent.value_or(1) < significance; });
+            [](const MetricSummary& e) { return e.technique != "0" && e.p_equivalent.value_or(1) < significance; });
         alarms["an effect at the margin is equivalent"] +=
             std::ranges::any_of(margin.effects, [](const EffectRow& e) { return e.verdict == verdict::equivalent; });
     } else {

@@ -33,17 +33,17 @@ BASE = {
                {"name": "b", "caption": "c", "of": "results", "rows": "point", "columns": "metric", "over": "shot"}],
 }  # fmt: skip
 STUDY = BASE | {
-    "variants": [
-        {"variant": TECHNIQUE, "preset": ["coarse"], "parameters": {"dda.refine": True}, "label": "l", "group": "g", "seeds": 2, "baseline": True, "timing": True},
-        {"variant": TECHNIQUE, "sweep": AXES, "only_if": {"dda.stride": 2}, "skip_if": {"shot.height": 1}},
-        {"variant": TECHNIQUE, "zip": {"dda.stride": [1, 2]}, "label": "zip {dda.stride}", "parameters": {"dda.refine": True}, "against": {"dda.refine": True}, "preset": "coarse"},
-        {"variant": TECHNIQUE, "each": {"dda.stride": [4]}},
-        *({"variant": TECHNIQUE, kind: SAMPLE | {"seed": seed}} for seed, kind in enumerate(("random", "latin_hypercube", "sobol"))),
+    "techniques": [
+        {"technique": TECHNIQUE, "preset": ["coarse"], "parameters": {"dda.refine": True}, "label": "l", "group": "g", "seeds": 2, "baseline": True, "timing": True},
+        {"technique": TECHNIQUE, "sweep": AXES, "only_if": {"dda.stride": 2}, "skip_if": {"shot.height": 1}},
+        {"technique": TECHNIQUE, "zip": {"dda.stride": [1, 2]}, "label": "zip {dda.stride}", "parameters": {"dda.refine": True}, "against": {"dda.refine": True}, "preset": "coarse"},
+        {"technique": TECHNIQUE, "each": {"dda.stride": [4]}},
+        *({"technique": TECHNIQUE, kind: SAMPLE | {"seed": seed}} for seed, kind in enumerate(("random", "latin_hypercube", "sobol"))),
         {"external": "frames", "point": "p", "label": "another program", "group": "g", "baseline": False},
     ]
 }  # fmt: skip
 TUNE = BASE | {
-    "variants": [{"variant": TECHNIQUE}],
+    "techniques": [{"technique": TECHNIQUE}],
     "frozen": [{"cost": 5, "points": {TECHNIQUE: "default"}}],
     "tune": {
         "axes": {"dda.stride": [1, 2], "max_roughness": {"lin": [0.1, 0.6]}, "dda.thickness": {"log": [0.01, 1], "only_if": {"dda.stride": 2}},
@@ -52,8 +52,8 @@ TUNE = BASE | {
         "judge": {"shots": [SCENE | {"scene": "grazing"}], "seeds": 2}, "most_runs": 10, "most_minutes": 1, "batch": 2, "seed": 1,
     },
 }  # fmt: skip
-OVER_PROGRAM = BASE | {"variants": [{"variant": TECHNIQUE}], "tune": {"program": ["./render", "quickly"], "axes": {"steps": [1, 2]}}}
-EXTENDING = {"extends": "study.json", "variants": [{"variant": TECHNIQUE, "preset": "best", "remove": False}, {"external": "frames", "remove": False}]}
+OVER_PROGRAM = BASE | {"techniques": [{"technique": TECHNIQUE}], "tune": {"program": ["./render", "quickly"], "axes": {"steps": [1, 2]}}}
+EXTENDING = {"extends": "study.json", "techniques": [{"technique": TECHNIQUE, "preset": "best", "remove": False}, {"external": "frames", "remove": False}]}
 OF_PARAMETERS = ("parameters", "against", "sweep", "zip", "each", "axes")  # objects that name them
 
 

@@ -89,8 +89,8 @@ TEST(Configs, KeepTheNamesOfTheirPoints) {
         const std::string name = file.path().stem().string();
         if (name.ends_with("_figures")) continue;
         ContentHash hash;
-        for (const VariantConfig& variant : read_config(file.path()).variants)
-            hash.add(variant.variant + " " + variant.point + "\n");
+        for (const PointConfig& technique : read_config(file.path()).techniques)
+            hash.add(technique.technique + " " + technique.point + "\n");
         EXPECT_EQ(golden[name], hash.hex())
             << "points of " << name
             << " have other names; if that is meant, tests/data/point_names.txt has to say: " << name << " "
@@ -104,7 +104,7 @@ TEST(Configs, LimitAReferenceByWhatTheySet) {
     const auto limits = [](const std::string& reference) {
         const fs::path file = fs::temp_directory_path() / "ssrlab_reference_limits.json";
         write_text(file, R"({"shots": [{"scene": "sky_only", "resolution": [8, 8]}], "reference": )" + reference +
-                             R"(, "variants": [{"variant": "none"}]})");
+                             R"(, "techniques": [{"technique": "none"}]})");
         const ReferenceSettings settings = read_config(file).reference;
         fs::remove(file);
         return reference_key("s", settings);
@@ -119,7 +119,7 @@ TEST(Configs, TimePointsAloneWhereAsked) {
         const fs::path file = fs::temp_directory_path() / "ssrlab_timing_copies.json";
         write_text(
             file,
-            R"({"shots": [{"scene": "sky_only", "resolution": [8, 8]}], "variants": [{"variant": "none"}], "timing": )" +
+            R"({"shots": [{"scene": "sky_only", "resolution": [8, 8]}], "techniques": [{"technique": "none"}], "timing": )" +
                 timing + "}");
         const Config config = read_config(file);
         fs::remove(file);
@@ -133,7 +133,7 @@ TEST(Configs, AdditiveCompositeHasNoIncidentRadiance) {
     const auto read = [](const std::string& more) {
         const fs::path file = fs::temp_directory_path() / "ssrlab_composite.json";
         write_text(file,
-                   R"({"shots": [{"scene": "sky_only", "resolution": [8, 8]}], "variants": [{"variant": "none"}])" +
+                   R"({"shots": [{"scene": "sky_only", "resolution": [8, 8]}], "techniques": [{"technique": "none"}])" +
                        more + "}");
         const Config config = read_config(file);
         fs::remove(file);
@@ -154,11 +154,11 @@ TEST(Configs, OfAmdMeasureEachCorrectionAlone) {
     const Config config = read_config(source / "experiments/studies/configs/amd_sssr.json");
     std::set<std::string> scenes, points;
     for (const ShotConfig& shot : config.shots) scenes.insert(shot.scene);
-    for (const VariantConfig& variant : config.variants) points.insert(variant.point);
+    for (const PointConfig& technique : config.techniques) points.insert(technique.point);
     EXPECT_GE(scenes.size(), 6u);
 
-    const nlohmann::json plain = make_variant("amd_sssr", {}, "repeatable")->params.values();
-    const nlohmann::json corrected = make_variant("amd_sssr", {}, "corrected")->params.values();
+    const nlohmann::json plain = make_technique("amd_sssr", {}, "repeatable")->params.values();
+    const nlohmann::json corrected = make_technique("amd_sssr", {}, "corrected")->params.values();
     unsigned corrections = 0;
     for (const auto& [name, value] : corrected.items()) {
         if (value == plain[name] || is_of_stability(name)) continue;
@@ -173,13 +173,13 @@ TEST(Configs, OfAmdMeasureEachCorrectionAlone) {
 
 TEST(Configs, OfAmdCompareAllOnTheSameSeeds) {
     const Config config = read_config(source / "experiments/studies/configs/amd_sssr.json");
-    for (const VariantConfig& variant : config.variants) {
-        const bool is_alone = variant.point.find('=') != std::string::npos;
-        const bool is_faithful = variant.point.find("faithful") != std::string::npos;
-        EXPECT_EQ(variant.is_baseline, variant.point == "repeatable");
-        EXPECT_EQ(variant.is_timed, !is_alone || is_faithful) << variant.point;
-        EXPECT_EQ(variant.seeds.size(), variant.variant == "none" ? 1u : is_alone ? 4u : 8u) << variant.point;
-        EXPECT_EQ(variant.seeds.front(), 0u);
+    for (const PointConfig& technique : config.techniques) {
+        const bool is_alone = technique.point.find('=') != std::string::npos;
+        const bool is_faithful = technique.point.find("faithful") != std::string::npos;
+        EXPECT_EQ(technique.is_baseline, technique.point == "repeatable");
+        EXPECT_EQ(technique.is_timed, !is_alone || is_faithful) << technique.point;
+        EXPECT_EQ(technique.seeds.size(), technique.technique == "none" ? 1u : is_alone ? 4u : 8u) << technique.point;
+        EXPECT_EQ(technique.seeds.front(), 0u);
     }
 }
 
@@ -189,13 +189,13 @@ TEST(Configs, OfDiligentMeasureEachCorrectionAlone) {
          {"experiments/studies/configs/diligent.json", "experiments/studies/configs/diligent_half_resolution.json"}) {
         const Config config = read_config(source / file);
         for (const ShotConfig& shot : config.shots) scenes.insert(shot.scene);
-        for (const VariantConfig& variant : config.variants) points.insert(variant.point);
+        for (const PointConfig& technique : config.techniques) points.insert(technique.point);
     }
     EXPECT_GE(scenes.size(), 6u);
-    const nlohmann::json plain = make_variant("diligent_ssr", {}, "current")->params.values();
+    const nlohmann::json plain = make_technique("diligent_ssr", {}, "current")->params.values();
     unsigned changes = 0;
     for (const std::string preset : {"april_2024", "corrected"}) {
-        const nlohmann::json changed = make_variant("diligent_ssr", {}, preset)->params.values();
+        const nlohmann::json changed = make_technique("diligent_ssr", {}, preset)->params.values();
         for (const auto& [name, value] : changed.items()) {
             if (value == plain[name] || name == "mask" || is_of_stability(name))
                 continue;  // either mask leaves out the same pixels
@@ -216,13 +216,13 @@ TEST(Configs, OfFrostbiteCrossEstimatorsTapsRaysTruncationAndLobe) {
     EXPECT_EQ(scenes, (std::set<std::string>{"roughness_gradient", "contact_hardening", "glossy_stretch", "firefly",
                                              "metal_corner"}));
     std::map<std::string, std::set<std::string>> combinations;  // of each lobe
-    for (const VariantConfig& variant : config.variants) {
-        if (variant.variant != "frostbite_sssr") continue;
-        EXPECT_EQ(variant.seeds.size(), 8u);
-        const bool is_reference_form = variant.parameters.value("estimator", "a") == "a";
-        EXPECT_EQ(variant.against_point.empty(), is_reference_form) << variant.point;
-        const std::unique_ptr<Variant> changed = make_variant("frostbite_sssr");
-        changed->params.assign(variant.parameters);
+    for (const PointConfig& technique : config.techniques) {
+        if (technique.technique != "frostbite_sssr") continue;
+        EXPECT_EQ(technique.seeds.size(), 8u);
+        const bool is_reference_form = technique.parameters.value("estimator", "a") == "a";
+        EXPECT_EQ(technique.against_point.empty(), is_reference_form) << technique.point;
+        const std::unique_ptr<Technique> changed = make_technique("frostbite_sssr");
+        changed->params.assign(technique.parameters);
         const nlohmann::json p = changed->params.values();
         combinations[p["lobe"]].insert(
             nlohmann::json{p["estimator"], p["taps"], p["max_rays"], p["importance_bias"], p["filtered_sampling"]}
@@ -238,17 +238,17 @@ TEST(Configs, OfFrostbiteCrossEstimatorsTapsRaysTruncationAndLobe) {
 TEST(Configs, OfFrostbiteMeasureEachChoiceAlone) {
     std::set<std::string> changed;
     for (const char* study : {"frostbite_whole.json", "frostbite_tiles.json", "half_histories.json"})
-        for (const VariantConfig& variant : read_config(source / "experiments/studies/configs" / study).variants)
-            if (variant.variant == "frostbite_sssr")
-                for (const auto& [name, value] : variant.parameters.items()) changed.insert(name);
-    const std::unique_ptr<Variant> variant = make_variant("frostbite_sssr");
+        for (const PointConfig& technique : read_config(source / "experiments/studies/configs" / study).techniques)
+            if (technique.technique == "frostbite_sssr")
+                for (const auto& [name, value] : technique.parameters.items()) changed.insert(name);
+    const std::unique_ptr<Technique> technique = make_technique("frostbite_sssr");
     // Other tracers, parameters that only they read, and exact rays are none of Frostbite's choices.
     const auto is_own = [](const std::string& name) {
         const bool is_of_part = name.find('.') != std::string::npos;
         return name != "tracer" && name != "rough_tracer" && name != "exact_rays" && !is_of_stability(name) &&
                (!is_of_part || name.starts_with("frostbite."));
     };
-    for (const Parameter& parameter : variant->params)
+    for (const Parameter& parameter : technique->params)
         if (is_own(parameter.name) && (parameter.glsl_type == "bool" || !parameter.choices.empty())) {
             EXPECT_TRUE(changed.contains(parameter.name)) << parameter.name;
         }
@@ -257,43 +257,55 @@ TEST(Configs, OfFrostbiteMeasureEachChoiceAlone) {
 /// Values decide, not labels: what a point is compared with may stand in another entry, under another name.
 TEST(Configs, AgainstFindsThePointThatIsOtherwiseTheSame) {
     const fs::path file = fs::path(testing::TempDir()) / "against.json";
-    const auto against_points = [&](const std::string& variants) {
-        write_text(file, R"({"shots": [{"scene": "fence"}], "variants": [)" + variants + "]}");
+    const auto against_points = [&](const std::string& techniques) {
+        write_text(file, R"({"shots": [{"scene": "fence"}], "techniques": [)" + techniques + "]}");
         std::map<std::string, std::string> found;
-        for (const VariantConfig& v : read_config(file).variants) found[v.point] = v.against_point;
+        for (const PointConfig& v : read_config(file).techniques) found[v.point] = v.against_point;
         return found;
     };
     using Expected = std::map<std::string, std::string>;
-    EXPECT_EQ(against_points(R"({"variant": "mcguire_dda"},
-                                {"variant": "mcguire_dda", "against": {"dda.stride": 1},
+    EXPECT_EQ(against_points(R"({"technique": "mcguire_dda"},
+                                {"technique": "mcguire_dda", "against": {"dda.stride": 1},
                                  "sweep": {"dda.stride": [1, 2], "dda.refine": [true]}},
-                                {"variant": "mcguire_dda", "against": {"dda.stride": 1, "dda.refine": false},
+                                {"technique": "mcguire_dda", "against": {"dda.stride": 1, "dda.refine": false},
                                  "sweep": {"dda.stride": [4], "dda.refine": [true]}})"),
               (Expected{{"default", ""},
                         {"dda.refine=true dda.stride=1", ""},
                         {"dda.refine=true dda.stride=2", "dda.refine=true dda.stride=1"},
                         {"dda.refine=true dda.stride=4", "default"}}));
     const std::string alone =
-        R"({"variant": "mcguire_dda", "against": {"dda.stride": 1}, "sweep": {"dda.stride": [2]}})";
+        R"({"technique": "mcguire_dda", "against": {"dda.stride": 1}, "sweep": {"dda.stride": [2]}})";
     EXPECT_THROW(against_points(alone), Error) << "nothing to compare with";
     for (const char* values : {"{}", "true", R"({"dda.strid": 1})", R"({"dda.stride": 0})"})
-        EXPECT_THROW(against_points(R"({"variant": "mcguire_dda", "against": )" + std::string(values) + "}"), Error)
+        EXPECT_THROW(against_points(R"({"technique": "mcguire_dda", "against": )" + std::string(values) + "}"), Error)
             << values;
+}
+
+TEST(Configs, FormerNamesAreRead) {
+    const fs::path file = fs::path(testing::TempDir()) / "former.json",
+                   base = fs::path(testing::TempDir()) / "base.json";
+    write_text(base, R"({"shots": [{"scene": "fence"}], "variants": [{"variant": "composed_ssr", "preset": "blur"}]})");
+    write_text(file, R"({"extends": "base.json", "techniques": [
+        {"technique": "composed_ssr", "preset": "blur", "parameters": {"resolve": "mean"}}]})");
+    const std::vector<PointConfig> points = read_config(file).techniques;
+    ASSERT_EQ(points.size(), 1u);
+    EXPECT_EQ(points[0].technique, "composed_ssr");
+    EXPECT_EQ(points[0].parameters, (nlohmann::json{{"denoiser", "mean"}}));
 }
 
 TEST(Configs, EachChangesOneParameterAtATime) {
     const fs::path file = fs::path(testing::TempDir()) / "each.json";
-    write_text(file, R"({"shots": [{"scene": "fence"}], "variants": [
-        {"variant": "mcguire_dda", "preset": "coarse", "each": {"dda.stride": [2, 8], "dda.refine": [false]}}]})");
+    write_text(file, R"({"shots": [{"scene": "fence"}], "techniques": [
+        {"technique": "mcguire_dda", "preset": "coarse", "each": {"dda.stride": [2, 8], "dda.refine": [false]}}]})");
     std::vector<std::string> points;
-    for (const VariantConfig& variant : read_config(file).variants) {
-        EXPECT_EQ(variant.parameters.size(), 1u);
-        points.push_back(variant.point);
+    for (const PointConfig& technique : read_config(file).techniques) {
+        EXPECT_EQ(technique.parameters.size(), 1u);
+        points.push_back(technique.point);
     }
     EXPECT_EQ(points,
               (std::vector<std::string>{"coarse dda.stride=2", "coarse dda.stride=8", "coarse dda.refine=false"}));
-    write_text(file, R"({"shots": [{"scene": "fence"}], "variants": [
-        {"variant": "mcguire_dda", "each": {"dda.stride": [2]}, "sweep": {"dda.refine": [false]}}]})");
+    write_text(file, R"({"shots": [{"scene": "fence"}], "techniques": [
+        {"technique": "mcguire_dda", "each": {"dda.stride": [2]}, "sweep": {"dda.refine": [false]}}]})");
     EXPECT_THROW(read_config(file), Error);
 }
 
@@ -301,7 +313,7 @@ TEST(Configs, EachChangesOneParameterAtATime) {
 TEST(Configs, TablesAreCheckedBeforeTheStudyRuns) {
     const fs::path file = fs::path(testing::TempDir()) / "tables.json";
     const auto mistake_in = [&](const std::string& table, const std::string& costs = "false") -> std::string {
-        write_text(file, R"({"shots": [{"scene": "fence"}], "variants": [{"variant": "none"}], "costs": )" + costs +
+        write_text(file, R"({"shots": [{"scene": "fence"}], "techniques": [{"technique": "none"}], "costs": )" + costs +
                              R"(,
             "tables": [{"name": "a", "caption": "", "rows": "stage", "columns": "quantity", )" +
                              table + "}]}");

@@ -1,4 +1,4 @@
-// What a config may ask for beyond a list of shots and variants: extending another, designs of points, conditions,
+// What a config may ask for beyond a list of shots and techniques: extending another, designs of points, conditions,
 // settings of shots, labels and names. Over 400 lines, as all of them are one short config each, made by one helper.
 #include "core/error.h"
 #include "core/files.h"
@@ -28,8 +28,8 @@ struct Designs : testing::Test {
         return read_config(folder / name);
     }
     /// A study of one scene.
-    Config of(const std::string& variants, const std::string& shot = R"({"scene": "fence"})") {
-        return read(R"({"shots": [)" + shot + R"(], "variants": [)" + variants + "]}");
+    Config of(const std::string& techniques, const std::string& shot = R"({"scene": "fence"})") {
+        return read(R"({"shots": [)" + shot + R"(], "techniques": [)" + techniques + "]}");
     }
     std::string mistake_in(const std::string& text) {
         try {
@@ -41,16 +41,16 @@ struct Designs : testing::Test {
         return "no mistake";
     }
     std::string mistake(const std::string& entry) {
-        return mistake_in("{\"shots\": [{\"scene\": \"fence\"}],\n \"variants\": [\n" + entry + "]}");
+        return mistake_in("{\"shots\": [{\"scene\": \"fence\"}],\n \"techniques\": [\n" + entry + "]}");
     }
     static std::vector<std::string> points(const Config& config) {
         std::vector<std::string> names;
-        for (const VariantConfig& v : config.variants) names.push_back(v.variant + " " + v.point);
+        for (const PointConfig& v : config.techniques) names.push_back(v.technique + " " + v.point);
         return names;
     }
     static std::vector<json> swept(const Config& config) {
         std::vector<json> values;
-        for (const VariantConfig& v : config.variants) values.push_back(v.swept);
+        for (const PointConfig& v : config.techniques) values.push_back(v.swept);
         return values;
     }
 };
@@ -61,30 +61,30 @@ void expect_starts(const std::string& text, const std::string& start) {
     EXPECT_EQ(text.substr(0, start.size()), start);
 }
 
-std::string dda(const std::string& design) { return R"({"variant": "mcguire_dda", )" + design + "}"; }
+std::string dda(const std::string& design) { return R"({"technique": "mcguire_dda", )" + design + "}"; }
 
 }  // namespace
 
 TEST_F(Designs, AConfigIsPatchedByWhatExtendsIt) {
     read(R"({"title": "base", "seeds": 4, "timing": {"frames": 20, "warm_up": 5}, "shots": [{"scene": "fence"}],
-             "variants": [{"variant": "none"}, {"variant": "mcguire_dda", "parameters": {"dda.stride": 2, "dda.refine": true}},
-                          {"variant": "amd_sssr", "preset": "best", "label": "a"}, {"variant": "amd_sssr", "preset": "best",
+             "techniques": [{"technique": "none"}, {"technique": "mcguire_dda", "parameters": {"dda.stride": 2, "dda.refine": true}},
+                          {"technique": "amd_sssr", "preset": "best", "label": "a"}, {"technique": "amd_sssr", "preset": "best",
                            "label": "b", "sweep": {"samples_per_quad": [1]}}]})",
          "base/base.json");
     read(R"({"extends": "../base/base.json", "title": "middle", "timing": {"frames": null},
-             "variants": [{"variant": "mcguire_dda", "parameters": {"dda.stride": 4, "dda.refine": null}},
-                          {"variant": "mcguire_dda", "preset": "best"}]})",
+             "techniques": [{"technique": "mcguire_dda", "parameters": {"dda.stride": 4, "dda.refine": null}},
+                          {"technique": "mcguire_dda", "preset": "best"}]})",
          "middle/middle.json");
     const Config config = read(R"({"extends": "middle/middle.json", "shots": [{"scene": "sky_only"}],
-             "variants": [{"variant": "none", "remove": true},
-                          {"variant": "amd_sssr", "preset": "best", "label": "b", "seeds": 2},
-                          {"variant": "mcguire_dda", "preset": "best", "label": "named"}]})");
+             "techniques": [{"technique": "none", "remove": true},
+                          {"technique": "amd_sssr", "preset": "best", "label": "b", "seeds": 2},
+                          {"technique": "mcguire_dda", "preset": "best", "label": "named"}]})");
     EXPECT_EQ(points(config),
               (Names{"mcguire_dda default", "amd_sssr best", "amd_sssr best samples_per_quad=1", "mcguire_dda best"}));
-    EXPECT_EQ(config.variants[0].parameters, (json{{"dda.stride", 4}}));
-    EXPECT_EQ(config.variants[1].seeds.size(), 4u);
-    EXPECT_EQ(config.variants[2].seeds.size(), 2u);
-    EXPECT_EQ(config.variants[3].label, "named");
+    EXPECT_EQ(config.techniques[0].parameters, (json{{"dda.stride", 4}}));
+    EXPECT_EQ(config.techniques[1].seeds.size(), 4u);
+    EXPECT_EQ(config.techniques[2].seeds.size(), 2u);
+    EXPECT_EQ(config.techniques[3].label, "named");
     EXPECT_EQ(config.title, "middle");
     EXPECT_EQ(config.timing.frames, 15u) << "as if nobody had said";
     EXPECT_EQ(config.timing.warm_up, 5u);
@@ -95,23 +95,24 @@ TEST_F(Designs, AConfigIsPatchedByWhatExtendsIt) {
     EXPECT_EQ(points(read(config.source.dump(), "alone.json")), points(config));
 
     // Mistakes are reported where they were made.
-    write_text(folder / "base/broken.json", "{\"variants\": [{\"variant\": \"none\"},\n  {\"variant\": \"mcguire\"}]}");
+    write_text(folder / "base/broken.json",
+               "{\"techniques\": [{\"technique\": \"none\"},\n  {\"technique\": \"mcguire\"}]}");
     expect_starts(mistake_in(R"({"extends": "base/broken.json", "shots": [{"scene": "fence"}]})"),
-                  "base/broken.json:2:4: variants[1]: ");
+                  "base/broken.json:2:4: techniques[1]: ");
     const auto extending = [](const std::string& entry) {
-        return R"({"extends": "middle/middle.json", "variants": [)" + entry + "]}";
+        return R"({"extends": "middle/middle.json", "techniques": [)" + entry + "]}";
     };
-    expect_starts(mistake_in(extending(R"({"variant": "amd_sssr", "preset": "best"})")),
-                  "study.json:1:48: variants: 2 entries");
-    expect_starts(mistake_in(extending(R"({"variant": "simple_ssr", "remove": true})")),
-                  "study.json:1:48: variants: nothing to remove");
+    expect_starts(mistake_in(extending(R"({"technique": "amd_sssr", "preset": "best"})")),
+                  "study.json:1:48: techniques: 2 entries");
+    expect_starts(mistake_in(extending(R"({"technique": "simple_ssr", "remove": true})")),
+                  "study.json:1:48: techniques: nothing to remove");
     expect_starts(mistake_in(R"({"extends": "study.json"})"), "study.json:1:2: 'extends' leads back");
     expect_starts(mistake_in(R"({"extends": "nowhere.json"})"), "study.json:1:2: 'extends': there is no file");
 }
 
 TEST_F(Designs, PathsOfCapturesAreThoseOfTheFileThatNamesThem) {
     write_text(folder / "base/frame/gbuffer.exr", "looked at later");
-    read(R"({"shots": [{"gbuffer": "frame", "reference": "../truth.exr"}], "variants": [{"variant": "none"}]})",
+    read(R"({"shots": [{"gbuffer": "frame", "reference": "../truth.exr"}], "techniques": [{"technique": "none"}]})",
          "base/base.json");
     const ShotConfig shot = read(R"({"extends": "base/base.json"})").shots.at(0);
     EXPECT_EQ(shot.gbuffer.lexically_normal(), folder / "base/frame");
@@ -119,16 +120,17 @@ TEST_F(Designs, PathsOfCapturesAreThoseOfTheFileThatNamesThem) {
 }
 
 TEST_F(Designs, MistakesNameLineAndColumn) {
-    EXPECT_EQ(mistake(R"({"variant": "none"},
-                         {"variant": "none", "prest": "best"})"),
-              "study.json:4:46: variants[1]: unknown key 'prest'; did you mean 'preset'?");
-    expect_starts(mistake("// why\n{\"variant\": \"mcguire_dda\", /* \"{ */ \"parameters\": {\n\"dda.strid\": 2}}"),
-                  "study.json:5:1: variants[0]: parameters: unknown parameter 'dda.strid'; did you mean 'dda.stride'?");
+    EXPECT_EQ(mistake(R"({"technique": "none"},
+                         {"technique": "none", "prest": "best"})"),
+              "study.json:4:46: techniques[1]: unknown key 'prest'; did you mean 'preset'?");
     expect_starts(
-        mistake("{\"variant\": \"mcguire_dda\",\n \"sweep\": {\"dda.refine\": [true],\n  \"dda.stride\": [1, 0]}}"),
-        "study.json:5:3: variants[0]: sweep: parameter 'dda.stride' = 0 is outside");
-    expect_starts(mistake("{\"variant\": \"n\\\"o\\\\\", \"preset\": 3}"),
-                  "study.json:3:2: variants[0]: unknown variant");
+        mistake("// why\n{\"technique\": \"mcguire_dda\", /* \"{ */ \"parameters\": {\n\"dda.strid\": 2}}"),
+        "study.json:5:1: techniques[0]: parameters: unknown parameter 'dda.strid'; did you mean 'dda.stride'?");
+    expect_starts(
+        mistake("{\"technique\": \"mcguire_dda\",\n \"sweep\": {\"dda.refine\": [true],\n  \"dda.stride\": [1, 0]}}"),
+        "study.json:5:3: techniques[0]: sweep: parameter 'dda.stride' = 0 is outside");
+    expect_starts(mistake("{\"technique\": \"n\\\"o\\\\\", \"preset\": 3}"),
+                  "study.json:3:2: techniques[0]: unknown technique");
     expect_starts(mistake_in("{\"shots\": [{\"scene\": \"fence\",\r\n\t\"resolution\": [0, 4]}]}"),
                   "study.json:2:2: shots[0]: 'resolution'");
 }
@@ -150,9 +152,9 @@ TEST_F(Designs, AxesAreListsOrRanges) {
          {"[]", "3", R"({"lin": [1, 9]})", R"({"lin": [1, 9, 1]})", R"({"lin": [1, 1, 4]})", R"({"log": [0, 9, 4]})",
           R"({"log": [1, 9, 1e9]})", R"({"lin": [1, 2, 3], "log": [1, 2, 3]})", R"({"lin": [0, 9, 4]})", "{}"})
         expect_starts(mistake(dda(R"("sweep": {"dda.stride": )" + std::string(bad) + "}")),
-                      "study.json:3:38: variants[0]: sweep: ");
+                      "study.json:3:38: techniques[0]: sweep: ");
     expect_starts(mistake(dda(R"("sweep": {"dda.refine": {"lin": [0, 1, 2]}})")),
-                  "study.json:3:38: variants[0]: sweep: 'dda.refine' must be an array of values (true, false), not ");
+                  "study.json:3:38: techniques[0]: sweep: 'dda.refine' must be an array of values (true, false), not ");
 }
 
 TEST_F(Designs, WholeNumbersMayBeWrittenWithAPoint) {
@@ -160,7 +162,7 @@ TEST_F(Designs, WholeNumbersMayBeWrittenWithAPoint) {
                              R"({"scene": "fence", "frames": 3.0, "resolution": [96.0, 5.4e1]})");
     EXPECT_EQ(points(config), (Names{"mcguire_dda dda.stride=4", "mcguire_dda dda.stride=2"}))
         << "not 4.0: another point";
-    EXPECT_EQ(config.variants.at(0).parameters.dump(), R"({"dda.max_steps":100,"dda.stride":4})");
+    EXPECT_EQ(config.techniques.at(0).parameters.dump(), R"({"dda.max_steps":100,"dda.stride":4})");
     EXPECT_EQ(config.shots.at(0).frames, (std::vector<unsigned>{0, 1, 2}));
     EXPECT_EQ(config.shots.at(0).extent, glm::uvec2(96, 54));
     EXPECT_NE(mistake(dda(R"("sweep": {"dda.stride": [4.5]})")).find("is a whole number, not 4.5"), std::string::npos);
@@ -170,17 +172,17 @@ TEST_F(Designs, CombineAxesInSeveralWays) {
     EXPECT_EQ(
         swept(of(dda(R"("zip": {"dda.stride": [1, 2], "dda.refine": [true, false]})"))),
         (std::vector<json>{{{"dda.stride", 1}, {"dda.refine", true}}, {{"dda.stride", 2}, {"dda.refine", false}}}));
-    EXPECT_EQ(of(dda(R"("sweep": {"dda.stride": {"lin": [1, 4, 4]}, "dda.refine": [true, false]})")).variants.size(),
+    EXPECT_EQ(of(dda(R"("sweep": {"dda.stride": {"lin": [1, 4, 4]}, "dda.refine": [true, false]})")).techniques.size(),
               8u);
     expect_starts(mistake(dda(R"("zip": {"dda.stride": [1, 2], "dda.refine": [true]})")),
-                  "study.json:3:28: variants[0]: 'zip' pairs");
+                  "study.json:3:28: techniques[0]: 'zip' pairs");
     expect_starts(mistake(dda(R"("zip": {"dda.stride": [1]}, "each": {"dda.refine": [true]})")),
-                  "study.json:3:56: variants[0]: 'zip' and 'each'");
+                  "study.json:3:56: techniques[0]: 'zip' and 'each'");
     // Refused before memory is filled.
     const std::string thousand = R"({"lin": [0.1, 0.9, 1000]})";
     expect_starts(
         mistake(dda(R"("sweep": {"dda.thickness": )" + thousand + R"(, "dda.max_distance": {"lin": [1, 9, 1000]}})")),
-        "study.json:3:28: variants[0]: 'sweep' makes 1e+06 points; allowed are 100000");
+        "study.json:3:28: techniques[0]: 'sweep' makes 1e+06 points; allowed are 100000");
 }
 
 TEST_F(Designs, SamplesFillTheirRanges) {
@@ -208,12 +210,12 @@ TEST_F(Designs, SamplesFillTheirRanges) {
         EXPECT_EQ(swept(of(design(kind, 1))), points) << kind;
         EXPECT_NE(swept(of(design(kind, 2))), points) << kind;
     }
-    EXPECT_EQ(of(dda(R"("random": {"count": 50, "axes": {"dda.stride": {"lin": [1, 3]}}})")).variants.size(), 3u)
+    EXPECT_EQ(of(dda(R"("random": {"count": 50, "axes": {"dda.stride": {"lin": [1, 3]}}})")).techniques.size(), 3u)
         << "equal points count once";
     expect_starts(mistake(dda(R"("sobol": {"count": 4, "axes": {"dda.stride": {"lin": [0, 3]}}})")),
-                  "study.json:3:59: variants[0]: sobol: axes: parameter 'dda.stride' = 0 is outside");
+                  "study.json:3:59: techniques[0]: sobol: axes: parameter 'dda.stride' = 0 is outside");
     expect_starts(mistake(dda(R"("random": {"count": 200000, "axes": {"dda.stride": [1]}})")),
-                  "study.json:3:39: variants[0]: random: 'count'");
+                  "study.json:3:39: techniques[0]: random: 'count'");
 }
 
 /// Every interval of each axis holds exactly its share, whatever the seed.
@@ -282,12 +284,12 @@ TEST_F(Designs, ConditionsOnParametersLeavePointsOut) {
 TEST_F(Designs, ConditionsOnShotsAreKeptForThem) {
     const Config config =
         of(dda(R"("sweep": {"dda.stride": [1, 2]}, "skip_if": {"shot.is_still": true, "dda.stride": 2})") +
-           R"(, {"variant": "none", "only_if": {"shot.max_roughness": {"at_most": 0.1}, "shot.height": 36}})");
-    ASSERT_EQ(config.variants.size(), 3u);
+           R"(, {"technique": "none", "only_if": {"shot.max_roughness": {"at_most": 0.1}, "shot.height": 36}})");
+    ASSERT_EQ(config.techniques.size(), 3u);
     Shot shot{.config = {.extent = {64, 36}}, .scene = {}, .camera = {}, .facts = {.max_roughness = 0.1f}, .steps = {}};
     const auto running = [&] { return points(config_on(config, shot)); };
     EXPECT_EQ(running(), (Names{"mcguire_dda dda.stride=1", "none default"}));
-    EXPECT_EQ(why_skipped(config.variants[1], shot), R"(skip_if {"shot.is_still":true})");
+    EXPECT_EQ(why_skipped(config.techniques[1], shot), R"(skip_if {"shot.is_still":true})");
     shot.facts.camera_moves = true;
     EXPECT_EQ(running(), (Names{"mcguire_dda dda.stride=1", "mcguire_dda dda.stride=2", "none default"}));
     shot.facts.max_roughness = 0.2f;
@@ -298,7 +300,7 @@ TEST_F(Designs, ShotsHaveAxesOfTheirOwn) {
     const auto read_shots_of = [&](const std::string& shots, const std::string& study = "") {
         Names names;
         for (const ShotConfig& s :
-             read(R"({"shots": [)" + shots + R"(], "variants": [{"variant": "none"}])" + study + "}").shots)
+             read(R"({"shots": [)" + shots + R"(], "techniques": [{"technique": "none"}])" + study + "}").shots)
             names.push_back(
                 Shot{.config = s, .scene = {}, .camera = {.name = s.camera}, .facts = {}, .steps = {}}.name());
         return names;
@@ -317,8 +319,8 @@ TEST_F(Designs, ShotsHaveAxesOfTheirOwn) {
     EXPECT_EQ(read_shots_of(small + "}, " + small + R"(, "depth_format": "d32f"})",
                             R"(, "depth_format": "d16", "lit": "direct")"),
               (Names{"..8x4", "..8x4.d32f"}));
-    const Config both =
-        read(R"({"shots": [)" + small + R"(}], "depth_format": ["d24", "d16"], "variants": [{"variant": "none"}]})");
+    const Config both = read(R"({"shots": [)" + small +
+                             R"(}], "depth_format": ["d24", "d16"], "techniques": [{"technique": "none"}]})");
     ASSERT_EQ(both.shots.size(), 2u);
     EXPECT_EQ(both.shots[0].depth_format, DepthFormat::d24);
     EXPECT_EQ(both.shots[1].depth_format, DepthFormat::d16);
@@ -330,7 +332,8 @@ TEST_F(Designs, ShotsHaveAxesOfTheirOwn) {
 TEST_F(Designs, ScenesOfAFamilyAreCounted) {
     const auto scenes_of = [&](const std::string& shot) {
         Names names;
-        for (const ShotConfig& s : read(R"({"shots": [{)" + shot + R"(}], "variants": [{"variant": "none"}]})").shots)
+        for (const ShotConfig& s :
+             read(R"({"shots": [{)" + shot + R"(}], "techniques": [{"technique": "none"}]})").shots)
             names.push_back(s.scene);
         return names;
     };
@@ -338,7 +341,7 @@ TEST_F(Designs, ScenesOfAFamilyAreCounted) {
     EXPECT_EQ(scenes_of(R"("scene": ["fence", "street:*", "room:7"], "count": 2, "first": 100)"),
               (Names{"fence", "street:100", "street:101", "room:7"}));
     const auto mistake_of = [&](const std::string& shot) {
-        return mistake_in(R"({"shots": [{)" + shot + R"(}], "variants": [{"variant": "none"}]})");
+        return mistake_in(R"({"shots": [{)" + shot + R"(}], "techniques": [{"technique": "none"}]})");
     };
     const auto says = [&](const std::string& shot, const char* text) {
         const std::string said = mistake_of(shot);
@@ -355,24 +358,24 @@ TEST_F(Designs, LabelsAreFilledInAndTellPointsApart) {
     const Config config =
         of(dda(R"("label": "DDA, {dda.stride} px", "group": "marches", "sweep": {"dda.stride": [1, 2]})"),
            R"({"scene": ["fence", "sky_only"], "label": "{scene} at {resolution}", "group": "g"})");
-    EXPECT_EQ(config.variants[1].label, "DDA, 2 px");
-    EXPECT_EQ(config.variants[1].group, "marches");
+    EXPECT_EQ(config.techniques[1].label, "DDA, 2 px");
+    EXPECT_EQ(config.techniques[1].group, "marches");
     EXPECT_EQ(config.shots[1].label, "sky_only at 480x270");
     EXPECT_EQ(display_name(config, "mcguire_dda", "dda.stride=2"), "DDA, 2 px");
     EXPECT_EQ(display_name(config, "none", "default"), "none");
     const std::string thickness = dda(R"("label": "{dda.thickness}", "sweep": {"dda.thickness": [0.12345678]})");
-    EXPECT_EQ(of(thickness).variants[0].label, "0.1235");
+    EXPECT_EQ(of(thickness).techniques[0].label, "0.1235");
     expect_starts(mistake(dda(R"("label": "DDA", "sweep": {"dda.stride": [1, 2]})")),
-                  "study.json: variants: two points have the label 'DDA'");
+                  "study.json: techniques: two points have the label 'DDA'");
     expect_starts(mistake(dda(R"("label": "DDA {dda.strid}")")),
-                  "study.json:3:28: variants[0]: 'label' names {dda.strid}");
+                  "study.json:3:28: techniques[0]: 'label' names {dda.strid}");
 }
 
 /// What `ssrlab tune` would stumble over hours later is refused while the config is read.
 TEST_F(Designs, SearchesAreCheckedBeforeTheyRun) {
-    const auto study = [](const std::string& tune, const std::string& variant = R"({"variant": "mcguire_dda"})",
+    const auto study = [](const std::string& tune, const std::string& technique = R"({"technique": "mcguire_dda"})",
                           const std::string& more = "") {
-        return R"({"shots": [{"scene": "fence"}], "metrics": ["mse"], )" + more + "\n\"variants\": [" + variant +
+        return R"({"shots": [{"scene": "fence"}], "metrics": ["mse"], )" + more + "\n\"techniques\": [" + technique +
                "],\n\"tune\": {" + tune + "}}";
     };
     const std::string axes =
@@ -382,10 +385,10 @@ TEST_F(Designs, SearchesAreCheckedBeforeTheyRun) {
         axes + R"(, "judge": {"shots": [{"scene": "grazing"}]}, "metrics": "mse", "budgets": [1])";
     const Config config = read(study(judged + R"(, "time": "operations", "start": "default")"));
     EXPECT_TRUE(config.is_tuned);
-    EXPECT_TRUE(config.variants.front().is_baseline);
+    EXPECT_TRUE(config.techniques.front().is_baseline);
     EXPECT_FALSE(tuning_of(config)["is_estimated"]);
     const Config estimated =
-        read(study(judged + R"(, "time": "navi21")", R"({"variant": "mcguire_dda"})", R"("timing": {"frames": 0},)"));
+        read(study(judged + R"(, "time": "navi21")", R"({"technique": "mcguire_dda"})", R"("timing": {"frames": 0},)"));
     EXPECT_TRUE(tuning_of(estimated)["is_estimated"]);
 
     const auto refuses = [&](const std::string& text, const std::string& why) {
@@ -409,18 +412,18 @@ TEST_F(Designs, SearchesAreCheckedBeforeTheyRun) {
     refuses(study(axes + R"(, "start": "best")"), "best");
     refuses(study(axes + R"(, "judge": {"shots": []})"), "names no shots");
     refuses(study(axes + R"(, "judge": {"shots": [{"scene": "grazing"}], "lit": "direct"})"), "unknown key 'lit'");
-    refuses(study(axes, R"({"variant": "mcguire_dda"})", R"("timing": {"frames": 0},)"), "counted 'time'");
-    refuses(study(axes, R"({"variant": "mcguire_dda"}, {"variant": "none"})"), "searches one variant");
-    refuses(study(axes, R"({"variant": "mcguire_dda", "timing": false})"), "'timing' is not for points");
-    refuses(study(R"("axes": {"misses": ["weight"]})", R"({"variant": "amd_sssr"})", R"("seeds": 1,)"),
+    refuses(study(axes, R"({"technique": "mcguire_dda"})", R"("timing": {"frames": 0},)"), "counted 'time'");
+    refuses(study(axes, R"({"technique": "mcguire_dda"}, {"technique": "none"})"), "searches one technique");
+    refuses(study(axes, R"({"technique": "mcguire_dda", "timing": false})"), "'timing' is not for points");
+    refuses(study(R"("axes": {"misses": ["weight"]})", R"({"technique": "amd_sssr"})", R"("seeds": 1,)"),
             "a single seed gives no interval");
 
     // A program's settings are its own, so that only what they look like can be checked.
     const std::string program = R"("program": ["./render.sh", "mine"], )";
     const Config over_program = read(
         study(program + R"("axes": {"steps": {"log": [8, 64]}, "blur": [true, false], "size": {"values": [1, 2]}})",
-              R"({"variant": "none"}, {"variant": "mcguire_dda"})", R"("timing": {"frames": 0},)"));
-    EXPECT_TRUE(over_program.variants.front().is_baseline);
+              R"({"technique": "none"}, {"technique": "mcguire_dda"})", R"("timing": {"frames": 0},)"));
+    EXPECT_TRUE(over_program.techniques.front().is_baseline);
     EXPECT_EQ(tuning_of(over_program)["budgets"], json::array({1}));
     EXPECT_EQ(tuning_of(read(study(R"("program": "render", "axes": {"steps": [1]})")))["program"],
               json::array({"render"}));
@@ -460,7 +463,8 @@ TEST_F(Designs, WhatNoPointReadsIsNotVaried) {
     EXPECT_EQ(points(of(dda(R"("sweep": {"tracer": ["dda", "hzb"], "dda.stride": [1, 2]})"))).size(), 4u);
     EXPECT_EQ(points(of(dda(R"("parameters": {"tracer": "hzb"}, "sweep": {"max_roughness": [0.1, 0.2]})"))).size(), 2u);
     EXPECT_EQ(
-        points(of(R"({"variant": "frostbite_sssr", "parameters": {"tracer": "dda", "rough_tracer": "frostbite_linear"},
+        points(
+            of(R"({"technique": "frostbite_sssr", "parameters": {"tracer": "dda", "rough_tracer": "frostbite_linear"},
                             "sweep": {"frostbite.relative_thickness": [0.01, 0.1]}})"))
             .size(),
         2u);

@@ -285,7 +285,7 @@ TEST_F(CaptureTest, NumberSignsOfFoldersAreNoPattern) {
     const auto file_of = [&](const std::string& reference) {
         write_text(take / "cap/gbuffer.exr", "not read here");
         write_text(take / "study.json", R"({"shots": [{"gbuffer": "cap", "reference": ")" + reference +
-                                            R"("}], "variants": [{"variant": "none"}]})");
+                                            R"("}], "techniques": [{"technique": "none"}]})");
         return capture_reference_file(read_config(take / "study.json").shots.at(0), 7);
     };
     EXPECT_EQ(file_of("truth.exr"), take / "truth.exr");

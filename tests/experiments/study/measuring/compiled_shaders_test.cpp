@@ -35,7 +35,7 @@ struct CompiledShaders : testing::Test {
         if (const std::string& why = compilers().entries.front().refusal; !why.empty()) GTEST_SKIP() << why;
     }
     /// As an engine would have the technique: nothing is left out.
-    static std::vector<CompiledRow> rows_of(const VariantConfig& point) {
+    static std::vector<CompiledRow> rows_of(const PointConfig& point) {
         const Shot shot =
             load_shot({.scene = "mirror_pillars", .extent = {32, 24}, .frames = {0}, .warm_up = 1, .direct_lit = true},
                       scene_search_path({}));
@@ -59,11 +59,11 @@ struct CompiledShaders : testing::Test {
 
 /// The file sizes of registers (occupancy.cpp) explain every occupancy that the compiler states.
 TEST_F(CompiledShaders, NoTechniqueSpillsByDefaultAndAllOccupanciesAreExplained) {
-    for (const VariantEntry& entry : variant_table()) {
+    for (const TechniqueEntry& entry : technique_table()) {
         const std::vector<CompiledRow> rows = rows_of(single_point(entry.name));
         EXPECT_EQ(rows.empty(), entry.name == "none") << entry.name;
         for (const CompiledRow& row : rows) {
-            const std::string where = row.variant + ' ' + row.stage + ' ' + row.shader + ' ' + row.chip;
+            const std::string where = row.technique + ' ' + row.stage + ' ' + row.shader + ' ' + row.chip;
             EXPECT_EQ(row.refusal, "") << where;
             EXPECT_EQ(row.spilled_vgprs, 0) << where;
             EXPECT_EQ(row.scratch_bytes, 0) << where;

@@ -9,7 +9,7 @@ import unittest
 PROGRAM = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../../experiments/study/measuring/costs/cost_agreement.py")
 
 # Totals by time: a 1 ms, b 2 ms, c 2.5 ms; by fetches: a, c, b. Of the three pairs, b and c are not clearly apart.
-TIMES = """shot,variant,point,seed,stage,frame,milliseconds,clock,foreign_load,disturbed
+TIMES = """shot,technique,point,seed,stage,frame,milliseconds,clock,foreign_load,disturbed
 s,,,0,gbuffer,0,50,host_fence,,0
 s,v,a,0,total,0,1,host_fence,,0
 s,v,a,0,total,1,1,host_fence,,0
@@ -20,7 +20,7 @@ s,v,a,0,v/x,0,1,host_fence,,0
 s,v,b,0,v/x,0,2,host_fence,,0
 other,v,a,0,total,0,7,host_fence,,0
 """
-ESTIMATES = """shot,variant,point,stage,chip,product,microseconds,refusal
+ESTIMATES = """shot,technique,point,stage,chip,product,microseconds,refusal
 s,v,a,total,navi21,R,4,
 s,v,b,total,navi21,R,5,
 s,v,c,total,navi21,R,6,
@@ -42,7 +42,7 @@ class CostAgreement(unittest.TestCase):
             return subprocess.run([sys.executable, "-B", PROGRAM, folder, *options], capture_output=True, text=True)
 
     def test_ranks_and_pairs_by_hand(self):
-        rows = ["shot,variant,point,stage,quantity,value"]
+        rows = ["shot,technique,point,stage,quantity,value"]
         for (point, stage), fetches in FETCHES.items():
             for quantity in ("invocations", "texels", "bytes_read", "bytes_written", "unique_bytes", "operations"):
                 rows.append(f"s,v,{point},{stage},{quantity},1")
@@ -52,14 +52,14 @@ class CostAgreement(unittest.TestCase):
         self.assertIn("| operations | none | none | 0 of 2 | - |", done.stdout)  # ties say nothing
 
     def test_estimates_of_chips_are_ranked_beside(self):
-        costs = "shot,variant,point,stage,quantity,value\ns,v,a,total,fetches,1\n"
+        costs = "shot,technique,point,stage,quantity,value\ns,v,a,total,fetches,1\n"
         done = self.run_on(costs, ESTIMATES)
         self.assertIn("| navi21 estimate | 1.00 [1.00, 1.00] | -1.00 [-1.00, -1.00] | 2 of 2 | 1000.00 [1000.00, 4000.00] |", done.stdout, done.stderr)
         self.assertIn("| vega10 estimate | -1.00 [-1.00, -1.00] | none | 0 of 1 | - |", done.stdout)  # c was refused
         self.assertNotIn("navi21", self.run_on(costs).stdout)
 
     def test_totals_are_sums_of_the_stages_that_are_left(self):
-        costs = "shot,variant,point,stage,quantity,value\ns,v,a,total,fetches,1\n"
+        costs = "shot,technique,point,stage,quantity,value\ns,v,a,total,fetches,1\n"
         done = self.run_on(costs, ESTIMATES, ["--without", "w/*"])
         self.assertIn("| navi21 estimate | -1.00 [-1.00, -1.00] | -1.00 [-1.00, -1.00] | 0 of 1 |", done.stdout, done.stderr)
         none_left = self.run_on(costs, ESTIMATES, ["--without", "v/*"])
@@ -67,18 +67,18 @@ class CostAgreement(unittest.TestCase):
 
     def test_points_without_work_of_their_own_are_left_out_of_a_shot(self):
         """`d` keeps the noise's texture alone in `moves`, which takes a thousandth of what the others take: three pairs in order for nothing."""
-        names = "shot,variant,point,seed,stage,frame,milliseconds,clock,foreign_load,disturbed\n"
-        times, estimates = names, "shot,variant,point,stage,chip,product,microseconds,refusal\n"
+        names = "shot,technique,point,seed,stage,frame,milliseconds,clock,foreign_load,disturbed\n"
+        times, estimates = names, "shot,technique,point,stage,chip,product,microseconds,refusal\n"
         for shot in ("still", "moves"):
-            for variant, ms, microseconds in (("a", 1, 2000), ("b", 2, 1000), ("c", 4, 4000), ("d", 8, 9000)):
-                stages = {f"{variant}/trace": (ms, microseconds)}
+            for technique, ms, microseconds in (("a", 1, 2000), ("b", 2, 1000), ("c", 4, 4000), ("d", 8, 9000)):
+                stages = {f"{technique}/trace": (ms, microseconds)}
                 if shot == "moves":
                     stages |= {"common/noise": (0.001, 1), "clear": (9, 9)}
                 for stage, (of_time, estimate) in stages.items():
-                    times += f"{shot},{variant},p,0,{stage},0,{of_time},host_fence,,0\n"
-                    estimates += f"{shot},{variant},p,{stage},navi21,R,{estimate},\n"
+                    times += f"{shot},{technique},p,0,{stage},0,{of_time},host_fence,,0\n"
+                    estimates += f"{shot},{technique},p,{stage},navi21,R,{estimate},\n"
         with tempfile.TemporaryDirectory() as folder:
-            costs = "shot,variant,point,stage,quantity,value\nstill,a,p,a/trace,fetches,1\n"
+            costs = "shot,technique,point,stage,quantity,value\nstill,a,p,a/trace,fetches,1\n"
             for name, text in (("times.csv", times), ("costs.csv", costs), ("estimates.csv", estimates)):
                 with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
                     file.write(text)
@@ -93,7 +93,7 @@ class CostAgreement(unittest.TestCase):
         self.assertIn("model_range{0.5, 2}", done.stdout)
 
     def test_without_a_common_shot(self):
-        done = self.run_on("shot,variant,point,stage,quantity,value\nthird,v,a,total,fetches,1\n")
+        done = self.run_on("shot,technique,point,stage,quantity,value\nthird,v,a,total,fetches,1\n")
         self.assertEqual((done.returncode, done.stderr), (2, "error: no shot has both times and costs\n"))
 
 

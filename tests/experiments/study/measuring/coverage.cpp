@@ -87,9 +87,10 @@ std::vector<ResultRow> results(const Reference& reference, const std::map<std::s
     const PoseTruth truth = pose_truth(reference, config, 0, {.has_targets = true});
     std::vector<ResultRow> rows;
     for (const auto& [name, images] : tests)
-        for (ResultRow& row : measure_targets(truth, images, masks, {.variant = name})) rows.push_back(std::move(row));
+        for (ResultRow& row : measure_targets(truth, images, masks, {.technique = name}))
+            rows.push_back(std::move(row));
     for (const nlohmann::json& e : rung_entries(truth, masks)) {
-        ResultRow row{.variant = "rung " + e["rung"].get<std::string>()};
+        ResultRow row{.technique = "rung " + e["rung"].get<std::string>()};
         row.target = e["target"], row.metric = e["metric"], row.mask = e["mask"], row.value = e["value"].get<double>();
         if (!e["low"].is_null()) row.low = e["low"].get<double>(), row.high = e["high"].get<double>();
         rows.push_back(std::move(row));
@@ -137,9 +138,9 @@ std::vector<CoverageRow> coverage(const CoverageSetting& setting) {
         const std::vector<ResultRow> rows = results(seed, tested, inside, setting);
         for (size_t i = 0; i < rows.size(); ++i) {
             const ResultRow& r = rows[i];
-            CoverageRow& row = sums[{r.variant, r.target, r.mask, r.metric}];
+            CoverageRow& row = sums[{r.technique, r.target, r.mask, r.metric}];
             row.scene = setting.scene, row.samples = setting.samples;
-            row.test = r.variant, row.target = r.target, row.mask = r.mask, row.metric = r.metric;
+            row.test = r.technique, row.target = r.target, row.mask = r.mask, row.metric = r.metric;
             add(row, r, truth[i].value.value_or(NAN));
         }
     }
@@ -211,17 +212,18 @@ public:
         for (const auto& [name, images] : techniques_.images)
             if (images.size() == 1) without_seeds.insert({name, ""});
         for (const MetricSummary& s : summarise(measured.rows, without_seeds))
-            all.push_back({{s.variant, s.target, s.mask, s.metric},
+            all.push_back({{s.technique, s.target, s.mask, s.metric},
                            s.value,
                            s.holds_all_noise ? s.low : std::nullopt,
                            s.holds_all_noise ? s.high : std::nullopt});
         for (const SplitRow& s : measured.splits) {
-            all.push_back({{s.variant, s.target, s.mask, "bias_squared"},
+            all.push_back({{s.technique, s.target, s.mask, "bias_squared"},
                            s.bias_squared,
                            s.bias_squared_low,
                            s.bias_squared_high});
-            if (!without_seeds.contains({s.variant, ""}))
-                all.push_back({{s.variant, s.target, s.mask, "variance"}, s.variance, s.variance_low, s.variance_high});
+            if (!without_seeds.contains({s.technique, ""}))
+                all.push_back(
+                    {{s.technique, s.target, s.mask, "variance"}, s.variance, s.variance_low, s.variance_high});
         }
         add_effects(all, measured);
         return all;
@@ -237,7 +239,7 @@ private:
             for (unsigned i = 0; i < std::min<size_t>(count, images.size()); ++i) {
                 const CompositedImages& shown = images[(first + i) % images.size()];
                 for (ResultRow& row :
-                     measure_targets(truth, shown, masks_, {.frame = "0", .variant = name, .seed = i})) {
+                     measure_targets(truth, shown, masks_, {.frame = "0", .technique = name, .seed = i})) {
                     row.represents_shot = true;
                     add_growth(noise, {row.target, row.metric, row.mask, "0"}, row.growth);
                     measured.rows.push_back(std::move(row));
@@ -249,10 +251,10 @@ private:
                     splits.try_emplace(target, against).first->second.add(i, tested);
                 }
             }
-            for (ReferenceNoise& n : means_of(noise, {.variant = name})) measured.noise.push_back(std::move(n));
+            for (ReferenceNoise& n : means_of(noise, {.technique = name})) measured.noise.push_back(std::move(n));
             for (const auto& [target, split] : splits)
                 for (SplitRow& row :
-                     split_rows(split, masks_, {.variant = name, .target = target, .mask = {}}, images.size() > 1))
+                     split_rows(split, masks_, {.technique = name, .target = target, .mask = {}}, images.size() > 1))
                     measured.splits.push_back(std::move(row));
         }
         return measured;
@@ -263,17 +265,18 @@ private:
             std::vector<ComparedPoint> points;
             const auto add_point = [&](const std::string& name) {
                 ComparedPoint& point = points.emplace_back();
-                point.variant = name, point.is_baseline = name == baseline;
+                point.technique = name, point.is_baseline = name == baseline;
                 point.depends_on_seed = techniques_.images.at(name).size() > 1;
             };
             add_point(baseline);
             for (const std::string& name : others) add_point(name);
             const auto add = [&](const std::vector<EffectRow>& effects) {
                 for (const EffectRow& e : effects)
-                    all.push_back({{e.variant + " / " + e.against_variant, e.target, e.mask, "effect on " + e.metric},
-                                   e.ratio,
-                                   e.low,
-                                   e.high});
+                    all.push_back(
+                        {{e.technique + " / " + e.against_technique, e.target, e.mask, "effect on " + e.metric},
+                         e.ratio,
+                         e.low,
+                         e.high});
             };
             add(paired_effects(measured.rows, points, {}, measured.noise));
             add(split_effects(measured.splits, points));

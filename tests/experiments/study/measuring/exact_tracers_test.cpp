@@ -9,7 +9,7 @@
 #include "experiments/study/measuring/rays/answered_rays.h"
 #include "experiments/study/measuring/rays/exact_rays.h"
 #include "experiments/study/measuring/rays/judged_hits.h"
-#include "experiments/study/measuring/render_variant.h"
+#include "experiments/study/measuring/render_technique.h"
 #include "variants/registry.h"
 #include "variants/tracers/outcome.h"
 #include "variants/tracers/tracers.h"
@@ -61,37 +61,37 @@ struct Player {
         rasterizer.light_directly(gbuffer);
     }
     const CameraData& camera() const { return rasterizer.camera(); }
-    HostGBuffer host() { return download_gbuffer(rasterizer.graph(), gbuffer, camera(), DepthFormat::d32f); }
+    HostGBuffer host() { return download_gbuffer(rasterizer.pass_list(), gbuffer, camera(), DepthFormat::d32f); }
 };
 
 /// A technique at one point of its parameters, with a probe plugged in that knows the scene.
 struct Probed {
     Player& player;
-    std::unique_ptr<Variant> variant;
-    PassGraph graph;
+    std::unique_ptr<Technique> technique;
+    PassList pass_list;
     RayProbe probe;
     ExactRays exact;
 
     Probed(Player& player, const std::string& name, const Parameters& parameters = Parameters::object(),
            const std::string& preset = "")
         : player(player),
-          variant(make_variant(name, parameters, preset)),
-          graph(ExactTracers::device(), player.shot.config.extent),
+          technique(make_technique(name, parameters, preset)),
+          pass_list(ExactTracers::device(), player.shot.config.extent),
           exact(player.shot, 0, player.camera()) {
-        variant->ray_probe = &probe;
+        technique->ray_probe = &probe;
         probe.exact_hits = [this](const RecordedRays& recorded) { return exact.hits(recorded); };
         probe.answers = [this](const RecordedRays& marched, const AskedRays& asked) {
             const GBuffer& g = this->player.gbuffer;
-            const AnsweredRays answered({.lit = graph.download(g.lit),
-                                         .fallback = graph.download(g.fallback),
-                                         .normal = graph.download(g.normal),
+            const AnsweredRays answered({.lit = pass_list.download(g.lit),
+                                         .fallback = pass_list.download(g.fallback),
+                                         .normal = pass_list.download(g.normal),
                                          .reflectance = {},
                                          .true_specular = {}});
             return answered.choose(marched, exact.hits(marched), asked);
         };
     }
     Reflections render(unsigned seed = 0) {
-        return render_variant(graph, *variant, player.camera(), seed, player.gbuffer);
+        return render_technique(pass_list, *technique, player.camera(), seed, player.gbuffer);
     }
     /// Quantities of the rays of a frame, by pass.
     std::map<std::string, std::map<std::string, double>> judge(unsigned seed = 0) {
@@ -158,7 +158,7 @@ TEST_F(ExactTracers, AnsweredRaysEndAsExactOnesAndAllOthersAsTheMarchs) {
         Player player("roughness_gradient", small);
         const auto radiance = [&](Parameters parameters) {
             Probed probed(player, t.name, parameters, t.preset);
-            return probed.graph.download(probed.render(3).radiance);
+            return probed.pass_list.download(probed.render(3).radiance);
         };
         const auto answered = [&](const char* selector, double share) {
             Parameters parameters = t.march;
@@ -224,16 +224,17 @@ TEST_F(ExactTracers, RecordingChangesNoBit) {
                                {"frostbite_sssr", "best", {{"max_rays", 4}, {"rough_tracer", "dda"}}, 3}}) {
         Player player("passing_pillars", small);
         Probed plain(player, t.name, t.parameters, t.preset), recorded(player, t.name, t.parameters, t.preset);
-        ASSERT_EQ(plain.variant->not_repeatable(), "") << t.name;
-        plain.variant->ray_probe = nullptr;
+        ASSERT_EQ(plain.technique->not_repeatable(), "") << t.name;
+        plain.technique->ray_probe = nullptr;
         recorded.probe.is_recording = true;
         for (unsigned frame = 0; frame < 3; ++frame) {  // what was recorded must not show in histories either
             player.play(frame);
             const Reflections a = plain.render(5), b = recorded.render(5);
             const std::string where = std::string(t.name) + " " + t.preset + ", frame " + std::to_string(frame);
-            EXPECT_EQ(differing_bits(plain.graph.download(a.radiance), recorded.graph.download(b.radiance)), 0u)
+            EXPECT_EQ(differing_bits(plain.pass_list.download(a.radiance), recorded.pass_list.download(b.radiance)), 0u)
                 << where;
-            EXPECT_EQ(differing_bits(plain.graph.download(a.confidence), recorded.graph.download(b.confidence)), 0u)
+            EXPECT_EQ(differing_bits(plain.pass_list.download(a.confidence), recorded.pass_list.download(b.confidence)),
+                      0u)
                 << where;
             EXPECT_EQ(recorded.probe.recorded.size(), t.passes) << where;
         }
@@ -248,10 +249,10 @@ TEST_F(ExactTracers, CountingChangesNoBitAndGivesTheSameTwice) {
     CostCounter counter, another;
     for (unsigned frame = 0; frame < 2; ++frame) {
         player.play(frame);
-        if (frame == 1) counted.graph.watch(&counter), again.graph.watch(&another);
+        if (frame == 1) counted.pass_list.watch(&counter), again.pass_list.watch(&another);
         const Reflections a = plain.render(5), b = counted.render(5);
         again.render(5);
-        EXPECT_EQ(differing_bits(plain.graph.download(a.radiance), counted.graph.download(b.radiance)), 0u);
+        EXPECT_EQ(differing_bits(plain.pass_list.download(a.radiance), counted.pass_list.download(b.radiance)), 0u);
     }
     const std::vector<PassCost> costs = counter.costs(), twice = another.costs();
     ASSERT_GT(costs.size(), 5u);
@@ -282,7 +283,7 @@ TEST_F(ExactTracers, CountedFetchesAreThoseOfTheRecordedRays) {
     EXPECT_GT(of_rays, expected / 2);
     probed.probe.is_recording = false;
     CostCounter counter;
-    probed.graph.watch(&counter);
+    probed.pass_list.watch(&counter);
     probed.render();
     const std::vector<PassCost> costs = counter.costs();
     ASSERT_EQ(costs.at(0).stage, "mcguire_dda/trace");
@@ -300,7 +301,7 @@ TEST_F(ExactTracers, WhatIsRecordedIsWhatWasTraced) {
     EXPECT_EQ(recorded.stage, "mcguire_dda/trace");
     ASSERT_EQ(recorded.rays.size(), 160u * 90);
     const HostGBuffer g = player.host();
-    const HostImage ends = probed.graph.download(probed.graph.image("hit", Format::rgba32f));
+    const HostImage ends = probed.pass_list.download(probed.pass_list.image("hit", Format::rgba32f));
     size_t traced = 0, hits = 0, fetches = 0;
     for (unsigned y = 0; y < 90; ++y)
         for (unsigned x = 0; x < 160; ++x) {
@@ -376,13 +377,13 @@ TEST_F(ExactTracers, TheSecondLayerOnlyEndsRays) {
 TEST_F(ExactTracers, WhoCannotAskOrSeeIsToldSo) {
     Player player("fence", small, false);
     Probed asking(player, "mcguire_dda", {{"tracer", "exact_scene"}});
-    EXPECT_TRUE(asking.variant->uses_scene_data());
+    EXPECT_TRUE(asking.technique->uses_scene_data());
     const std::string no_scene =
         "the tracer exact_scene, and exact_rays, use scene data, which only ssrlab's commands provide, and not for "
         "captures";
     asking.probe.exact_hits = {}, asking.probe.answers = {};
     EXPECT_EQ(message_of([&] { asking.render(); }), no_scene);
-    asking.variant->ray_probe = nullptr;
+    asking.technique->ray_probe = nullptr;
     EXPECT_EQ(message_of([&] { asking.render(); }), no_scene);
     Probed asking_some(player, "mcguire_dda", {{"exact_rays", "random"}});
     asking_some.probe.answers = {};
@@ -397,14 +398,14 @@ TEST_F(ExactTracers, WhoCannotAskOrSeeIsToldSo) {
 
     for (const Parameters& parameters : {Parameters{{"tracer", "exact_layer"}}, Parameters{{"dda.layers", "2"}}}) {
         Probed seeing(player, "mcguire_dda", parameters);
-        EXPECT_TRUE(seeing.variant->needs_depth_layers());
+        EXPECT_TRUE(seeing.technique->needs_depth_layers());
         EXPECT_EQ(message_of([&] { seeing.render(); }),
                   "the chosen tracer reads the layer behind the visible surfaces: captures lack it, and scenes' frames "
                   "have it only if the technique's needs_depth_layers() returns true");
     }
     Probed by_parameter(player, "mcguire_dda",
                         {{"tracer", "exact_layer"}, {"exact_layer.thickness_from", "parameter"}});
-    EXPECT_FALSE(by_parameter.variant->needs_depth_layers());
+    EXPECT_FALSE(by_parameter.technique->needs_depth_layers());
     EXPECT_EQ(message_of([&] { by_parameter.render(); }), "no error");
 }
 
@@ -413,7 +414,7 @@ TEST_F(ExactTracers, DiligentFxKeepsItsLimitsWithWhatFits) {
     for (const TracerEntry& tracer : tracer_table()) {
         Probed probed(player, "diligent_ssr", {{"tracer", tracer.name}});
         EXPECT_EQ(tracer.fits_webgl2, tracer.name != "exact_scene") << tracer.name;
-        EXPECT_EQ(probed.variant->limits, tracer.fits_webgl2 ? Limits::webgl2 : Limits::none) << tracer.name;
+        EXPECT_EQ(probed.technique->limits, tracer.fits_webgl2 ? Limits::webgl2 : Limits::none) << tracer.name;
         EXPECT_EQ(message_of([&] { probed.render(); }), "no error") << tracer.name;
         probed.probe.is_recording = true;  // by buffers, which are no part of the technique
         EXPECT_EQ(message_of([&] { probed.render(); }), "no error") << tracer.name;

@@ -120,14 +120,14 @@ struct FrostbiteTruth : testing::Test {
                                      {"importance_bias", 0.0},
                                      {"max_rays", 4}};
         parameters.update(changes);
-        const std::unique_ptr<Variant> variant = make_variant("frostbite_sssr", parameters);
-        PassGraph graph(device, extent);
+        const std::unique_ptr<Technique> technique = make_technique("frostbite_sssr", parameters);
+        PassList pass_list(device, extent);
         std::vector<glm::dvec3> means;
         for (unsigned seed = 0; seed < 48; ++seed) {
             CameraData camera = rasterizer.camera();
             camera.frame.y = seed;
-            graph.begin_frame(camera, variant->params, gbuffer.images());
-            const HostImage image = graph.download(variant->render(graph, gbuffer).radiance);
+            pass_list.begin_frame(camera, technique->params, gbuffer.images());
+            const HostImage image = pass_list.download(technique->render(pass_list, gbuffer).radiance);
             means.push_back(region_mean([&](unsigned i) {
                 const glm::dvec3 radiance = glm::dvec3(image.rgb(i)) * double(image.values[4 * i + 3]);
                 return is_specular ? radiance * glm::dvec3(hits[i].reflectance) : radiance;

@@ -25,8 +25,8 @@ struct PackedGBuffer : testing::Test {
         HostGBuffer result;
         for (const FrameStep& step : shot.steps) {
             const FrameStore::Frame frame = store.frame(step, {});
-            PassGraph graph(device, shot.config.extent);
-            result = download_gbuffer(graph, frame.gbuffer, frame.camera, shot.config.depth_format);
+            PassList pass_list(device, shot.config.extent);
+            result = download_gbuffer(pass_list, frame.gbuffer, frame.camera, shot.config.depth_format);
         }
         return result;
     }

@@ -5,7 +5,7 @@
 #include "experiments/gpu_costs/waves/pass_tracer.h"
 #include "experiments/gpu_costs/waves/traced_shader.h"
 #include "experiments/study/config/points/all_points.h"
-#include "experiments/study/measuring/render_variant.h"
+#include "experiments/study/measuring/render_technique.h"
 #include "experiments/study/needs.h"
 
 #include <gtest/gtest.h>
@@ -38,26 +38,26 @@ struct GpuEstimates : testing::Test {
     std::unique_ptr<FrameSource> source;
     std::unique_ptr<FrameStore> store;
 
-    TracedFrame trace(const VariantConfig& point) {
+    TracedFrame trace(const PointConfig& point) {
         open(point);
         return trace_last_frame(device(), shot, *store, lit, point, true, [](double) {});
     }
-    void open(const VariantConfig& point) {
+    void open(const PointConfig& point) {
         source = scene_source(device(), shot, timed_config({point}, 0), true);
         store = std::make_unique<FrameStore>(*source, shot.config, 0);
     }
     /// What the technique shows in the last frame.
-    std::vector<float> radiance(const VariantConfig& point, bool is_traced) {
+    std::vector<float> radiance(const PointConfig& point, bool is_traced) {
         open(point);
         const Renderer renderer(device(), shot.config.extent, point);
-        renderer.graph->use_gpu_forms(true);
+        renderer.pass_list->use_gpu_forms(true);
         PassTracer tracer([](const PassTrace&) {});
-        if (is_traced) renderer.graph->watch(&tracer);
+        if (is_traced) renderer.pass_list->watch(&tracer);
         std::vector<float> values;
         for (const FrameStep& step : shot.steps) {
             const FrameStore::Frame frame = store->frame(step, lit(step));
             const Reflections result = renderer.render(frame.camera, 1, frame.gbuffer);
-            values = renderer.graph->download(result.radiance).values;
+            values = renderer.pass_list->download(result.radiance).values;
         }
         return values;
     }
@@ -68,7 +68,7 @@ struct GpuEstimates : testing::Test {
 /// Passes that write down their ways compute what they compute without.
 TEST_F(GpuEstimates, TracingChangesNoBit) {
     for (const std::string technique : {"mcguire_dda", "diligent_ssr"}) {
-        const VariantConfig point = single_point(technique);
+        const PointConfig point = single_point(technique);
         EXPECT_EQ(radiance(point, true), radiance(point, false)) << technique;
     }
 }
@@ -97,7 +97,7 @@ TEST_F(GpuEstimates, EveryStageHasAnEstimateWithItsInterval) {
     const std::filesystem::path cache = std::filesystem::path(testing::TempDir()) / "gpu_estimates_cache";
     std::filesystem::remove_all(cache);
     for (const std::string technique : {"amd_sssr", "diligent_ssr"}) {
-        const VariantConfig point = single_point(technique);
+        const PointConfig point = single_point(technique);
         const TracedFrame frame = trace(point);
         expect_all_counts(frame);
         const std::vector<EstimateRow> rows = estimate_rows(frame, shot.name(), point, compilers, {.cache = cache});
@@ -134,7 +134,7 @@ namespace {
 struct EstimatesOfSamples : GpuEstimates {
     const GpuCompilers compilers = find_compilers({"polaris10"});
     const std::filesystem::path cache = std::filesystem::path(testing::TempDir()) / "gpu_estimates_coverage";
-    const VariantConfig point = single_point("mcguire_dda");
+    const PointConfig point = single_point("mcguire_dda");
 
     TracedFrame traced_march() {
         TracedFrame frame = trace(point);

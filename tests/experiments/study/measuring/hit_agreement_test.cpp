@@ -32,13 +32,13 @@ Agreement measure_agreement(const std::string& name, const nlohmann::json& param
     const GBuffer gbuffer = rasterizer.render(scene.cameras.front(), {.extent = extent});
     rasterizer.light_directly(gbuffer);
     const CameraData camera = rasterizer.camera();
-    const HostImage depth = rasterizer.graph().download(gbuffer.depth);
+    const HostImage depth = rasterizer.pass_list().download(gbuffer.depth);
 
-    PassGraph graph(device, extent);
-    const auto variant = make_variant("mcguire_dda", parameters);
-    graph.begin_frame(camera, variant->params, gbuffer.images());
-    variant->render(graph, gbuffer);
-    const HostImage hits = graph.download(graph.image("hit", Format::rgba32f));
+    PassList pass_list(device, extent);
+    const auto technique = make_technique("mcguire_dda", parameters);
+    pass_list.begin_frame(camera, technique->params, gbuffer.images());
+    technique->render(pass_list, gbuffer);
+    const HostImage hits = pass_list.download(pass_list.image("hit", Format::rgba32f));
     EXPECT_TRUE(device.validation_messages().empty());
 
     const ScenePose pose = pose_scene(scene, 0);

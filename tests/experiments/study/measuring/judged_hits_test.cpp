@@ -217,11 +217,11 @@ TEST(JudgedHits, SeedsGiveAMeanWithTheIntervalOfCountsWhereFewRaysChange) {
         add(hits, 10 + seed, rays, {4, 1});
         add(hits, 10 + seed, {{seed == 1 ? miss() : RayRecord{}, seen_at_3_3}}, {1, 1}, 1, {everywhere}, "rough");
     }
-    const HitRow shared{.shot = "shot", .frame = "7", .variant = "variant", .point = "point"};
+    const HitRow shared{.shot = "shot", .frame = "7", .technique = "technique", .point = "point"};
     const std::vector<HitRow> rows = hits.rows(shared);
     const HitRow& first = rows.at(0);
     EXPECT_EQ(first.quantity, "right");
-    EXPECT_EQ(first.stage + first.shot + first.frame + first.variant + first.point, "traceshot7variantpoint");
+    EXPECT_EQ(first.stage + first.shot + first.frame + first.technique + first.point, "traceshot7techniquepoint");
     EXPECT_EQ(first.seeds, 3u);
     EXPECT_DOUBLE_EQ(first.rays, 4);
     EXPECT_DOUBLE_EQ(first.value, 5.0 / 12);

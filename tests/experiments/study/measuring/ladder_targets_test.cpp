@@ -49,12 +49,12 @@ nlohmann::json entry_of(const nlohmann::json& entries, const std::string& rung, 
 }
 
 /// The value of a row of the only seed.
-double row_value(const std::vector<ResultRow>& rows, const std::string& variant, const std::string& target,
+double row_value(const std::vector<ResultRow>& rows, const std::string& technique, const std::string& target,
                  const std::string& metric, const std::string& mask) {
     for (const ResultRow& r : rows)
-        if (r.variant == variant && r.target == target && r.metric == metric && r.mask == mask && r.seed == 0)
+        if (r.technique == technique && r.target == target && r.metric == metric && r.mask == mask && r.seed == 0)
             return r.value.value();
-    ADD_FAILURE() << "no row " << variant << " " << target << " " << metric << " " << mask;
+    ADD_FAILURE() << "no row " << technique << " " << target << " " << metric << " " << mask;
     return NAN;
 }
 
@@ -165,9 +165,9 @@ TEST_F(StudyTest, AWallThatHidesBoundsWhatSsrCanDo) {
     EXPECT_GT(limit["low"].get<double>(), 0.0) << "most of what this mirror shows is behind the camera";
     EXPECT_LT(limit["high"].get<double>(), row_value(rows, "none", "specular", "mse", "reflective"))
         << "what the image shows of it is more than nothing";
-    for (const char* variant : {"none", "mcguire_dda"})
-        EXPECT_LT(row_value(rows, variant, "on_screen", "mse", "reflective"),
-                  0.5 * row_value(rows, variant, "incident", "mse", "reflective"))
+    for (const char* technique : {"none", "mcguire_dda"})
+        EXPECT_LT(row_value(rows, technique, "on_screen", "mse", "reflective"),
+                  0.5 * row_value(rows, technique, "incident", "mse", "reflective"))
             << "the rung forgives what no technique can know";
     size_t splits = 0, references = 0, maps = 0;
     for (const SplitRow& s : read_rows<SplitRow>(out / "splits.csv")) splits += s.target == "on_screen";
@@ -175,7 +175,7 @@ TEST_F(StudyTest, AWallThatHidesBoundsWhatSsrCanDo) {
         if (i["target"] == "on_screen") ++(i["kind"] == "reference" ? references : maps);
     EXPECT_GT(splits, 0u);
     EXPECT_EQ(references, 1u);
-    EXPECT_EQ(maps, 2u) << "the error of both variants";
+    EXPECT_EQ(maps, 2u) << "the error of both techniques";
 
     // A killed run ends with the same rows, and with the same ladder though all cells are there.
     const std::string first = read_text(out / "results.csv");
@@ -232,7 +232,7 @@ TEST_F(StudyTest, UnknownTargetsAndReferencesWithoutLadderAreMistakes) {
                   0);
         write_text(folder / "capture.json",
                    R"({"shots": [{"gbuffer": "capture", "reference": "truth.exr"}], "targets": ["on_screen"],
-                       "variants": [{"variant": "none"}], "timing": {"frames": 0}})");
+                       "techniques": [{"technique": "none"}], "timing": {"frames": 0}})");
         return message([&] { run(read_config(folder / "capture.json"), "a"); });
     };
     EXPECT_NE(capture("").find("truth.exr has no truth ladder"), std::string::npos);

@@ -90,7 +90,7 @@ TEST(LitNoise, IsWhatNoisyLightAddsToAnError) {
 TEST_F(StudyTest, LitNoiseIsWhatNoisyLightAddsToRealTechniques) {
     Device device;
     write_text(folder / "study.json", R"({"shots": [{"scene": "mirror_pillars", "resolution": [48, 27]}],
-        "variants": [{"variant": "mcguire_dda"}, {"variant": "frostbite_sssr", "seeds": 2}, {"variant": "none"}],
+        "techniques": [{"technique": "mcguire_dda"}, {"technique": "frostbite_sssr", "seeds": 2}, {"technique": "none"}],
         "metrics": "mse", "frame_metrics": [], "masks": "reflective", "targets": "specular"})");
     const Config config = read_config(folder / "study.json");
     const Shot shot = load_shot(config.shots[0], {fs::path(SSRLAB_SOURCE_DIR) / "scenes"});
@@ -105,15 +105,15 @@ TEST_F(StudyTest, LitNoiseIsWhatNoisyLightAddsToRealTechniques) {
     const auto results = [&](const ReferenceHalves& light) {
         FrameStore store(*source, shot.config, size_t(1) << 28), lit(*source, shot.config, size_t(1) << 28);
         ShotTruth truth =
-            shot_truth(shot, config, store, source->graph(), [&](unsigned, ReferenceUse) { return reference; });
+            shot_truth(shot, config, store, source->pass_list(), [&](unsigned, ReferenceUse) { return reference; });
         PoseTruth pose = *truth.poses.at(0);
         pose.diffuse = mean_of(light.a, light.b), pose.lit_halves = light;
         truth.poses[0] = std::make_shared<PoseTruth>(std::move(pose));
         std::vector<Result> all;
-        for (const VariantConfig& variant : config.variants) {
+        for (const PointConfig& technique : config.techniques) {
             SpentTime unused;
             const Cell cell =
-                render_point(device, shot, truth, lit, config, variant,
+                render_point(device, shot, truth, lit, config, technique,
                              {.out = folder, .image_suffix = "x", .report = [](double) {}, .spent = unused});
             Result& mean = all.emplace_back();
             for (const ResultRow& r : cell.rows) {
@@ -153,7 +153,7 @@ TEST_F(StudyTest, LitNoiseIsWhatNoisyLightAddsToRealTechniques) {
 TEST_F(StudyTest, DirectLightHasNoNoise) {
     const std::string rest =
         R"({"shots": [{"scene": "mirror_pillars", "resolution": [48, 27]}], "reference": {"samples": 16},
-        "variants": [{"variant": "mcguire_dda"}], "metrics": "mse", "targets": "specular", "timing": {"frames": 0}, "lit": )";
+        "techniques": [{"technique": "mcguire_dda"}], "metrics": "mse", "targets": "specular", "timing": {"frames": 0}, "lit": )";
     for (const char* lit : {"\"direct\"", "\"path_traced\""}) {
         write_text(folder / "study.json", rest + lit + "}");
         const auto rows =
@@ -167,7 +167,7 @@ TEST_F(StudyTest, LitNoiseIsLeftOutWhereAskedAndSaidToBe) {
     const auto study = [&](const std::string& reference, const std::string& out) {
         write_text(
             folder / "study.json",
-            R"({"shots": [{"scene": "roughness_gradient", "resolution": [48, 27]}], "variants": [{"variant": "mcguire_dda"}],
+            R"({"shots": [{"scene": "roughness_gradient", "resolution": [48, 27]}], "techniques": [{"technique": "mcguire_dda"}],
         "metrics": "mse", "targets": "specular", "timing": {"frames": 0}, "reference": )" +
                 reference + "}");
         return run(read_config(folder / "study.json"), out);

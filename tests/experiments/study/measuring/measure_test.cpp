@@ -9,7 +9,7 @@ namespace {
 ResultRow frame_row(const std::string& frame, const std::string& metric, double value) {
     ResultRow row{.shot = "s",
                   .frame = frame,
-                  .variant = "v",
+                  .technique = "v",
                   .point = "p",
                   .target = "specular",
                   .metric = metric,

@@ -59,7 +59,7 @@ EffectRow simulated_effect(std::mt19937& random, unsigned seeds, float of_one, b
             const Score s = score(reference, image, masks).at(0);
             rows.push_back({.shot = "s",
                             .frame = "0",
-                            .variant = "v",
+                            .technique = "v",
                             .point = point,
                             .seed = seed,
                             .target = "specular",
@@ -72,14 +72,14 @@ EffectRow simulated_effect(std::mt19937& random, unsigned seeds, float of_one, b
             if (metric != "mse")  // `smape` as a name alone, for the closed form of absolute differences
                 add_growth(means, {"specular", metric, masks[0].name, "0"}, growth_of_absolutes(image, reference));
         }
-        for (ReferenceNoise& n : means_of(means, {.shot = "s", .variant = "v", .point = point})) noise.push_back(n);
+        for (ReferenceNoise& n : means_of(means, {.shot = "s", .technique = "v", .point = point})) noise.push_back(n);
     }
-    const std::vector<ComparedPoint> variants = {
-        {.variant = "v", .point = "base", .depends_on_seed = seeds > 0, .is_baseline = true},
-        {.variant = "v", .point = "better", .depends_on_seed = seeds > 0}};
+    const std::vector<ComparedPoint> techniques = {
+        {.technique = "v", .point = "base", .depends_on_seed = seeds > 0, .is_baseline = true},
+        {.technique = "v", .point = "better", .depends_on_seed = seeds > 0}};
     if (!has_noise) noise.clear();
     mark_representative_rows(rows);
-    return paired_effects(rows, variants, {}, noise).at(0);
+    return paired_effects(rows, techniques, {}, noise).at(0);
 }
 
 }  // namespace
@@ -170,7 +170,7 @@ TEST(Effects, PairNoNoiseOfUnequalLengths) {
     for (const char* point : {"base", "better"}) {
         rows.push_back({.shot = "s",
                         .frame = "0",
-                        .variant = "v",
+                        .technique = "v",
                         .point = point,
                         .target = "specular",
                         .metric = "mse",
@@ -180,18 +180,18 @@ TEST(Effects, PairNoNoiseOfUnequalLengths) {
                         .floor = 0.1});
         noise.push_back({.shot = "s",
                          .frame = "0",
-                         .variant = "v",
+                         .technique = "v",
                          .point = point,
                          .target = "specular",
                          .metric = "mse",
                          .mask = "all",
                          .sums = std::vector<float>(noise_groups, 0.001f)});
     }
-    const std::vector<ComparedPoint> variants = {
-        {.variant = "v", .point = "base", .depends_on_seed = false, .is_baseline = true},
-        {.variant = "v", .point = "better", .depends_on_seed = false}};
+    const std::vector<ComparedPoint> techniques = {
+        {.technique = "v", .point = "base", .depends_on_seed = false, .is_baseline = true},
+        {.technique = "v", .point = "better", .depends_on_seed = false}};
     mark_representative_rows(rows);
-    const auto interval_of = [&] { return std::string(paired_effects(rows, variants, {}, noise).at(0).interval); };
+    const auto interval_of = [&] { return std::string(paired_effects(rows, techniques, {}, noise).at(0).interval); };
     EXPECT_EQ(interval_of(), interval::reference);
     for (ReferenceNoise& one : noise) {
         const std::vector<float> sums = std::exchange(one.sums, {});

@@ -58,7 +58,7 @@ TEST(ReflectionProbes, AreTheSameForAllReferencesAndIndependentOfThem) {
 TEST_F(StudyTest, ReflectionsFallBackToAProbeWhereAsked) {
     write_text(folder / "study.json",
                R"({"shots": [{"scene": "dark_room", "resolution": [48, 27]}], "fallback": ["environment", "probe"],
-        "variants": [{"variant": "none"}], "metrics": "mse", "targets": "specular", "masks": "reflective",
+        "techniques": [{"technique": "none"}], "metrics": "mse", "targets": "specular", "masks": "reflective",
         "reference": {"samples": 64}, "timing": {"frames": 0}})");
     std::map<bool, double> errors;
     for (const ResultRow& r : read_rows<ResultRow>(run(read_config(folder / "study.json"), "out") / "results.csv"))
@@ -72,16 +72,17 @@ TEST_F(StudyTest, ReflectionsFallBackToAProbeWhereAsked) {
         truths.insert(nlohmann::json::parse(read_text(file.path()))["cell"]["truth"].get<std::string>());
     EXPECT_EQ(truths.size(), 2u);
     const auto refused = [&](const std::string& more) {
-        write_text(folder / "study.json",
-                   R"({"shots": [{"scene": "dark_room", "fallback": "probe"}], "variants": [{"variant": "none"}], )" +
-                       more + "}");
+        write_text(
+            folder / "study.json",
+            R"({"shots": [{"scene": "dark_room", "fallback": "probe"}], "techniques": [{"technique": "none"}], )" +
+                more + "}");
         return error_message([&] { read_config(folder / "study.json"); });
     };
     EXPECT_NE(refused(R"("targets": ["specular", "on_screen"])").find("falls back to the environment"),
               std::string::npos);
     fs::create_directories(folder / "capture" / "frame_0");
     write_text(folder / "study.json",
-               R"({"shots": [{"gbuffer": "capture", "fallback": "probe"}], "variants": [{"variant": "none"}]})");
+               R"({"shots": [{"gbuffer": "capture", "fallback": "probe"}], "techniques": [{"technique": "none"}]})");
     EXPECT_NE(error_message([&] { read_config(folder / "study.json"); }).find("needs a scene"), std::string::npos);
     EXPECT_NE(refused(R"("lit": "direct")").find("needs path-traced light"), std::string::npos);
 }

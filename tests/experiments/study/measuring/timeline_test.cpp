@@ -14,11 +14,12 @@ struct TemporaryConfig : testing::Test {
         std::filesystem::temp_directory_path() / ("ssrlab_timeline_test_" + std::to_string(getpid()) + ".json");
 
     void TearDown() override { std::filesystem::remove(file); }
-    Config read(const std::string& shots, const std::string& more = R"(, "variants": [{"variant": "none"}])") {
+    Config read(const std::string& shots, const std::string& more = R"(, "techniques": [{"technique": "none"}])") {
         write_text(file, "{\"shots\": [" + shots + "]" + more + "}");
         return read_config(file);
     }
-    std::string mistake(const std::string& shots, const std::string& more = R"(, "variants": [{"variant": "none"}])") {
+    std::string mistake(const std::string& shots,
+                        const std::string& more = R"(, "techniques": [{"technique": "none"}])") {
         try {
             read(shots, more);
         } catch (const Error& e) {
@@ -115,23 +116,23 @@ TEST_F(TemporaryConfig, ReadsFramesFromTo) {
     EXPECT_THROW(read(R"({"scene": "fence", "frames": [9, 8]})"), Error);
 }
 
-TEST_F(TemporaryConfig, GivesVariantsTheirSeeds) {
+TEST_F(TemporaryConfig, GivesTechniquesTheirSeeds) {
     const Config config = read(
         R"({"scene": "fence"})",
-        R"(, "seeds": 3, "variants": [{"variant": "none", "seeds": 1}, {"variant": "mcguire_dda", "baseline": true}])");
-    EXPECT_EQ(config.variants[0].seeds, (std::vector<unsigned>{0}));
-    EXPECT_EQ(config.variants[1].seeds, (std::vector<unsigned>{0})) << "no seed changes it";
-    EXPECT_FALSE(config.variants[0].is_baseline);
-    EXPECT_TRUE(config.variants[1].is_baseline);
+        R"(, "seeds": 3, "techniques": [{"technique": "none", "seeds": 1}, {"technique": "mcguire_dda", "baseline": true}])");
+    EXPECT_EQ(config.techniques[0].seeds, (std::vector<unsigned>{0}));
+    EXPECT_EQ(config.techniques[1].seeds, (std::vector<unsigned>{0})) << "no seed changes it";
+    EXPECT_FALSE(config.techniques[0].is_baseline);
+    EXPECT_TRUE(config.techniques[1].is_baseline);
 }
 
 TEST_F(TemporaryConfig, GivesPointsThatDependOnSeedsSeveral) {
-    const std::string all = R"(, "variants": [{"variant": "mcguire_dda"}, {"variant": "amd_sssr"},
-        {"variant": "amd_sssr", "sweep": {"roughness_threshold_alpha": [0]}},
-        {"variant": "mcguire_dda", "preset": "coarse", "seeds": [4, 6]}, {"variant": "diligent_ssr", "seeds": [7]}])";
+    const std::string all = R"(, "techniques": [{"technique": "mcguire_dda"}, {"technique": "amd_sssr"},
+        {"technique": "amd_sssr", "sweep": {"roughness_threshold_alpha": [0]}},
+        {"technique": "mcguire_dda", "preset": "coarse", "seeds": [4, 6]}, {"technique": "diligent_ssr", "seeds": [7]}])";
     const auto seeds = [&](const std::string& of_study) {
         std::vector<std::vector<unsigned>> found;
-        for (const VariantConfig& v : read(R"({"scene": "fence"})", of_study + all).variants) found.push_back(v.seeds);
+        for (const PointConfig& v : read(R"({"scene": "fence"})", of_study + all).techniques) found.push_back(v.seeds);
         return found;
     };
     const std::vector<unsigned> eight = {0, 1, 2, 3, 4, 5, 6, 7}, two = {2, 9};
@@ -142,7 +143,7 @@ TEST_F(TemporaryConfig, GivesPointsThatDependOnSeedsSeveral) {
 TEST_F(TemporaryConfig, NamesThePrimaryComparisons) {
     const auto primary = [&](const std::string& more) {
         const PrimaryComparisons p =
-            read(R"({"scene": "fence"})", more + R"(, "variants": [{"variant": "none"}])").primary;
+            read(R"({"scene": "fence"})", more + R"(, "techniques": [{"technique": "none"}])").primary;
         return p.metric + " " + p.mask + " " + p.target;
     };
     EXPECT_EQ(primary(""), "mse reflective specular");
@@ -150,7 +151,7 @@ TEST_F(TemporaryConfig, NamesThePrimaryComparisons) {
               "flip all image");
     EXPECT_EQ(primary(R"(, "primary": {"metric": "mse", "mask": "edge"})"), "mse edge specular");
     EXPECT_EQ(primary(R"(, "primary": {"metric": "flicker_relative"})"), "flicker_relative reflective specular");
-    const std::string none = R"(, "variants": [{"variant": "none"}])";
+    const std::string none = R"(, "techniques": [{"technique": "none"}])";
     for (const char* bad :
          {R"({"metric": "bias"})", R"({"metric": "mse_b"})", R"({"mask": "alll"})", R"({"masks": "all"})"})
         EXPECT_NE(mistake(R"({"scene": "fence"})", R"(, "primary": )" + std::string(bad) + none), "no mistake") << bad;
@@ -163,9 +164,10 @@ TEST_F(TemporaryConfig, SaysWhatIsWrong) {
     expect_contains(mistake(R"({"scene": "fence", "frames": [3, 4], "change": 4, "repeat": 7})"),
                     "followed by 7 frames");
     expect_contains(mistake(R"({"scene": "fence"}, {"scene": ["sky_only", "fence"]})"), "'fence' comes twice");
-    expect_contains(mistake(R"({"scene": "fence"})", R"(, "masks": ["refective"], "variants": [{"variant": "none"}])"),
-                    "did you mean 'reflective'?");
+    expect_contains(
+        mistake(R"({"scene": "fence"})", R"(, "masks": ["refective"], "techniques": [{"technique": "none"}])"),
+        "did you mean 'reflective'?");
     expect_contains(mistake(R"({"scene": "fence"})",
-                            R"(, "masks": ["all"], "frame_masks": ["hit"], "variants": [{"variant": "none"}])"),
+                            R"(, "masks": ["all"], "frame_masks": ["hit"], "techniques": [{"technique": "none"}])"),
                     "'frame_masks'");
 }

@@ -30,7 +30,7 @@ public:
         return source_->render(step, seed, lit);
     }
     const CameraData& camera() const override { return source_->camera(); }
-    PassGraph& graph() override { return source_->graph(); }
+    PassList& pass_list() override { return source_->pass_list(); }
 
     std::vector<FrameStep> steps;
 
@@ -58,7 +58,7 @@ struct Timing : testing::Test {
 
     Timing() {
         for (const char* name : {"none", "mcguire_dda"})
-            config.variants.push_back({.variant = name, .preset = "", .point = "default", .seeds = {3}});
+            config.techniques.push_back({.technique = name, .preset = "", .point = "default", .seeds = {3}});
     }
 
     Shot shot(const std::string& scene, const std::vector<unsigned>& frames) {
@@ -72,15 +72,15 @@ struct Timing : testing::Test {
             lit_frames.insert(frame);
             return lit;
         };
-        return time_variants(
+        return time_techniques(
             source, shot, config, lit_of, keep_all, budget, [](double) {}, std::ref(machine));
     }
 };
 
-std::set<std::string> stages_of(const ShotTimes& times, const std::string& variant) {
+std::set<std::string> stages_of(const ShotTimes& times, const std::string& technique) {
     std::set<std::string> stages;
     for (const TimeRow& row : times.rows)
-        if (row.variant == variant) stages.insert(row.stage);
+        if (row.technique == technique) stages.insert(row.stage);
     return stages;
 }
 
@@ -133,14 +133,14 @@ TEST_F(Timing, GivesEveryStageOfEveryMeasuredFrameAndTheirSum) {
     for (const TimeRow& row : times.rows) {
         EXPECT_LT(row.frame, 15u);
         EXPECT_EQ(row.shot, still.name());
-        EXPECT_EQ(row.seed, row.variant.empty() ? 0u : 3u);
-        ++counts[{row.variant, row.stage}];
-        if (!row.variant.empty())
-            sums[{row.variant, row.frame}] += row.stage == "total" ? -row.milliseconds : row.milliseconds;
+        EXPECT_EQ(row.seed, row.technique.empty() ? 0u : 3u);
+        ++counts[{row.technique, row.stage}];
+        if (!row.technique.empty())
+            sums[{row.technique, row.frame}] += row.stage == "total" ? -row.milliseconds : row.milliseconds;
     }
     for (const auto& [stage, count] : counts) EXPECT_EQ(count, 15u) << stage.first << " " << stage.second;
     // On a GPU the total is the frame's envelope, which holds the gaps between the stages too.
-    if (source.graph().clock() == Clock::gpu_timestamp) return;
+    if (source.pass_list().clock() == Clock::gpu_timestamp) return;
     for (const auto& [frame, difference] : sums) EXPECT_NEAR(difference, 0.0, 1e-9) << "ms: the rounding of a sum";
 }
 
@@ -204,18 +204,18 @@ TEST_F(Timing, LeavesOutDisturbedFramesIfOthersAreEnough) {
 
 TEST_F(Timing, TakesTheLeastWhereThereIsNoTime) {
     for (const int stride : {2, 4})
-        config.variants.push_back({.variant = "mcguire_dda",
-                                   .preset = "",
-                                   .parameters = {{"dda.stride", stride}},
-                                   .point = "dda.stride=" + std::to_string(stride),
-                                   .seeds = {3}});
+        config.techniques.push_back({.technique = "mcguire_dda",
+                                     .preset = "",
+                                     .parameters = {{"dda.stride", stride}},
+                                     .point = "dda.stride=" + std::to_string(stride),
+                                     .seeds = {3}});
     const Shot rough = shot("all_rough", {0});  // of which techniques leave something out
     WatchedSource source(device, rough, config);
     const ShotTimes least = time(source, rough, false, {}, 0);
     EXPECT_EQ(source.steps.size(), 2u + least_rounds);
     const auto rows_of = [](const ShotTimes& times, const std::string& point) {
         return std::ranges::count_if(times.rows, [&](const TimeRow& row) {
-            return row.variant == "mcguire_dda" && row.point == point && row.stage == "total";
+            return row.technique == "mcguire_dda" && row.point == point && row.stage == "total";
         });
     };
     for (const char* point : {"default", "dda.stride=2", "dda.stride=4"})
@@ -234,7 +234,7 @@ TEST_F(Timing, TakesTimesWhereLoadCannotBeTold) {
     const Shot still = shot("fence", {0});
     WatchedSource source(device, still, config);
     const auto lit = [image = HostImage(extent, 3)](unsigned) -> const HostImage& { return image; };
-    const ShotTimes times = time_variants(
+    const ShotTimes times = time_techniques(
         source, still, config, lit, false, no_limit, [](double) {}, [] { return CpuTimes{}; });
     EXPECT_EQ(source.steps.size(), 17u);
     for (const TimeRow& row : times.rows) EXPECT_FALSE(row.foreign_load || row.is_disturbed);
@@ -242,25 +242,25 @@ TEST_F(Timing, TakesTimesWhereLoadCannotBeTold) {
 }
 
 TEST_F(Timing, PairsEveryTimedPointAndLeavesOutTheOthers) {
-    config.variants.push_back({.variant = "mcguire_dda",
-                               .preset = "",
-                               .parameters = {{"dda.stride", 4}},
-                               .point = "dda.stride=4",
-                               .seeds = {3},
-                               .is_timed = false});
+    config.techniques.push_back({.technique = "mcguire_dda",
+                                 .preset = "",
+                                 .parameters = {{"dda.stride", 4}},
+                                 .point = "dda.stride=4",
+                                 .seeds = {3},
+                                 .is_timed = false});
     const Shot still = shot("fence", {0});
     WatchedSource source(device, still, config);
     const ShotTimes times = time(source, still);
     ASSERT_EQ(times.pairs.size(), 2u);
     for (size_t i = 0; i < 2; ++i) {
-        EXPECT_EQ(times.pairs[i].variant, config.variants[i].variant);
+        EXPECT_EQ(times.pairs[i].technique, config.techniques[i].technique);
         EXPECT_GT(times.pairs[i].first_ms, 0.0);
         EXPECT_GT(times.pairs[i].second_ms, 0.0);
         EXPECT_NE(times.pairs[i].first_ms, times.pairs[i].second_ms) << "measured once, reported twice";
     }
     EXPECT_TRUE(std::ranges::none_of(times.rows, [](const TimeRow& row) { return row.point == "dda.stride=4"; }));
 
-    for (VariantConfig& variant : config.variants) variant.is_timed = false;
+    for (PointConfig& technique : config.techniques) technique.is_timed = false;
     EXPECT_TRUE(time(source, still).rows.empty());
 }
 
@@ -277,7 +277,7 @@ TEST_F(Timing, MeasuresWhatLeavingOutSaved) {
     EXPECT_TRUE(all.saved.empty());
     ASSERT_EQ(lean.savings.size(), 1u);
     const Saving& saving = lean.savings.front();
-    EXPECT_EQ(saving.variant, "mcguire_dda");
+    EXPECT_EQ(saving.technique, "mcguire_dda");
     EXPECT_GT(saving.complete_ms, 0.0);
     EXPECT_LE(saving.share.low, saving.share.value);
     EXPECT_LT(saving.share.high, 1.0);

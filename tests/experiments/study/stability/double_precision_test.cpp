@@ -1,6 +1,6 @@
 #include "core/error.h"
 #include "experiments/study/stability/precision/double_shader.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 #include "variants/denoisers/denoisers.h"
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 namespace {
 
-const std::filesystem::path variants = std::filesystem::path(SSRLAB_SOURCE_DIR) / "variants";
+const std::filesystem::path techniques = std::filesystem::path(SSRLAB_SOURCE_DIR) / "variants";
 
 std::string contents(const std::filesystem::path& file) {
     std::ifstream in(file);
@@ -35,7 +35,7 @@ std::string narrowed(std::string text) {
 /// What is compared as "the same algorithm in double" is the shader's own text, but for its types.
 TEST(DoublePrecision, OfEveryShaderOnlyTypesChange) {
     size_t shaders = 0, with_doubles = 0;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(variants)) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(techniques)) {
         const std::string kind = entry.path().extension().string();
         if (kind != ".glsl" && kind != ".comp" && kind != ".frag") continue;
         const std::string text = contents(entry.path()), wide = in_double(text, "");
@@ -55,7 +55,7 @@ TEST(DoublePrecision, EveryShaderCompiles) {
     size_t count = 0;
     const auto compile_all = [&](const std::string& folder, const ParameterSet& params,
                                  const ShaderIncludes& includes) {
-        for (const auto& file : std::filesystem::directory_iterator(variants / folder)) {
+        for (const auto& file : std::filesystem::directory_iterator(techniques / folder)) {
             if (file.path().extension() != ".comp" && file.path().extension() != ".frag") continue;
             const std::string name = folder + "/" + file.path().filename().string();
             EXPECT_NO_THROW(compile(name, "", shader_prelude(params), includes, ShaderLanguage::vulkan,
@@ -64,12 +64,13 @@ TEST(DoublePrecision, EveryShaderCompiles) {
             ++count;
         }
     };
-    for (const VariantEntry& entry : variant_table()) {
+    for (const TechniqueEntry& entry : technique_table()) {
         if (!entry.is_ssrlabs()) continue;  // of another test of this process
-        const std::unique_ptr<Variant> variant = make_variant(entry.name, {}, "");
-        compile_all(entry.name, variant->params, variant->shader_includes());
+        const std::unique_ptr<Technique> technique = make_technique(entry.name, {}, "");
+        compile_all(entry.name, technique->params, technique->shader_includes());
     }
-    compile_all("denoisers", make_variant("composed_ssr")->params, {});  // what reads rays
-    for (const DenoiserEntry& entry : denoiser_table()) compile_all("denoisers/" + entry.name, Denoiser(entry).params, {});
+    compile_all("denoisers", make_technique("composed_ssr")->params, {});  // what reads rays
+    for (const DenoiserEntry& entry : denoiser_table())
+        compile_all("denoisers/" + entry.name, Denoiser(entry).params, {});
     EXPECT_GT(count, 50u);
 }

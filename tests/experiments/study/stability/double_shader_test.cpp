@@ -14,20 +14,22 @@ struct DoubleFunctions : testing::Test {
     }
     ParameterSet no_parameters;
     CameraData camera{};
-    PassGraph graph{device(), {64, 1}};
+    PassList pass_list{device(), {64, 1}};
 
-    void SetUp() override { graph.begin_frame(camera, no_parameters, {}); }
+    void SetUp() override { pass_list.begin_frame(camera, no_parameters, {}); }
     void TearDown() override { EXPECT_EQ(device().validation_messages(), std::vector<std::string>()); }
 
     /// Value and remainder of tests/shaders/double_functions.comp at -8 ... 8.
     std::vector<double> values_of(unsigned function, bool is_double) {
-        HostImage arguments(graph.extent(), 1);
+        HostImage arguments(pass_list.extent(), 1);
         for (size_t i = 0; i < arguments.values.size(); ++i) arguments.values[i] = argument(i);
-        const Image argument = graph.image("argument", Format::r32f), value = graph.image("value", Format::rg32f);
-        graph.upload(argument, arguments);
-        graph.set_changes({.format_of = {}, .glsl_of = double_where([=](const std::string&) { return is_double; })});
-        graph.compute("double_functions.comp").read(argument).write(value).set("function", function).run();
-        const HostImage parts = graph.download(value);
+        const Image argument = pass_list.image("argument", Format::r32f),
+                    value = pass_list.image("value", Format::rg32f);
+        pass_list.upload(argument, arguments);
+        pass_list.set_changes(
+            {.format_of = {}, .glsl_of = double_where([=](const std::string&) { return is_double; })});
+        pass_list.compute("double_functions.comp").read(argument).write(value).set("function", function).run();
+        const HostImage parts = pass_list.download(value);
         std::vector<double> values;
         for (size_t i = 0; i < arguments.values.size(); ++i)
             values.push_back(double(parts.values[2 * i]) + double(parts.values[2 * i + 1]));

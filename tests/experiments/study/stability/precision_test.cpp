@@ -3,7 +3,7 @@
 #include "core/scene/load_scene.h"
 #include "experiments/study/config/points/all_points.h"
 #include "experiments/study/stability/precision/double_shader.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -12,9 +12,9 @@ namespace {
 
 const std::filesystem::path scenes = std::filesystem::path(SSRLAB_SOURCE_DIR) / "scenes";
 
-const VariantConfig mirror = single_point("mcguire_dda");
+const PointConfig mirror = single_point("mcguire_dda");
 
-struct PrecisionStudy : VariantTest {
+struct PrecisionStudy : TechniqueTest {
     const std::filesystem::path folder =
         std::filesystem::temp_directory_path() /
         ("ssrlab_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
@@ -26,7 +26,7 @@ struct PrecisionStudy : VariantTest {
     }
     void TearDown() override {
         std::filesystem::remove_all(folder);
-        VariantTest::TearDown();
+        TechniqueTest::TearDown();
     }
     static PassChanges floats(std::function<bool(const std::string&)> is_double = {}) {
         const auto as_float = [](const std::string&, Format asked) { return as_float32(asked); };
@@ -49,8 +49,9 @@ TEST_F(PrecisionStudy, DefaultsExist) {
     const std::vector<std::string> known = list_scenes({scenes});
     for (const StabilityCase& c : read_stability_cases(precision_case_table()))
         EXPECT_TRUE(std::ranges::count(known, c.scene.shot.scene)) << c.name;
-    for (const VariantConfig& point : precision_points())
-        EXPECT_NO_THROW(make_variant(point.variant, point.parameters, point.preset)) << point.variant << point.point;
+    for (const PointConfig& point : precision_points())
+        EXPECT_NO_THROW(make_technique(point.technique, point.parameters, point.preset))
+            << point.technique << point.point;
 }
 
 TEST_F(PrecisionStudy, DifferencesAreRelativeAndLeaveOutWhatIsNothing) {
@@ -125,7 +126,7 @@ TEST_F(PrecisionStudy, SaysWhatEachImageAndStageCosts) {
     write_text(table, R"({"cases": [{"case": "mirror", "group": "g", "why": "w", "scene": "mirror_pillars",
         "size": [48, 27], "frames": 1}]})");
     const std::vector<PrecisionRow> rows =
-        run_precision(device(), {.table = table, .cases = {}, .variants = {"mcguire_dda:default"}},
+        run_precision(device(), {.table = table, .cases = {}, .techniques = {"mcguire_dda:default"}},
                       {.search_path = {scenes}, .cache = folder / "cache"}, [](const auto&, double) {});
     for (const PrecisionRow& row : rows) {
         EXPECT_EQ(row.refusal, "") << row.stage << row.image;

@@ -1,12 +1,12 @@
 #include "experiments/study/stability/stability.h"
 #include "core/files.h"
 #include "core/scene/load_scene.h"
-#include "experiments/results/stability/stability_tables.h"
+#include "experiments/results/stability/stability_results.h"
 #include "experiments/study/config/points/all_points.h"
 #include "experiments/study/stability/case_run.h"
 #include "experiments/study/stability/changed_shot.h"
 #include "tests/error_message.h"
-#include "tests/variants/variant_fixture.h"
+#include "tests/variants/technique_fixture.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -16,7 +16,7 @@ namespace {
 
 const std::filesystem::path scenes = std::filesystem::path(SSRLAB_SOURCE_DIR) / "scenes";
 
-struct StabilityTest : VariantTest {
+struct StabilityTest : TechniqueTest {
     const std::filesystem::path folder =
         std::filesystem::temp_directory_path() /
         ("ssrlab_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
@@ -25,14 +25,14 @@ struct StabilityTest : VariantTest {
     void SetUp() override { std::filesystem::create_directories(folder); }
     void TearDown() override {
         std::filesystem::remove_all(folder);
-        VariantTest::TearDown();
+        TechniqueTest::TearDown();
     }
 
     /// `cases`: what stands between the brackets.
-    std::vector<StabilityRow> run(const std::string& cases, const std::vector<std::string>& variants) {
+    std::vector<StabilityRow> run(const std::string& cases, const std::vector<std::string>& techniques) {
         write_text(table, R"({"cases": [)" + cases + "]}");
         Device* const devices[] = {&device()};
-        return run_stability(devices, {.table = table, .cases = {}, .variants = variants},
+        return run_stability(devices, {.table = table, .cases = {}, .techniques = techniques},
                              {.search_path = {scenes}, .cache = folder / "cache"},
                              [](const std::vector<StabilityRow>&, double) {});
     }
@@ -107,7 +107,7 @@ TEST_F(StabilityTest, ReferencesAreKeptInTheCacheOfStudies) {
     for (size_t i = 0; i < first.size(); ++i) {
         EXPECT_EQ(first[i].error, second[i].error);
         // Rendered twice they would have taken other times.
-        if (first[i].variant == "path_tracer") {
+        if (first[i].technique == "path_tracer") {
             EXPECT_EQ(first[i].time_ratio, 1.0);
         }
     }
@@ -130,11 +130,11 @@ TEST_F(StabilityTest, CorrectedPresetsAreFiniteInEveryStage) {
                 {"case": "black", )" +
         small + R"("radiance": 0})";
     for (const StabilityRow& row : run(cases, corrected)) {
-        EXPECT_EQ(row.refusal, "") << row.case_name << row.variant;
-        EXPECT_EQ(row.non_finite, 0u) << row.case_name << " " << row.variant << " " << row.point << ": "
+        EXPECT_EQ(row.refusal, "") << row.case_name << row.technique;
+        EXPECT_EQ(row.non_finite, 0u) << row.case_name << " " << row.technique << " " << row.point << ": "
                                       << row.first_non_finite;
-        EXPECT_EQ(row.spread_pixels, 0u) << row.case_name << " " << row.variant << " " << row.point;
-        EXPECT_EQ(row.out_of_range(), 0u) << row.case_name << " " << row.variant << " " << row.point;
+        EXPECT_EQ(row.spread_pixels, 0u) << row.case_name << " " << row.technique << " " << row.point;
+        EXPECT_EQ(row.out_of_range(), 0u) << row.case_name << " " << row.technique << " " << row.point;
     }
 }
 
@@ -146,12 +146,12 @@ TEST_F(StabilityTest, OriginalsShowWhereTheyFail) {
            {"case": "planes", "group": "g", "why": "w", "size": [48, 27], "scene": "mirror_pillars", "near": 1e-3, "far": 1e6})",
             {"amd_sssr:repeatable", "frostbite_sssr:frostbite_2015", "none"});
     ASSERT_EQ(rows.size(), 8u);
-    EXPECT_EQ(rows[3].variant, "frostbite_sssr");
+    EXPECT_EQ(rows[3].technique, "frostbite_sssr");
     EXPECT_EQ(rows[3].verdict, Verdict::spreads) << "rays meet the bad pixel";
     EXPECT_GT(rows[3].spread_pixels, 0u);
-    EXPECT_EQ(rows[1].variant, "none");
+    EXPECT_EQ(rows[1].technique, "none");
     EXPECT_EQ(rows[1].verdict, Verdict::ok);
-    EXPECT_EQ(rows[6].variant, "amd_sssr");
+    EXPECT_EQ(rows[6].technique, "amd_sssr");
     EXPECT_EQ(rows[6].first_non_finite, "amd_sssr/intersect: radiance");
     EXPECT_GE(rows[6].verdict, Verdict::inside);
 }
@@ -172,16 +172,17 @@ TEST_F(StabilityTest, EachFailureOfTheOriginalsIsExplained) {
     write_rows(folder / "stability.csv", rows);
     write_rows(folder / "stability_stages.csv", stage_rows(rows, false));
     write_rows(folder / "stability_cases.csv", read_stability_cases(table));
-    const StabilityTables tables = read_stability_tables(folder);
+    const StabilityResults tables = read_stability_results(folder);
     EXPECT_EQ(tables.rows.size(), rows.size());
     const std::vector<StageFailure> failures = stage_failures(tables);
     EXPECT_GT(failures.size(), 8u);
-    for (const StageFailure& failure : failures) EXPECT_EQ(failure.unexplained, 0u) << failure.variant << failure.place;
+    for (const StageFailure& failure : failures)
+        EXPECT_EQ(failure.unexplained, 0u) << failure.technique << failure.place;
 }
 
 TEST_F(StabilityTest, FailuresNameTechniquesAndCasesThatExist) {
     std::set<std::string> techniques, cases;
-    for (const VariantConfig& p : all_points())
+    for (const PointConfig& p : all_points())
         for (const std::string& name : names_of_point(p)) techniques.insert(name);
     for (const StabilityCase& c : read_stability_cases(stability_case_table()))
         cases.insert({c.name, c.family, c.group});
@@ -229,10 +230,10 @@ TEST_F(StabilityTest, ErrorsOfWhatHasNoUnitDoNotDependOnScale) {
     cases.pop_back();
     for (const StabilityRow& row : run(cases, {"mcguire_dda:any_scale", "simple_ssr:corrected", "frostbite_sssr:best",
                                                "diligent_ssr:corrected", "four_mode_ssr:corrected"}))
-        if (row.variant == "path_tracer")
+        if (row.technique == "path_tracer")
             EXPECT_LT(*row.error, 1e-4) << row.case_name;
         else
-            EXPECT_NEAR(*row.error_ratio, 1.0, 0.02) << row.variant << " " << row.case_name;
+            EXPECT_NEAR(*row.error_ratio, 1.0, 0.02) << row.technique << " " << row.case_name;
 }
 
 /// Emission comes through the holes of a mask as from two squares; instances and meshes whose transforms undo each
@@ -296,13 +297,13 @@ TEST(StabilityErrors, AreOfJudgedPixelsThatAreFinite) {
     EXPECT_FALSE(relative_error(frames, image)) << "the truth is black";
 }
 
-TEST(StabilityTables, ComeBackAsTheyWereWritten) {
+TEST(StabilityResults, ComeBackAsTheyWereWritten) {
     const auto folder = std::filesystem::temp_directory_path() / "ssrlab_stability_tables";
     std::filesystem::create_directories(folder);
     StabilityCase what;
     what.name = what.family = "a, b", what.group = "g", what.why = "\"w\"";
     StabilityRow row;
-    row.case_name = what.name, row.group = what.group, row.variant = "amd_sssr", row.point = "slides";
+    row.case_name = what.name, row.group = what.group, row.technique = "amd_sssr", row.point = "slides";
     set_errors(row, 0.3, 0.1);
     row.spread_pixels = 3, row.excess = 0.5, row.lit_p999 = 7.0, row.gain = 0.25;
     row.stages = {{"trace", "radiance", 2, 0, 1.5}, {"blur", "rows", 0, 0, 1.5}};
@@ -310,7 +311,7 @@ TEST(StabilityTables, ComeBackAsTheyWereWritten) {
     write_rows(folder / "stability_cases.csv", std::vector{what});
     write_rows(folder / "stability.csv", std::vector{row});
     write_rows(folder / "stability_stages.csv", stage_rows({row}, true));
-    const StabilityTables tables = read_stability_tables(folder);
+    const StabilityResults tables = read_stability_results(folder);
     ASSERT_EQ(tables.rows.size(), 1u);
     EXPECT_EQ(csv_row(tables.rows[0]), csv_row(row));
     EXPECT_EQ(tables.rows[0].verdict, Verdict::spreads);
@@ -322,10 +323,10 @@ TEST(StabilityTables, ComeBackAsTheyWereWritten) {
     std::string text = read_text(folder / "stability.csv");
     text.replace(text.find("spreads"), 7, "unheard");
     write_text(folder / "stability.csv", text);
-    EXPECT_THROW(read_stability_tables(folder), Error);
+    EXPECT_THROW(read_stability_results(folder), Error);
     write_rows(folder / "stability.csv", std::vector{row});
     write_rows(folder / "stability_cases.csv", std::vector<StabilityCase>{});
-    EXPECT_THROW(read_stability_tables(folder), Error) << "a case that nobody knows";
+    EXPECT_THROW(read_stability_results(folder), Error) << "a case that nobody knows";
     std::filesystem::remove_all(folder);
 }
 
@@ -335,9 +336,9 @@ TEST_F(StabilityTest, MirrorsInMirrorsFadeAway) {
          run(R"({"case": "a", "group": "g", "why": "w", "size": [48, 27], "scene": "facing_mirrors",
                                            "frames": 8, "feeds_back": true})",
              {"mcguire_dda:best", "amd_sssr:corrected"}))
-        if (row.variant != "path_tracer") {
-            ASSERT_TRUE(row.gain) << row.variant;
-            EXPECT_LT(*row.gain, 1.0) << row.variant;
+        if (row.technique != "path_tracer") {
+            ASSERT_TRUE(row.gain) << row.technique;
+            EXPECT_LT(*row.gain, 1.0) << row.technique;
         }
 }
 

@@ -7,7 +7,7 @@
 #include "core/scene/load_scene.h"
 #include "experiments/study/measuring/rays/exact_rays.h"
 #include "experiments/study/measuring/rays/judged_hits.h"
-#include "experiments/study/measuring/render_variant.h"
+#include "experiments/study/measuring/render_technique.h"
 #include "variants/registry.h"
 
 #include <cstdio>
@@ -22,7 +22,7 @@ constexpr glm::uvec2 extent(128, 72);
 constexpr unsigned seed_counts[] = {2, 4, 8};
 
 struct Technique {
-    const char *variant, *preset;
+    const char *technique, *preset;
 };
 constexpr Technique techniques[] = {
     {"amd_sssr", "corrected"}, {"diligent_ssr", "corrected"}, {"frostbite_sssr", "frostbite_2015"}};
@@ -64,7 +64,7 @@ int main(int argc, char** argv) {
         const unsigned seeds = argc > 1 ? unsigned(std::atoi(argv[1])) / 8 * 8 : 240;
         Device device;
         std::map<std::string, std::map<unsigned, Count>> by_mask, by_quantity;
-        std::printf("scene,variant,stage,mask,quantity,seeds,intervals,covered,truth,rays\n");
+        std::printf("scene,technique,stage,mask,quantity,seeds,intervals,covered,truth,rays\n");
         const std::vector<std::string> scenes =
             argc > 2 ? std::vector<std::string>(argv + 2, argv + argc) : default_scenes;
         for (const std::string& scene : scenes) {
@@ -72,19 +72,19 @@ int main(int argc, char** argv) {
             Rasterizer rasterizer(device, shot.scene, {.extent = extent});
             GBuffer gbuffer = rasterizer.render(shot.camera, {.extent = extent});
             rasterizer.light_directly(gbuffer);
-            const std::vector<Mask> masks = masks_of(rasterizer.graph().download(gbuffer.normal));
+            const std::vector<Mask> masks = masks_of(rasterizer.pass_list().download(gbuffer.normal));
             ExactRays exact(shot, 0, rasterizer.camera());
             for (const Technique& technique : techniques) {
-                const auto variant = make_variant(technique.variant, {}, technique.preset);
-                PassGraph graph(device, extent);
+                const auto technique = make_technique(technique.technique, {}, technique.preset);
+                PassList pass_list(device, extent);
                 RayProbe probe;
                 probe.is_recording = true;
-                variant->ray_probe = &probe;
+                technique->ray_probe = &probe;
                 JudgedHits of_all;
                 std::map<unsigned, JudgedHits> of_batch;
                 std::vector<Interval> intervals;
                 for (unsigned seed = 0; seed < seeds; ++seed) {
-                    render_variant(graph, *variant, rasterizer.camera(), seed, gbuffer);
+                    render_technique(pass_list, *technique, rasterizer.camera(), seed, gbuffer);
                     for (const RecordedRays& recorded : probe.recorded) {
                         const std::vector<ExactHit> truth = exact.hits(recorded);
                         of_all.add(seed, recorded, truth, extent, 1, masks);
@@ -111,7 +111,7 @@ int main(int argc, char** argv) {
                 }
                 for (const auto& [key, count] : counts) {
                     const auto& [stage, mask, quantity] = key.first;
-                    std::printf("%s,%s %s,%s,%s,%s,%u,%.0f,%.0f,%.6g,%.1f\n", scene.c_str(), technique.variant,
+                    std::printf("%s,%s %s,%s,%s,%s,%u,%.0f,%.0f,%.6g,%.1f\n", scene.c_str(), technique.technique,
                                 technique.preset, stage.c_str(), mask.c_str(), quantity.c_str(), key.second,
                                 count.intervals, count.covered, truth.at(key.first).value, truth.at(key.first).rays);
                     for (Count* sum : {&by_mask[mask][key.second], &by_quantity[quantity][key.second]})

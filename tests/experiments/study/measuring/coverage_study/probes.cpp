@@ -31,12 +31,12 @@ public:
     Room(Device& device, const std::string& scene, const fs::path& folder) : device_(device), folder_(folder) {
         const fs::path file = folder / "study.json";
         write_text(file, R"({"shots": [{"scene": ")" + scene + R"(", "resolution": [64, 36]}], "fallback": "probe",
-            "variants": [{"variant": "none"}, {"variant": "mcguire_dda"}], "seeds": 1,
+            "techniques": [{"technique": "none"}, {"technique": "mcguire_dda"}], "seeds": 1,
             "metrics": ["mse", "relmse", "flip", "mae"], "frame_metrics": [], "masks": "reflective",
             "targets": "specular", "reference": {"guide_samples": 16}})");
         config_ = read_config(file);
-        for (const VariantConfig& v : config_.variants)
-            if (!v.depends_on_seed) without_seeds_.insert({v.variant, v.point});
+        for (const PointConfig& v : config_.techniques)
+            if (!v.depends_on_seed) without_seeds_.insert({v.technique, v.point});
         shot_ = load_shot(config_.shots[0], {fs::path(SSRLAB_SOURCE_DIR) / "scenes"});
         now_ = shot_frame(shot_, 0);
     }
@@ -61,15 +61,15 @@ public:
         const std::unique_ptr<FrameSource> source = scene_source(device_, shot_, config_, false, &probe);
         FrameStore store(*source, shot_.config, size_t(1) << 28);
         const ShotTruth truth =
-            shot_truth(shot_, config_, store, source->graph(), [&](unsigned, ReferenceUse) { return reference; });
+            shot_truth(shot_, config_, store, source->pass_list(), [&](unsigned, ReferenceUse) { return reference; });
         Summaries all;
-        for (const VariantConfig& variant : config_.variants) {
+        for (const PointConfig& technique : config_.techniques) {
             SpentTime unused;
             const Cell cell =
-                render_point(device_, shot_, truth, store, config_, variant,
+                render_point(device_, shot_, truth, store, config_, technique,
                              {.out = folder_, .image_suffix = "x", .report = [](double) {}, .spent = unused});
             for (const MetricSummary& s : summarise(cell.rows, without_seeds_))
-                all[variant.variant + "` | `" + s.metric] = s;
+                all[technique.technique + "` | `" + s.metric] = s;
         }
         return all;
     }

@@ -4,7 +4,7 @@
 #include "core/gpu/device.h"
 #include "experiments/study/measuring/frames/frame_source.h"
 #include "experiments/study/measuring/reflection_probe.h"
-#include "experiments/study/measuring/render_variant.h"
+#include "experiments/study/measuring/render_technique.h"
 #include "experiments/study/shots/result_images.h"
 
 namespace {
@@ -31,18 +31,18 @@ Techniques rendered_techniques(const std::string& scene, glm::uvec2 extent, bool
     const auto source = scene_source(device, shot, {}, false, probe ? &*probe : nullptr);
     FrameStore store(*source, shot.config, size_t(1) << 28);
     const FrameStore::Frame frame = store.frame(shot.steps.back(), truth.diffuse.mean);
-    const HostImage reflectance =
-        specular_reflectance(download_gbuffer(source->graph(), frame.gbuffer, frame.camera, shot.config.depth_format));
+    const HostImage reflectance = specular_reflectance(
+        download_gbuffer(source->pass_list(), frame.gbuffer, frame.camera, shot.config.depth_format));
     Techniques techniques{.baselines = {{"none", {"linear tracing", "frostbite"}}, {"linear tracing", {"frostbite"}}}};
-    const auto render = [&](const std::string& name, const char* variant, const char* preset, unsigned count) {
-        VariantConfig point;
-        point.variant = variant, point.preset = preset;
+    const auto render = [&](const std::string& name, const char* technique, const char* preset, unsigned count) {
+        PointConfig point;
+        point.technique = technique, point.preset = preset;
         for (unsigned seed = 1; seed <= count; ++seed) {
             const Renderer renderer(device, extent, point);  // without a history
             const Reflections reflections = renderer.render(frame.camera, seed, frame.gbuffer);
             const Composite composite = renderer.compositor->render(frame.gbuffer, reflections);
             techniques.images[name].push_back(
-                download_results(*renderer.graph, frame.gbuffer, reflections, composite, reflectance));
+                download_results(*renderer.pass_list, frame.gbuffer, reflections, composite, reflectance));
         }
     };
     render("none", "none", "", 1), render("linear tracing", "mcguire_dda", "best", 1);

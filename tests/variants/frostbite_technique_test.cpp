@@ -5,17 +5,17 @@
 
 namespace {
 
-struct FrostbiteVariantTest : HeldCamera {
+struct FrostbiteTechniqueTest : HeldCamera {
     /// Channels: radiance, confidence.
-    HostImage render(Variant& variant, const SyntheticScene& scene, unsigned count = 1, float environment = 0) {
-        const HostImage found = HeldCamera::render(variant, scene, count, environment).radiance;
+    HostImage render(Technique& technique, const SyntheticScene& scene, unsigned count = 1, float environment = 0) {
+        const HostImage found = HeldCamera::render(technique, scene, count, environment).radiance;
         EXPECT_EQ(reflections.confidence.storage, reflections.radiance.storage);
         EXPECT_EQ(reflections.confidence_channel, 3u);
         return found;
     }
     HostImage render(const nlohmann::json& parameters, const std::string& preset, const SyntheticScene& scene,
                      unsigned count = 1, float environment = 0) {
-        return render(*make_variant("frostbite_sssr", parameters, preset), scene, count, environment);
+        return render(*make_technique("frostbite_sssr", parameters, preset), scene, count, environment);
     }
     std::vector<std::string> stages() const {
         std::vector<std::string> names;
@@ -28,7 +28,7 @@ struct FrostbiteVariantTest : HeldCamera {
 
 std::vector<std::string> presets() {
     std::vector<std::string> names;
-    for (const Preset& preset : find_variant("frostbite_sssr").presets) names.push_back(preset.name);
+    for (const Preset& preset : find_technique("frostbite_sssr").presets) names.push_back(preset.name);
     return names;
 }
 
@@ -41,7 +41,7 @@ SyntheticHit furnace_floor(const CameraRay& ray) {
 
 /// With everything radiating 1, each average, each mip level and each blend is 1, up to rounding. Where rays hit
 /// nothing at all there is nothing to see.
-TEST_F(FrostbiteVariantTest, KeepsAFurnaceAtOne) {
+TEST_F(FrostbiteTechniqueTest, KeepsAFurnaceAtOne) {
     for (const std::string& preset : presets())
         for (const unsigned frames : {1u, 6u}) {
             SCOPED_TRACE(testing::Message() << preset << ", " << frames << " frames");
@@ -65,7 +65,7 @@ glm::vec2 pixel_from_world(const CameraData& camera, glm::vec3 p) {
 
 /// A mirror keeps, through reuse and history, what it shows: the wall's 0.25 below y = 1 and 1 above. Taps reach 8
 /// pixels along the floor, where the wall's image moves as far.
-TEST_F(FrostbiteVariantTest, KeepsWhatAMirrorShows) {
+TEST_F(FrostbiteTechniqueTest, KeepsWhatAMirrorShows) {
     for (const std::string& preset : presets()) {
         SCOPED_TRACE(preset);
         const HostImage image = render({}, preset, mirror_floor, 4);
@@ -98,7 +98,7 @@ SyntheticHit rough_floor(const CameraRay& ray) {
     return hit;
 }
 
-TEST_F(FrostbiteVariantTest, LeavesEverythingOutWhereNothingIsSmoothEnough) {
+TEST_F(FrostbiteTechniqueTest, LeavesEverythingOutWhereNothingIsSmoothEnough) {
     SceneFacts facts{.has_geometry = true,
                      .has_reflective = true,
                      .min_roughness = 0.7f,
@@ -112,8 +112,8 @@ TEST_F(FrostbiteVariantTest, LeavesEverythingOutWhereNothingIsSmoothEnough) {
     divided["reflectance_after_filter"] = false;
     for (const nlohmann::json& parameters : {all, few, divided}) {
         SCOPED_TRACE(parameters.dump());
-        const auto whole = make_variant("frostbite_sssr", parameters),
-                   less = make_variant("frostbite_sssr", parameters);
+        const auto whole = make_technique("frostbite_sssr", parameters),
+                   less = make_technique("frostbite_sssr", parameters);
         std::vector<std::string> left_out;
         for (const LeftOut& stage : less->leave_out(facts)) left_out.push_back(stage.what);
         const HostImage all_run = render(*whole, rough_floor, 2, 0.5f);
@@ -125,16 +125,16 @@ TEST_F(FrostbiteVariantTest, LeavesEverythingOutWhereNothingIsSmoothEnough) {
         EXPECT_EQ(none_run.values, all_run.values);
     }
     facts.min_roughness = 0.6f;
-    const std::vector<LeftOut> rough_only = make_variant("frostbite_sssr")->leave_out(facts);
+    const std::vector<LeftOut> rough_only = make_technique("frostbite_sssr")->leave_out(facts);
     ASSERT_EQ(rough_only.size(), 1u);
     EXPECT_EQ(rough_only.front().what, "frostbite_sssr/trace_smooth");
     facts.min_roughness = 0.1f;
-    EXPECT_TRUE(make_variant("frostbite_sssr")->leave_out(facts).empty());
+    EXPECT_TRUE(make_technique("frostbite_sssr")->leave_out(facts).empty());
     facts.has_reflective = false;
-    EXPECT_FALSE(make_variant("frostbite_sssr")->leave_out(facts).empty());
+    EXPECT_FALSE(make_technique("frostbite_sssr")->leave_out(facts).empty());
 }
 
-TEST_F(FrostbiteVariantTest, RepeatsItselfUnlessTheSeedDiffers) {
+TEST_F(FrostbiteTechniqueTest, RepeatsItselfUnlessTheSeedDiffers) {
     for (const std::string& preset : presets()) {
         const HostImage first = render({}, preset, glossy_floor, 3), again = render({}, preset, glossy_floor, 3);
         EXPECT_TRUE(first.values == again.values) << preset;
@@ -144,7 +144,7 @@ TEST_F(FrostbiteVariantTest, RepeatsItselfUnlessTheSeedDiffers) {
     }
 }
 
-struct FrostbiteSubgroups : FrostbiteVariantTest {
+struct FrostbiteSubgroups : FrostbiteTechniqueTest {
     LayeredImage image() { return {.layers = {{"", "RGBA", render({}, "best", glossy_floor, 3)}}, .attributes = {}}; }
 };
 

@@ -1,4 +1,4 @@
-#include "core/gpu/passes/pass_graph.h"
+#include "core/gpu/passes/pass_list.h"
 #include "core/error.h"
 #include "core/gpu/device.h"
 #include "core/gpu/pipelines/shader.h"
@@ -16,16 +16,16 @@ struct Graph : testing::Test {
     CameraData camera{};
 
     void TearDown() override { EXPECT_TRUE(device.validation_messages().empty()); }
-    void begin(PassGraph& graph) {
-        camera.extent = glm::vec4(graph.extent(), 1.0f / glm::vec2(graph.extent()));
-        graph.begin_frame(camera, no_parameters, {});
+    void begin(PassList& pass_list) {
+        camera.extent = glm::vec4(pass_list.extent(), 1.0f / glm::vec2(pass_list.extent()));
+        pass_list.begin_frame(camera, no_parameters, {});
     }
 };
 
 /// Both ways to time a frame must give the same images.
 struct GraphOnBothClocks : Graph, testing::WithParamInterface<Clock> {
-    PassGraph graph{device, {17, 13}, GetParam()};
-    void SetUp() override { begin(graph); }
+    PassList pass_list{device, {17, 13}, GetParam()};
+    void SetUp() override { begin(pass_list); }
 };
 
 HostImage ramp(glm::uvec2 extent, unsigned channels, float scale) {
@@ -42,15 +42,15 @@ INSTANTIATE_TEST_SUITE_P(Clocks, GraphOnBothClocks, testing::Values(Clock::host_
                          });
 
 TEST_P(GraphOnBothClocks, BindsSingleMipLevels) {
-    const Image pyramid = graph.image_of("pyramid", Format::rgba32f, {16, 16}, 4);
-    graph.clear(pyramid, {1, 0, 0, 0});
+    const Image pyramid = pass_list.image_of("pyramid", Format::rgba32f, {16, 16}, 4);
+    pass_list.clear(pyramid, {1, 0, 0, 0});
     for (unsigned level = 0; level < 3; ++level)
-        graph.compute("halve.comp")
+        pass_list.compute("halve.comp")
             .read(pyramid.mip(level).as("finer"))
             .write(pyramid.mip(level + 1).as("coarser"))
             .run();
-    EXPECT_EQ(graph.download(pyramid.mip(3)).values.front(), 15.0f);  // 1 -> 3 -> 7 -> 15
-    const auto times = graph.times();
+    EXPECT_EQ(pass_list.download(pyramid.mip(3)).values.front(), 15.0f);  // 1 -> 3 -> 7 -> 15
+    const auto times = pass_list.times();
     ASSERT_EQ(times.size(), 2u);
     EXPECT_EQ(times[0].stage, "clear");
     EXPECT_EQ(times[1].stage, "halve");
@@ -58,28 +58,33 @@ TEST_P(GraphOnBothClocks, BindsSingleMipLevels) {
 
 TEST_P(GraphOnBothClocks, SwapsHistoryBetweenFrames) {
     for (int frame = 1; frame <= 3; ++frame) {
-        begin(graph);
-        const auto [sum, previous_sum] = graph.history("sum", Format::rgba32f);
-        graph.compute("add_one.comp").read(previous_sum).write(sum).run();
-        EXPECT_EQ(graph.download(sum).values.front(), float(frame));
+        begin(pass_list);
+        const auto [sum, previous_sum] = pass_list.history("sum", Format::rgba32f);
+        pass_list.compute("add_one.comp").read(previous_sum).write(sum).run();
+        EXPECT_EQ(pass_list.download(sum).values.front(), float(frame));
     }
 }
 
 TEST_P(GraphOnBothClocks, CompactsWithSubgroupsAndDispatchesIndirectly) {
-    const Image source = graph.image("source", Format::r32f), marks = graph.image("marks", Format::r8);
+    const Image source = pass_list.image("source", Format::r32f), marks = pass_list.image("marks", Format::r8);
     HostImage values({17, 13}, 1);
     for (size_t i = 0; i < values.values.size(); ++i) values.values[i] = i % 7 == 0 ? 1.0f : 0.0f;
-    graph.upload(source, values);
-    const Buffer list = graph.buffer("pixel_list", 17 * 13 * 4), arguments = graph.buffer("arguments", 16),
-                 invocations = graph.buffer("invocations", 4);
-    graph.clear(arguments, 0);
-    graph.clear(invocations, 0);
-    graph.clear(marks, glm::vec4(0.0f));
-    graph.compute("list_bright.comp").read(source).use(list).use(arguments).set("threshold", 0.5f).run(source.extent);
-    graph.compute("mark_listed.comp").use(list).use(arguments).use(invocations).write(marks).dispatch(arguments);
-    EXPECT_EQ(graph.download(marks).values, values.values);
+    pass_list.upload(source, values);
+    const Buffer list = pass_list.buffer("pixel_list", 17 * 13 * 4), arguments = pass_list.buffer("arguments", 16),
+                 invocations = pass_list.buffer("invocations", 4);
+    pass_list.clear(arguments, 0);
+    pass_list.clear(invocations, 0);
+    pass_list.clear(marks, glm::vec4(0.0f));
+    pass_list.compute("list_bright.comp")
+        .read(source)
+        .use(list)
+        .use(arguments)
+        .set("threshold", 0.5f)
+        .run(source.extent);
+    pass_list.compute("mark_listed.comp").use(list).use(arguments).use(invocations).write(marks).dispatch(arguments);
+    EXPECT_EQ(pass_list.download(marks).values, values.values);
     uint32_t invocation_count = 0;
-    std::memcpy(&invocation_count, graph.download(invocations).data(), 4);
+    std::memcpy(&invocation_count, pass_list.download(invocations).data(), 4);
     EXPECT_EQ(invocation_count, 64u);  // 32 pixels: one group, where all pixels would be four
 }
 
@@ -98,45 +103,46 @@ TEST_P(GraphOnBothClocks, GivesPassesTheParametersThatAreSet) {
             scale{params, "scale", 6.0f, {0.0f, 9.0f}, {"", "", ""}};
     } other;
     const Two first(1.0f, 2.0f), second(3.0f, 4.0f);
-    graph.begin_frame(camera, first.params, {});
+    pass_list.begin_frame(camera, first.params, {});
     const auto show = [&](const char* name) {
-        const Image image = graph.image(name, Format::rgba32f);
-        graph.compute("show_parameter.comp").write(image.as("shown")).run();
+        const Image image = pass_list.image(name, Format::rgba32f);
+        pass_list.compute("show_parameter.comp").write(image.as("shown")).run();
         return image;
     };
     const Image before = show("before");
-    graph.set_params(second.params);
+    pass_list.set_params(second.params);
     const Image between = show("between");
-    graph.set_params(other.params);
+    pass_list.set_params(other.params);
     const Image swapped = show("swapped");
-    graph.set_params(first.params);
+    pass_list.set_params(first.params);
     const Image after = show("after");
     const auto values = [&](const Image& image) {
-        const HostImage pixels = graph.download(image);
+        const HostImage pixels = pass_list.download(image);
         return std::pair(pixels.values[0], pixels.values[1]);
     };
     EXPECT_EQ(values(before), std::pair(1.0f, 2.0f));
     EXPECT_EQ(values(between), std::pair(3.0f, 4.0f));
     EXPECT_EQ(values(swapped), std::pair(6.0f, 5.0f));
     EXPECT_EQ(values(after), std::pair(1.0f, 2.0f));
-    EXPECT_EQ(&graph.params(), &first.params);
+    EXPECT_EQ(&pass_list.params(), &first.params);
 
     const Two third(0.0f, 0.0f), fourth(0.0f, 0.0f);
-    graph.set_params(third.params);
-    EXPECT_EQ(error_message([&] { graph.set_params(fourth.params); }), "more than 4 sets of parameters in one frame");
+    pass_list.set_params(third.params);
+    EXPECT_EQ(error_message([&] { pass_list.set_params(fourth.params); }),
+              "more than 4 sets of parameters in one frame");
 }
 
 TEST_P(GraphOnBothClocks, StencilKeepsPassesToMarkedPixels) {
-    const Image mask = graph.image("mask", Format::d32f_s8), color = graph.image("color", Format::rgba32f);
-    graph.clear(mask, glm::vec4(0.0f));
-    graph.clear(color, glm::vec4(0.0f));
-    graph.fragment("left_half.frag").stencil({Stencil::Mode::write, 1, mask}).run();
-    graph.fragment("constant_color.frag")
+    const Image mask = pass_list.image("mask", Format::d32f_s8), color = pass_list.image("color", Format::rgba32f);
+    pass_list.clear(mask, glm::vec4(0.0f));
+    pass_list.clear(color, glm::vec4(0.0f));
+    pass_list.fragment("left_half.frag").stencil({Stencil::Mode::write, 1, mask}).run();
+    pass_list.fragment("constant_color.frag")
         .stencil({Stencil::Mode::keep_equal, 1, mask})
         .set("value", glm::vec4(5.0f))
         .write(color)
         .run();
-    const HostImage result = graph.download(color);
+    const HostImage result = pass_list.download(color);
     EXPECT_EQ(result.pixel(7, 6)[0], 5.0f);
     EXPECT_EQ(result.pixel(9, 6)[0], 0.0f);
 }
@@ -146,16 +152,17 @@ TEST_P(GraphOnBothClocks, DrawsMeshesWithDepthTestCullingAndTextures) {
     // 0.25.
     const float clip[] = {-1, 3, 0.75f, 3, -1, 0.75f, -1, -1, 0.75f, -1, 3, 0.25f, 3, -1, 0.25f, -1, -1, 0.25f};
     const uint32_t indices[] = {0, 1, 2};
-    const Buffer positions = graph.buffer("positions", sizeof clip),
-                 index_buffer = graph.buffer("indices", sizeof indices);
-    graph.upload(positions, std::as_bytes(std::span(clip)));
-    graph.upload(index_buffer, std::as_bytes(std::span(indices)));
-    const Image color = graph.image("color", Format::rgba32f), tint = graph.image_of("tint", Format::rgba8, {1, 1});
-    graph.upload_rgba8(tint, std::vector<uint8_t>{0, 255, 0, 255});
+    const Buffer positions = pass_list.buffer("positions", sizeof clip),
+                 index_buffer = pass_list.buffer("indices", sizeof indices);
+    pass_list.upload(positions, std::as_bytes(std::span(clip)));
+    pass_list.upload(index_buffer, std::as_bytes(std::span(indices)));
+    const Image color = pass_list.image("color", Format::rgba32f),
+                tint = pass_list.image_of("tint", Format::rgba8, {1, 1});
+    pass_list.upload_rgba8(tint, std::vector<uint8_t>{0, 255, 0, 255});
     const auto drawn = [&](DepthTest::Compare compare, float clear, Format format, Draw::Cull cull) {
-        const Image depth = graph.image("depth_buffer", format);
-        graph.clear(depth, {clear, 0, 0, 0});
-        graph.clear(color, glm::vec4(-1.0f));
+        const Image depth = pass_list.image("depth_buffer", format);
+        pass_list.clear(depth, {clear, 0, 0, 0});
+        pass_list.clear(color, glm::vec4(-1.0f));
         std::vector<Draw> draws(2, {.indices = index_buffer,
                                     .index_count = 3,
                                     .first_instance = 8,
@@ -164,12 +171,13 @@ TEST_P(GraphOnBothClocks, DrawsMeshesWithDepthTestCullingAndTextures) {
                                     .buffers = {positions}});
         draws[0].vertex_offset = 3;  // the nearer one first, so that order alone would give the farther
         draws[1].first_instance = 3;
-        graph.draw("triangle.vert", "instance_color.frag", draws)
+        pass_list.draw("triangle.vert", "instance_color.frag", draws)
             .depth({.compare = compare, .image = depth})
             .write(color)
             .run();
-        const float stored = graph.download(depth).pixel(8, 6)[0];
-        return std::array<float, 3>{graph.download(color).pixel(8, 6)[0], graph.download(color).pixel(8, 6)[1], stored};
+        const float stored = pass_list.download(depth).pixel(8, 6)[0];
+        return std::array<float, 3>{pass_list.download(color).pixel(8, 6)[0], pass_list.download(color).pixel(8, 6)[1],
+                                    stored};
     };
     using Compare = DepthTest::Compare;
     EXPECT_EQ(drawn(Compare::less, 1.0f, Format::d32f, Draw::Cull::none), (std::array<float, 3>{8, 1, 0.25f}));
@@ -186,12 +194,12 @@ TEST_P(GraphOnBothClocks, DrawsMeshesWithDepthTestCullingAndTextures) {
 }
 
 TEST_F(Graph, UploadsAndDownloadsEachFormat) {
-    PassGraph graph(device, {5, 3});
-    begin(graph);
+    PassList pass_list(device, {5, 3});
+    begin(pass_list);
     const auto round_trip = [&](Format format, const HostImage& pixels) {
-        const Image image = graph.image("format" + std::to_string(int(format)), format);
-        graph.upload(image, pixels);
-        return graph.download(image).values;
+        const Image image = pass_list.image("format" + std::to_string(int(format)), format);
+        pass_list.upload(image, pixels);
+        return pass_list.download(image).values;
     };
     for (const auto& [format, channels] : {std::pair(Format::r32f, 1u), {Format::rg32f, 2u}, {Format::rgba32f, 4u}})
         EXPECT_EQ(round_trip(format, ramp({5, 3}, channels, 0.1f)), ramp({5, 3}, channels, 0.1f).values);
@@ -212,12 +220,12 @@ TEST_F(Graph, UploadsAndDownloadsEachFormat) {
 
 /// Also where a shader of another text, or of the same one, was compiled before.
 TEST_F(Graph, PassesDecideWhatAnIncludeStandsFor) {
-    PassGraph graph(device, {4, 4});
-    begin(graph);
-    const Image color = graph.image("color", Format::rgba32f);
+    PassList pass_list(device, {4, 4});
+    begin(pass_list);
+    const Image color = pass_list.image("color", Format::rgba32f);
     const auto drawn = [&](const std::string& glsl) {
-        graph.fragment("decided_include.frag").include("decided", glsl).write(color).run();
-        return graph.download(color).values.front();
+        pass_list.fragment("decided_include.frag").include("decided", glsl).write(color).run();
+        return pass_list.download(color).values.front();
     };
     const std::string three = "float decided() { return 3.0; }\n", five = "float decided() { return 5.0; }\n",
                       of_file =
@@ -229,31 +237,31 @@ TEST_F(Graph, PassesDecideWhatAnIncludeStandsFor) {
     EXPECT_EQ(drawn(three), 3.0f);
     EXPECT_EQ(drawn(no_glsl_es), 3.0f);
     {
-        const LimitScope limits(graph, Limits::webgl2);
+        const LimitScope limits(pass_list, Limits::webgl2);
         EXPECT_EQ(drawn(five), 5.0f);
         EXPECT_EQ(drawn(of_file), 7.0f);
         const std::string refused = error_message([&] { drawn(no_glsl_es); });
         EXPECT_NE(refused.find("GLSL ES 3.00"), std::string::npos) << refused;
         EXPECT_NE(refused.find("decided:1"), std::string::npos) << refused;
     }
-    const std::string undecided = error_message([&] { graph.fragment("decided_include.frag").write(color).run(); });
+    const std::string undecided = error_message([&] { pass_list.fragment("decided_include.frag").write(color).run(); });
     EXPECT_NE(undecided.find("which decided_include.frag:1 includes"), std::string::npos) << undecided;
 }
 
 TEST_F(Graph, MistakesNameTheCulprit) {
-    PassGraph graph(device, {16, 16});
-    begin(graph);
-    const Image sum = graph.image("sum", Format::rgba32f), other = graph.image("other", Format::rgba32f),
-                unwritten = graph.image("previous_sum", Format::rgba32f);
-    EXPECT_EQ(error_message([&] { graph.compute("add_one.comp").write(sum).run(); }),
+    PassList pass_list(device, {16, 16});
+    begin(pass_list);
+    const Image sum = pass_list.image("sum", Format::rgba32f), other = pass_list.image("other", Format::rgba32f),
+                unwritten = pass_list.image("previous_sum", Format::rgba32f);
+    EXPECT_EQ(error_message([&] { pass_list.compute("add_one.comp").write(sum).run(); }),
               "add_one.comp uses 'previous_sum', which the pass does not provide; it provides: sum");
-    EXPECT_EQ(error_message([&] { graph.compute("add_one.comp").read(unwritten).write(sum).run(); }),
+    EXPECT_EQ(error_message([&] { pass_list.compute("add_one.comp").read(unwritten).write(sum).run(); }),
               "pass add_one reads 'previous_sum', which nothing has written yet");
-    graph.clear(unwritten, glm::vec4(0.0f));
-    EXPECT_EQ(error_message([&] { graph.compute("add_one.comp").read(unwritten).read(other).write(sum).run(); }),
+    pass_list.clear(unwritten, glm::vec4(0.0f));
+    EXPECT_EQ(error_message([&] { pass_list.compute("add_one.comp").read(unwritten).read(other).write(sum).run(); }),
               "pass add_one reads 'other', which add_one.comp does not use");
     EXPECT_NE(
-        error_message([&] { graph.compute("no_such.comp").write(sum).run(); }).find("no shader file no_such.comp"),
+        error_message([&] { pass_list.compute("no_such.comp").write(sum).run(); }).find("no shader file no_such.comp"),
         std::string::npos);
 }
 
@@ -269,12 +277,13 @@ TEST(Devices, AreChosenByIndexOrName) {
 TEST(Validation, ReportsMisuse) {
     // Shows that silence elsewhere means something: a dispatch over the device's limit must be reported.
     Device device("", true);
-    PassGraph graph(device, {8, 8});
+    PassList pass_list(device, {8, 8});
     const ParameterSet none;
-    graph.begin_frame({}, none, {});
-    const Image sum = graph.image("sum", Format::rgba32f), before = graph.image("previous_sum", Format::rgba32f);
-    graph.clear(before, glm::vec4(0.0f));
+    pass_list.begin_frame({}, none, {});
+    const Image sum = pass_list.image("sum", Format::rgba32f),
+                before = pass_list.image("previous_sum", Format::rgba32f);
+    pass_list.clear(before, glm::vec4(0.0f));
     EXPECT_TRUE(device.validation_messages().empty());
-    graph.compute("add_one.comp").read(before).write(sum).dispatch_groups({0, 0, 70000});
+    pass_list.compute("add_one.comp").read(before).write(sum).dispatch_groups({0, 0, 70000});
     EXPECT_FALSE(device.validation_messages().empty());
 }

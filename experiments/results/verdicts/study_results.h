@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 /// The tables of a results folder that studies and their points are compared by.
-struct StudyTables {
+struct StudyResults {
     nlohmann::json manifest;
     std::vector<MetricSummary> errors;        ///< summary.csv
     std::vector<ResultRow> seeds;             ///< results.csv
@@ -22,4 +22,4 @@ struct StudyTables {
 void require_manifest(const nlohmann::json& manifest, const std::filesystem::path& file);
 
 /// Fails with Error on what is no results folder, or one of another version or half of one (require_evaluation()).
-StudyTables read_study_tables(const std::filesystem::path& folder);
+StudyResults read_study_results(const std::filesystem::path& folder);

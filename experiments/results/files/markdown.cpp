@@ -1,4 +1,4 @@
-#include "experiments/results/tables/markdown.h"
+#include "experiments/results/files/markdown.h"
 
 #include "core/shown_text.h"
 

@@ -1,16 +1,16 @@
-#include "experiments/results/tables/comparisons.h"
+#include "experiments/results/files/comparisons.h"
 
 std::vector<PointComparison> comparisons_of(const std::vector<ComparedPoint>& points) {
     std::vector<PointComparison> comparisons;
     for (const ComparedPoint& baseline : points) {
         if (!baseline.is_baseline) continue;
         for (const ComparedPoint& p : points)
-            if (p.variant != baseline.variant || p.point != baseline.point)
+            if (p.technique != baseline.technique || p.point != baseline.point)
                 comparisons.push_back({&p, &baseline, baseline_name});
     }
     for (const ComparedPoint& p : points)
         for (const ComparedPoint& other : points)
-            if (!p.against_point.empty() && other.variant == p.variant && other.point == p.against_point)
+            if (!p.against_point.empty() && other.technique == p.technique && other.point == p.against_point)
                 comparisons.push_back({&p, &other, p.against});
     return comparisons;
 }

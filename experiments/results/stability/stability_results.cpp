@@ -1,4 +1,4 @@
-#include "experiments/results/stability/stability_tables.h"
+#include "experiments/results/stability/stability_results.h"
 
 #include "core/error.h"
 #include "core/list_text.h"
@@ -31,12 +31,12 @@ std::string explained(const StageFailure& failure, std::string KnownFailure::*pa
 
 }  // namespace
 
-StabilityTables read_stability_tables(const std::filesystem::path& folder) {
+StabilityResults read_stability_results(const std::filesystem::path& folder) {
     const auto file = [&](const char* name) { return path_inside(folder, name); };
     if (!std::filesystem::exists(file("stability.csv"))) return {};
-    StabilityTables tables{.rows = read_rows<StabilityRow>(file("stability.csv")),
-                           .cases = read_rows<StabilityCaseName>(file("stability_cases.csv")),
-                           .stages = read_rows<StageRow>(file("stability_stages.csv"))};
+    StabilityResults tables{.rows = read_rows<StabilityRow>(file("stability.csv")),
+                            .cases = read_rows<StabilityCaseName>(file("stability_cases.csv")),
+                            .stages = read_rows<StageRow>(file("stability_stages.csv"))};
     std::set<std::string> known;
     for (const StabilityCaseName& what : tables.cases) known.insert(what.name);
     const auto check = [&](const auto& row) {
@@ -47,7 +47,7 @@ StabilityTables read_stability_tables(const std::filesystem::path& folder) {
     return tables;
 }
 
-std::vector<StageFailure> stage_failures(const StabilityTables& tables) {
+std::vector<StageFailure> stage_failures(const StabilityResults& tables) {
     const std::vector<KnownFailure> known = read_known_failures(known_failures_file());
     std::vector<StageFailure> failures;
     std::tuple<std::string, std::string, std::string> before;
@@ -55,12 +55,12 @@ std::vector<StageFailure> stage_failures(const StabilityTables& tables) {
         if (row.nan + row.infinite == 0) continue;  // of --all-stages
         const std::string place = row.stage + ": " + row.image;
         auto failure = std::ranges::find_if(
-            failures, [&](const StageFailure& f) { return f.variant == row.variant && f.place == place; });
+            failures, [&](const StageFailure& f) { return f.technique == row.technique && f.place == place; });
         if (failure == failures.end())
-            failure = failures.insert(failures.end(), {.variant = row.variant, .place = place});
+            failure = failures.insert(failures.end(), {.technique = row.technique, .place = place});
         add_once(failure->points, row.point), add_once(failure->cases, row.case_name);
         failure->nan += row.nan, failure->infinite += row.infinite;
-        const std::tuple run = {row.case_name, row.variant, row.point};
+        const std::tuple run = {row.case_name, row.technique, row.point};
         const bool is_first = run != std::exchange(before, run);
         const KnownFailure* const explanation =
             explanation_of(row, *std::ranges::find(tables.cases, row.case_name, &StabilityCaseName::name), known);
@@ -70,25 +70,26 @@ std::vector<StageFailure> stage_failures(const StabilityTables& tables) {
     return failures;
 }
 
-std::string technique_name(const std::string& variant, const std::string& point) {
-    return variant + (point == "default" ? "" : " " + point);
+std::string technique_name(const std::string& technique, const std::string& point) {
+    return technique + (point == "default" ? "" : " " + point);
 }
 
-std::string stability_lead(const StabilityTables& tables) {
+std::string stability_lead(const StabilityResults& tables) {
     std::set<std::string> techniques, cases, failing;
-    std::vector<std::pair<std::string, std::vector<std::string>>> spreading;  // variants and what to call their points
+    std::vector<std::pair<std::string, std::vector<std::string>>>
+        spreading;  // techniques and what to call their points
     size_t runs = 0, failed = 0;
     double largest = 0;
     std::string where;
     for (const StabilityRow& row : tables.rows) {
-        if (row.variant == "metrics") continue;
-        const std::string name = technique_name(row.variant, row.point);
+        if (row.technique == "metrics") continue;
+        const std::string name = technique_name(row.technique, row.point);
         ++runs, techniques.insert(name), cases.insert(row.case_name);
         if (row.non_finite) ++failed, failing.insert(name);
         if (row.spread_pixels) {
             auto entry =
-                std::ranges::find(spreading, row.variant, &std::pair<std::string, std::vector<std::string>>::first);
-            if (entry == spreading.end()) entry = spreading.insert(spreading.end(), {row.variant, {}});
+                std::ranges::find(spreading, row.technique, &std::pair<std::string, std::vector<std::string>>::first);
+            if (entry == spreading.end()) entry = spreading.insert(spreading.end(), {row.technique, {}});
             add_once(entry->second, row.point);
         }
         for (const auto& [input, factor] : {std::pair("depth", row.depth_median),
@@ -102,8 +103,8 @@ std::string stability_lead(const StabilityTables& tables) {
                        " of the techniques hold none in any. ";
     size_t count = 0;
     std::vector<std::string> names;
-    for (const auto& [variant, points] : spreading)
-        count += points.size(), names.push_back(technique_name(variant, joined(points)));
+    for (const auto& [technique, points] : spreading)
+        count += points.size(), names.push_back(technique_name(technique, joined(points)));
     text += spreading.empty() ? "No fault of an input reaches a pixel whose inputs are sound. "
                               : "Faults of an input reach pixels whose inputs are sound in " +
                                     counted(count, "technique") + ": " + joined(names, "; ") + ". ";
@@ -117,7 +118,7 @@ std::vector<std::pair<std::string, std::vector<size_t>>> verdict_counts(const st
     std::vector<std::pair<std::string, std::vector<size_t>>> counts;
     std::map<std::string, size_t> places;
     for (const StabilityRow& row : rows) {
-        const std::string name = technique_name(row.variant, row.point);
+        const std::string name = technique_name(row.technique, row.point);
         const auto [place, is_new] = places.try_emplace(name, counts.size());
         if (is_new) counts.emplace_back(name, std::vector<size_t>(verdict_names().size()));
         ++counts[place->second].second[size_t(row.verdict)];
@@ -129,21 +130,21 @@ std::string failures_text(const std::vector<StageFailure>& failures) {
     std::string text;
     for (const StageFailure& f : failures)
         if (f.is_source())
-            text += "\n" + f.variant + ": " + joined(f.points) + "\n  " + f.place + ", in " +
+            text += "\n" + f.technique + ": " + joined(f.points) + "\n  " + f.place + ", in " +
                     counted(f.cases.size(), "case") + ": " + shown_text(joined(f.cases)) +
                     "\n  fails by: " + explained(f, &KnownFailure::operation, "; or ") +
                     "\n  fixed by: " + explained(f, &KnownFailure::fix, "; ") + "\n";
     return text.empty() ? text : "Where values that are not finite arise, and what spreads them:\n" + text;
 }
 
-json stability_without_scripts(const StabilityTables& tables) {
+json stability_without_scripts(const StabilityResults& tables) {
     json verdicts = json::array(), techniques = json::array(), failures = json::array();
     for (const VerdictName& verdict : verdict_names()) verdicts.push_back({{"name", verdict.name}});
     for (const auto& [name, counts] : verdict_counts(tables.rows))
         techniques.push_back({{"technique", name}, {"counts", counts}});
     for (const StageFailure& f : stage_failures(tables))
         if (f.is_source())
-            failures.push_back({{"technique", f.variant + " " + joined(f.points)},
+            failures.push_back({{"technique", f.technique + " " + joined(f.points)},
                                 {"place", f.place},
                                 {"cases", joined(f.cases)},
                                 {"operation", explained(f, &KnownFailure::operation, "; or ")},

@@ -1,6 +1,6 @@
 #pragma once
 #include "core/files.h"
-#include "experiments/results/tables/csv.h"
+#include "experiments/results/files/csv.h"
 
 #include <algorithm>
 #include <limits>

@@ -2,7 +2,7 @@
 #include "core/gbuffer/gbuffer.h"
 #include "core/gbuffer/reflections.h"
 #include "core/gbuffer/scene_facts.h"
-#include "core/gpu/passes/pass_graph.h"
+#include "core/gpu/passes/pass_list.h"
 #include "core/gpu/pipelines/shader.h"
 #include "core/left_out.h"
 #include "core/parameters.h"
@@ -11,14 +11,14 @@
 #include <string>
 
 /// One screen-space reflection technique: its parameters and its passes in order.
-class Variant {
+class Technique {
 public:
-    virtual ~Variant() = default;
+    virtual ~Technique() = default;
 
-    /// Adds this frame's passes. Called once per frame, in temporal order, after PassGraph::begin_frame(), which was
+    /// Adds this frame's passes. Called once per frame, in temporal order, after PassList::begin_frame(), which was
     /// given the images of `gbuffer`: every shader may name them (`depth`, `normal`, `lit`, ...) without a
-    /// Pass::read(), which is for the variant's own images, and for sampling other than by texel.
-    virtual Reflections render(PassGraph& graph, const GBuffer& gbuffer) = 0;
+    /// Pass::read(), which is for the technique's own images, and for sampling other than by texel.
+    virtual Reflections render(PassList& pass_list, const GBuffer& gbuffer) = 0;
 
     /// Called before the first frame of a shot, after the parameters are set; not called under --keep-all. From then on
     /// render() skips the stages returned, which would not have changed a pixel.

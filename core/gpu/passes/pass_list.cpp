@@ -1,5 +1,5 @@
 #include "core/gpu/format.h"
-#include "core/gpu/passes/pass_graph_impl.h"
+#include "core/gpu/passes/pass_list_impl.h"
 #include "core/gpu/resources.h"
 
 namespace {
@@ -9,31 +9,31 @@ std::string without_side(const std::string& name) { return name.substr(0, name.f
 
 }  // namespace
 
-PassGraph::PassGraph(Device& device, glm::uvec2 extent)
-    : PassGraph(device, extent, device.info().is_cpu() ? Clock::host_fence : Clock::gpu_timestamp) {}
-PassGraph::PassGraph(Device& device, glm::uvec2 extent, Clock clock)
+PassList::PassList(Device& device, glm::uvec2 extent)
+    : PassList(device, extent, device.info().is_cpu() ? Clock::host_fence : Clock::gpu_timestamp) {}
+PassList::PassList(Device& device, glm::uvec2 extent, Clock clock)
     : impl_(std::make_unique<Impl>(device, extent, clock)) {}
-PassGraph::~PassGraph() = default;
+PassList::~PassList() = default;
 
-Clock PassGraph::clock() const { return impl_->clock; }
-void PassGraph::observe(PassObserver observer) { impl_->observer = std::move(observer); }
-bool PassGraph::uses_gpu_forms() const { return impl_->uses_gpu_forms; }
-void PassGraph::use_gpu_forms(bool uses_them) { impl_->uses_gpu_forms = uses_them; }
-void PassGraph::set_changes(PassChanges changes) { impl_->changes = std::move(changes); }
-std::string PassGraph::asked_name(const Image& image) const {
+Clock PassList::clock() const { return impl_->clock; }
+void PassList::observe(PassObserver observer) { impl_->observer = std::move(observer); }
+bool PassList::uses_gpu_forms() const { return impl_->uses_gpu_forms; }
+void PassList::use_gpu_forms(bool uses_them) { impl_->uses_gpu_forms = uses_them; }
+void PassList::set_changes(PassChanges changes) { impl_->changes = std::move(changes); }
+std::string PassList::asked_name(const Image& image) const {
     for (const auto& [name, known] : impl_->images)
         if (known.storage == image.storage) return without_side(name);
     return {};
 }
-bool PassGraph::has_input(const std::string& name) const { return impl_->inputs.contains(name); }
-glm::uvec2 PassGraph::extent() const { return impl_->extent; }
-Device& PassGraph::device() { return impl_->device; }
+bool PassList::has_input(const std::string& name) const { return impl_->inputs.contains(name); }
+glm::uvec2 PassList::extent() const { return impl_->extent; }
+Device& PassList::device() { return impl_->device; }
 
-Image PassGraph::image(const std::string& name, Format format, unsigned mips, unsigned divisor) {
+Image PassList::image(const std::string& name, Format format, unsigned mips, unsigned divisor) {
     return image_of(name, format, max(impl_->extent / divisor, 1u), mips);
 }
 
-Image PassGraph::image_of(const std::string& name, Format asked, glm::uvec2 extent, unsigned mips) {
+Image PassList::image_of(const std::string& name, Format asked, glm::uvec2 extent, unsigned mips) {
     const auto& format_of = impl_->changes.format_of;
     const Format format = format_of ? format_of(without_side(name), asked) : asked;
     if (extent.x == 0 || extent.y == 0) fail("image '", name, "' has zero size");
@@ -51,7 +51,7 @@ Image PassGraph::image_of(const std::string& name, Format asked, glm::uvec2 exte
     return image;
 }
 
-Buffer PassGraph::buffer(const std::string& name, size_t bytes) {
+Buffer PassList::buffer(const std::string& name, size_t bytes) {
     if (bytes == 0 || bytes % 4) fail("buffer '", name, "' has ", bytes, " bytes; it takes a positive multiple of 4");
     const auto [entry, is_new] = impl_->buffers.try_emplace(name);
     if (is_new || entry->second.size != bytes) {
@@ -61,7 +61,7 @@ Buffer PassGraph::buffer(const std::string& name, size_t bytes) {
     return entry->second;
 }
 
-Image PassGraph::image_black_at_first(const std::string& name, Format format, glm::uvec2 extent) {
+Image PassList::image_black_at_first(const std::string& name, Format format, glm::uvec2 extent) {
     const auto known = impl_->images.find(name);
     const std::shared_ptr<ImageStorage> before = known == impl_->images.end() ? nullptr : known->second.storage;
     const Image image = image_of(name, format, extent);
@@ -69,17 +69,17 @@ Image PassGraph::image_black_at_first(const std::string& name, Format format, gl
     return image;
 }
 
-PassGraph::History PassGraph::history(const std::string& name, Format format) {
+PassList::History PassList::history(const std::string& name, Format format) {
     return history(name, format, impl_->extent);
 }
 
-PassGraph::History PassGraph::history(const std::string& name, Format format, glm::uvec2 extent) {
+PassList::History PassList::history(const std::string& name, Format format, glm::uvec2 extent) {
     const Image sides[2] = {image_black_at_first(name + "#0", format, extent),
                             image_black_at_first(name + "#1", format, extent)};
     return {sides[impl_->parity].as(name), sides[1 - impl_->parity].as("previous_" + name)};
 }
 
-void PassGraph::clear(const Image& image, glm::vec4 value) {
+void PassList::clear(const Image& image, glm::vec4 value) {
     allow_use(impl_->gpu, image, vk::ImageUsageFlagBits::eTransferDst);
     impl_->execute("clear", [&](const auto& commands) {
         const ImageStorage& storage = *image.storage;
@@ -99,7 +99,7 @@ void PassGraph::clear(const Image& image, glm::vec4 value) {
     if (impl_->watcher) impl_->watcher->cleared(image, value);
 }
 
-void PassGraph::clear(const Buffer& buffer, uint32_t value) {
+void PassList::clear(const Buffer& buffer, uint32_t value) {
     impl_->check_limits(buffer);
     impl_->execute("clear", [&](const auto& commands) {
         commands.fillBuffer(*buffer.storage->buffer.buffer, 0, VK_WHOLE_SIZE, value);
@@ -107,7 +107,7 @@ void PassGraph::clear(const Buffer& buffer, uint32_t value) {
     if (impl_->watcher) impl_->watcher->cleared(buffer);
 }
 
-void PassGraph::upload(const Image& image, const HostImage& pixels) {
+void PassList::upload(const Image& image, const HostImage& pixels) {
     const FormatFacts& layout = facts_of(image.format);
     if (pixels.extent != image.extent || pixels.channels != layout.channels)
         fail("image '", image.name, "' is ", image.extent.x, "x", image.extent.y, " with ", layout.channels,
@@ -120,7 +120,7 @@ void PassGraph::upload(const Image& image, const HostImage& pixels) {
     if (impl_->watcher) impl_->watcher->uploaded(image);
 }
 
-void PassGraph::upload_rgba8(const Image& image, std::span<const uint8_t> texels) {
+void PassList::upload_rgba8(const Image& image, std::span<const uint8_t> texels) {
     if (texels.size() != size_t(image.extent.x) * image.extent.y * 4)
         fail("image '", image.name, "' takes ", size_t(image.extent.x) * image.extent.y * 4, " bytes, not ",
              texels.size());
@@ -129,7 +129,7 @@ void PassGraph::upload_rgba8(const Image& image, std::span<const uint8_t> texels
     if (impl_->watcher) impl_->watcher->uploaded(image);
 }
 
-void PassGraph::upload(const Buffer& buffer, std::span<const std::byte> bytes) {
+void PassList::upload(const Buffer& buffer, std::span<const std::byte> bytes) {
     impl_->check_limits(buffer);
     if (bytes.size() > buffer.size)
         fail("buffer '", buffer.name, "' holds ", buffer.size, " bytes, not ", bytes.size());
@@ -137,7 +137,7 @@ void PassGraph::upload(const Buffer& buffer, std::span<const std::byte> bytes) {
     upload_bytes(impl_->gpu, buffer, bytes);
 }
 
-HostImage PassGraph::download(const Image& image) {
+HostImage PassList::download(const Image& image) {
     impl_->flush();
     const std::vector<std::byte> texels = download_texels(impl_->gpu, image);
     HostImage pixels(image.extent, facts_of(image.format).channels);
@@ -145,7 +145,7 @@ HostImage PassGraph::download(const Image& image) {
     return pixels;
 }
 
-std::vector<std::byte> PassGraph::download(const Buffer& buffer) {
+std::vector<std::byte> PassList::download(const Buffer& buffer) {
     impl_->flush();
     return download_bytes(impl_->gpu, buffer);
 }

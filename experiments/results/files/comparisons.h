@@ -4,11 +4,11 @@
 
 /// A point of a study, with what it is compared with.
 struct ComparedPoint {
-    std::string variant, point;
+    std::string technique, point;
     bool depends_on_seed = true;
     bool is_baseline = false;   ///< all other points are compared with it
     std::string against;        ///< "estimator=a": the values in which alone `against_point` differs; "": none
-    std::string against_point;  ///< of the same variant
+    std::string against_point;  ///< of the same technique
 };
 
 /// EffectRow::against of points that are compared with a point marked as a baseline.

@@ -1,4 +1,4 @@
-#include "experiments/results/tables/targets.h"
+#include "experiments/results/files/targets.h"
 
 const std::vector<std::string>& target_names() {
     static const std::vector<std::string> names = {"specular", "image", "incident", "camera_radiance", "on_screen"};

@@ -1,14 +1,14 @@
 #pragma once
 #include "core/error.h"
 #include "core/gpu/device_impl.h"
-#include "core/gpu/passes/pass_graph.h"
+#include "core/gpu/passes/pass_list.h"
 #include "core/gpu/passes/pass_watcher.h"
 #include "core/gpu/pipelines/pipeline.h"
 
 #include <map>
 #include <optional>
 
-// The inside of PassGraph: pass_graph.cpp makes resources, frame.cpp submits and times, pass.cpp describes and runs
+// The inside of PassList: pass_list.cpp makes resources, frame.cpp submits and times, pass.cpp describes and runs
 // passes, binding.cpp finds what their shaders ask for, limits.cpp refuses what an API does not have, pass_watcher.cpp
 // shows them to who watches.
 
@@ -18,7 +18,7 @@ inline constexpr size_t params_offset = 2048, params_size = 4096, max_params_of_
 inline constexpr size_t uniforms_size = params_offset + max_params_of_frame * params_size;
 static_assert(sizeof(CameraData) <= params_offset);
 
-struct PassGraph::Impl {
+struct PassList::Impl {
     Device& device;
     Device::Impl& gpu;
     glm::uvec2 extent;

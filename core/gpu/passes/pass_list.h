@@ -53,10 +53,10 @@ struct Draw {
     std::vector<Buffer> buffers;
 };
 
-/// Called for each added pass with its stage and the images that it writes, for PassGraph::download().
+/// Called for each added pass with its stage and the images that it writes, for PassList::download().
 using PassObserver = std::function<void(const std::string& stage, std::span<const Image> written)>;
 
-/// What a study changes about the passes of a graph, without their knowing. An empty function changes nothing.
+/// What a study changes about the passes of a pass_list, without their knowing. An empty function changes nothing.
 struct PassChanges {
     /// The format in which an image is made that is asked for as `image` (histories: without their "#0" and "#1").
     std::function<Format(const std::string& image, Format asked)> format_of;
@@ -65,23 +65,24 @@ struct PassChanges {
 };
 
 /// A list of GPU passes, executed in the order in which they are added. Images, buffers and shader resources meet by
-/// name; the graph creates the images, compiles the shaders, binds, separates the passes by barriers and times each of
-/// them.
+/// name; the pass_list creates the images, compiles the shaders, binds, separates the passes by barriers and times each
+/// of them.
 ///
-/// Shader files hold plain GLSL without #version, bindings or locations of inputs. In front of each the graph puts the
-/// `camera` block, `#include` (from the project's root) and the parameters of the variant. A sampler2D, an image2D or a
-/// buffer block is bound to the image or buffer of its name; a fragment output is written to the image of its name.
-class PassGraph {
+/// Shader files hold plain GLSL without #version, bindings or locations of inputs. In front of each the pass_list puts
+/// the `camera` block, `#include` (from the project's root) and the parameters of the technique. A sampler2D, an
+/// image2D or a buffer block is bound to the image or buffer of its name; a fragment output is written to the image of
+/// its name.
+class PassList {
 public:
     /// `extent`: of images made without one. Without `clock` the one that suits the device.
-    PassGraph(Device& device, glm::uvec2 extent);
-    PassGraph(Device& device, glm::uvec2 extent, Clock clock);
-    ~PassGraph();
-    PassGraph(const PassGraph&) = delete;
-    PassGraph& operator=(const PassGraph&) = delete;
+    PassList(Device& device, glm::uvec2 extent);
+    PassList(Device& device, glm::uvec2 extent, Clock clock);
+    ~PassList();
+    PassList(const PassList&) = delete;
+    PassList& operator=(const PassList&) = delete;
 
     /// The image of that name; created on first use with undefined content, kept for the following frames. The extent
-    /// is the graph's divided by `divisor`, rounded down, at least 1. Asking again with another format, size or mip
+    /// is the pass_list's divided by `divisor`, rounded down, at least 1. Asking again with another format, size or mip
     /// count makes a new one.
     Image image(const std::string& name, Format format, unsigned mips = 1, unsigned divisor = 1);
     /// The same with an extent of its own (pixels).
@@ -95,7 +96,7 @@ public:
     struct History {
         Image current, previous;  ///< named `name` and `previous_<name>`
     };
-    /// Of the graph's extent, or of `extent`.
+    /// Of the pass_list's extent, or of `extent`.
     History history(const std::string& name, Format format);
     History history(const std::string& name, Format format, glm::uvec2 extent);
 
@@ -126,7 +127,7 @@ public:
 
     /// Of passes and images requested from now on.
     void set_changes(PassChanges changes);
-    /// The name by which `image` was requested; "" of another graph's.
+    /// The name by which `image` was requested; "" of another pass_list's.
     std::string asked_name(const Image& image) const;
 
     /// In place of those that begin_frame() was given, for the passes that follow: of a part that keeps its own, whose
@@ -155,7 +156,7 @@ public:
     /// ms, from the first to the last command of the frame; the sum of stages on a CPU.
     double frame_milliseconds();
 
-    /// From now on `watcher` hears of all that the graph does (nullptr: nobody); it must outlive that.
+    /// From now on `watcher` hears of all that the pass_list does (nullptr: nobody); it must outlive that.
     void watch(PassWatcher* watcher);
 
     Clock clock() const;
@@ -170,7 +171,7 @@ private:
 };
 
 /// One pass, described and then run by run() or dispatch().
-class PassGraph::Pass {
+class PassList::Pass {
 public:
     Pass& read(const Image& image, Sampling sampling = {});  ///< through a sampler of the image's name
     Pass& read_linear(const Image& image) { return read(image, {.is_linear = true}); }
@@ -193,11 +194,11 @@ public:
     void dispatch(const Buffer& arguments, size_t offset = 0);  ///< three uints: numbers of groups
 
 private:
-    friend class PassGraph;
-    friend struct PassGraph::Impl;
-    Pass(PassGraph::Impl& graph, std::string shader, bool is_compute);
+    friend class PassList;
+    friend struct PassList::Impl;
+    Pass(PassList::Impl& pass_list, std::string shader, bool is_compute);
 
-    PassGraph::Impl& graph_;
+    PassList::Impl& pass_list_;
     std::string shader_, vertex_shader_, label_;
     bool is_compute_;
     std::vector<Read> reads_;

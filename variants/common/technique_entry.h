@@ -1,11 +1,11 @@
 #pragma once
-#include "variants/variant.h"
+#include "variants/technique.h"
 
 #include <filesystem>
 #include <functional>
 #include <map>
 
-/// Named values of some parameters of a variant.
+/// Named values of some parameters of a technique.
 struct Preset {
     std::string name, meaning;
     nlohmann::json parameters;
@@ -13,7 +13,7 @@ struct Preset {
 
 /// The API whose limits a technique obeys, so that it runs there. `lifted_by` holds values of parameters; each of them
 /// asks for more than the API has and lifts the limits.
-struct VariantLimits {
+struct TechniqueLimits {
     Limits api = Limits::none;
     nlohmann::json lifted_by = nlohmann::json::object();
 };
@@ -28,11 +28,11 @@ struct TechniqueFolder {
 };
 
 /// One row of the table of techniques.
-struct VariantEntry {
+struct TechniqueEntry {
     std::string name, title, source, description;
     std::vector<Preset> presets;
-    VariantLimits limits{};
-    std::function<std::unique_ptr<Variant>()> create;
+    TechniqueLimits limits{};
+    std::function<std::unique_ptr<Technique>()> create;
     std::shared_ptr<const TechniqueFolder> folder{};  ///< of one that a folder declares; else none
 
     /// Whether it is one of variants/, not of somebody's own folder.

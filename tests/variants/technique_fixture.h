@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 /// One channel, in whichever image it is.
-inline HostImage download_confidence(PassGraph& graph, const Reflections& reflections) {
-    const HostImage all = graph.download(reflections.confidence);
+inline HostImage download_confidence(PassList& pass_list, const Reflections& reflections) {
+    const HostImage all = pass_list.download(reflections.confidence);
     HostImage confidence(all.extent, 1);
     for (size_t i = 0; i < confidence.values.size(); ++i)
         confidence.values[i] = all.values[i * all.channels + reflections.confidence_channel];
@@ -14,7 +14,7 @@ inline HostImage download_confidence(PassGraph& graph, const Reflections& reflec
 }
 
 /// One device for all tests of the program; every test ends with a silent validation layer.
-struct VariantTest : testing::Test {
+struct TechniqueTest : testing::Test {
     static Device& device() {
         static Device shared;
         return shared;

@@ -9,11 +9,11 @@ constexpr glm::uvec2 extent{160, 120};
 
 using Frame = HeldCamera::Frame;
 
-struct AmdSssrVariant : HeldCamera {
+struct AmdSssrTechnique : HeldCamera {
     using HeldCamera::render;
     Frame render(const nlohmann::json& parameters, const std::string& preset, const SyntheticScene& scene,
                  unsigned count = 1, float environment = 0) {
-        return render(*make_variant("amd_sssr", parameters, preset), scene, count, environment);
+        return render(*make_technique("amd_sssr", parameters, preset), scene, count, environment);
     }
 };
 
@@ -32,7 +32,7 @@ glm::vec2 pixel_from_world(const CameraData& camera, glm::vec3 p) {
     return (glm::vec2(clip) / clip.w * 0.5f + 0.5f) * glm::vec2(camera.extent);
 }
 
-struct AmdMirrorFloor : AmdSssrVariant {
+struct AmdMirrorFloor : AmdSssrTechnique {
     /// Compares what each floor pixel reflects with the point of the wall that its exact mirror ray meets, in pixels:
     /// at most `farthest` away along each axis, `mean_distance` as a mean vector.
     void expect_true_hits(const std::string& preset, float farthest, double mean_distance) {
@@ -97,7 +97,7 @@ TEST_F(AmdMirrorFloor, ShowsItToAnOrthographicCamera) {
 
 /// A held mirror keeps, through filters and history, what it shows: the wall's 0.25 below y = 1 and 1 above. Only
 /// pixels that average with nothing else are looked at: filters reach 4 pixels, tile averages 16.
-TEST_F(AmdSssrVariant, KeepsWhatAMirrorShows) {
+TEST_F(AmdSssrTechnique, KeepsWhatAMirrorShows) {
     view.extent = {320, 240};
     // With contact hits, whose rows are black without them and reach far by the tiles' averages.
     const Frame frame = render({{"hierarchy.depth_buffer_thickness", 0.5}, {"hierarchy.accept_contact_hits", true}},
@@ -140,7 +140,7 @@ SyntheticHit furnace_floor(const CameraRay& ray) {
 
 /// With everything radiating 1, each average and each blend of radiance is 1, up to rounding. The original's own losses
 /// are switched off: black orphans, and averages of 0 beside tiles without a glossy pixel.
-TEST_F(AmdSssrVariant, KeepsAFurnaceAtOne) {
+TEST_F(AmdSssrTechnique, KeepsAFurnaceAtOne) {
     const nlohmann::json no_losses = {{"trace_orphans", true}, {"fresh_neighborhood", true}};
     for (const std::string preset : {"corrected", "sdk_1_5"})
         for (const unsigned frames : {1u, 12u}) {
@@ -167,14 +167,14 @@ SyntheticHit rough_floor(const CameraRay& ray) {
     return hit;
 }
 
-TEST_F(AmdSssrVariant, LeavesEverythingOutWhereNothingIsGlossy) {
+TEST_F(AmdSssrTechnique, LeavesEverythingOutWhereNothingIsGlossy) {
     SceneFacts facts{.has_geometry = true,
                      .has_reflective = true,
                      .min_roughness = 0.6f,
                      .max_roughness = 0.6f,
                      .camera_moves = true,
                      .has_environment = true};
-    const auto whole = make_variant("amd_sssr"), less = make_variant("amd_sssr");
+    const auto whole = make_technique("amd_sssr"), less = make_technique("amd_sssr");
     const std::vector<LeftOut> left_out = less->leave_out(facts);
     const Frame all = render(*whole, rough_floor, 2, 0.5f);
     std::vector<std::string> stages;
@@ -190,13 +190,13 @@ TEST_F(AmdSssrVariant, LeavesEverythingOutWhereNothingIsGlossy) {
     EXPECT_EQ(some.confidence.values, all.confidence.values);
 
     facts.min_roughness = 0.44f;  // alpha 0.194
-    EXPECT_TRUE(make_variant("amd_sssr")->leave_out(facts).empty());
+    EXPECT_TRUE(make_technique("amd_sssr")->leave_out(facts).empty());
 
     // What 8 bits make of alpha, 0.2 of both, decides with rate_stored_roughness.
     const auto is_left_out = [&](float alpha, float threshold, bool is_rated_as_stored) {
         facts.min_roughness = std::sqrt(alpha);
-        return !make_variant("amd_sssr",
-                             {{"roughness_threshold_alpha", threshold}, {"rate_stored_roughness", is_rated_as_stored}})
+        return !make_technique("amd_sssr", {{"roughness_threshold_alpha", threshold},
+                                            {"rate_stored_roughness", is_rated_as_stored}})
                     ->leave_out(facts)
                     .empty();
     };
@@ -207,7 +207,7 @@ TEST_F(AmdSssrVariant, LeavesEverythingOutWhereNothingIsGlossy) {
 }
 
 /// The first frame's noise, and with it its rays, are a function of seed and frame alone.
-TEST_F(AmdSssrVariant, RepeatsItselfUnlessTheSeedDiffers) {
+TEST_F(AmdSssrTechnique, RepeatsItselfUnlessTheSeedDiffers) {
     const nlohmann::json parameters = {{"hierarchy.min_traversal_occupancy", 0}, {"denoise", false}};
     const Frame first = render(parameters, "", glossy_floor), again = render(parameters, "", glossy_floor);
     EXPECT_TRUE(first.radiance.values == again.radiance.values);

@@ -1,4 +1,4 @@
-#include "experiments/study/config/points/read_variants.h"
+#include "experiments/study/config/points/read_techniques.h"
 
 #include "core/error.h"
 #include "core/near_miss.h"
@@ -17,8 +17,8 @@
 
 namespace {
 
-/// A variant's own are obeyed to the letter. Of those that a study names for all, a point that does not depend on them
-/// needs one.
+/// A technique's own are obeyed to the letter. Of those that a study names for all, a point that does not depend on
+/// them needs one.
 std::vector<unsigned> seeds_of(const std::optional<std::vector<unsigned>>& own,
                                const std::optional<std::vector<unsigned>>& of_study, bool depends_on_seed) {
     if (own) return *own;
@@ -28,12 +28,12 @@ std::vector<unsigned> seeds_of(const std::optional<std::vector<unsigned>>& own,
     return seeds;
 }
 
-/// The variant; fails with the place in the file if there is none such.
-std::unique_ptr<Variant> make_checked(const std::string& where, const std::string& name,
-                                      const nlohmann::json& parameters = nlohmann::json::object(),
-                                      const std::string& preset = "") {
+/// The technique; fails with the place in the file if there is none such.
+std::unique_ptr<Technique> make_checked(const std::string& where, const std::string& name,
+                                        const nlohmann::json& parameters = nlohmann::json::object(),
+                                        const std::string& preset = "") {
     try {
-        return make_variant(name, parameters, preset);
+        return make_technique(name, parameters, preset);
     } catch (const Error& e) {
         fail(where, ": ", e.what());
     }
@@ -61,9 +61,9 @@ struct Shared {
     std::vector<PointCondition> conditions;
 };
 
-/// The rest of a point that has its variant, preset and values. False if a condition leaves it out.
-bool complete_point(VariantConfig& point, const Shared& shared, ConfigObject& object) {
-    const auto made = make_checked(shared.where, point.variant, point.parameters, point.preset);
+/// The rest of a point that has its technique, preset and values. False if a condition leaves it out.
+bool complete_point(PointConfig& point, const Shared& shared, ConfigObject& object) {
+    const auto made = make_checked(shared.where, point.technique, point.parameters, point.preset);
     nlohmann::json values = made->params.values();
     point.conditions = shared.conditions;
     if (!is_wanted(point.conditions, values)) return false;
@@ -75,7 +75,7 @@ bool complete_point(VariantConfig& point, const Shared& shared, ConfigObject& ob
     point.is_timed = shared.is_timed && !made->uses_scene_data();
     point.seeds = seeds_of(shared.own_seeds, shared.study_seeds, point.depends_on_seed);
     if (!point.against.is_null())
-        make_checked(object.at("against"), point.variant, with_values(point.parameters, point.against), point.preset);
+        make_checked(object.at("against"), point.technique, with_values(point.parameters, point.against), point.preset);
     return true;
 }
 
@@ -94,57 +94,58 @@ std::string meant_by(const std::string& name, const ParameterSet& params) {
 }
 
 /// Fails if a design varies a parameter that none of its points reads: all its values would be one point.
-void refuse_unread(std::span<const VariantConfig> points, const std::string& where) {
+void refuse_unread(std::span<const PointConfig> points, const std::string& where) {
     std::set<std::string> read, varied;
-    for (const VariantConfig& point : points) {
+    for (const PointConfig& point : points) {
         std::vector<std::string> names;  // that are not known to be read
         for (const auto& [name, value] : point.swept.items())
             if (!read.contains(name)) names.push_back(name);
         if (names.empty()) continue;
         varied.insert(names.begin(), names.end());
-        const auto made = make_variant(point.variant, point.parameters, point.preset);
+        const auto made = make_technique(point.technique, point.parameters, point.preset);
         for (const std::string& name : names)
             if (is_read(made->params, name)) read.insert(name);
     }
     for (const std::string& name : varied) {
         if (read.contains(name)) continue;
-        const VariantConfig& first = points.front();
-        const std::string meant = meant_by(name, make_variant(first.variant, first.parameters, first.preset)->params);
+        const PointConfig& first = points.front();
+        const std::string meant =
+            meant_by(name, make_technique(first.technique, first.parameters, first.preset)->params);
         fail(where, ": no point reads '", name, "', a parameter of a tracer or denoiser that none of them uses",
              meant.empty() ? "" : "; did you mean '" + meant + "'?");
     }
 }
 
-/// variant_keys() of the technique with its defaults, made once: they hold the schemas of all its parameters several
+/// technique_keys() of the technique with its defaults, made once: they hold the schemas of all its parameters several
 /// times, and took most of the time in which a study of many entries was read.
-std::shared_ptr<const Keys> kept_keys(const std::string& name, const Variant& plain) {
+std::shared_ptr<const Keys> kept_keys(const std::string& name, const Technique& plain) {
     static std::mutex mutex;
     static std::map<std::string, std::shared_ptr<const Keys>> kept;
-    const VariantEntry& entry = find_variant(name);
+    const TechniqueEntry& entry = find_technique(name);
     const std::lock_guard lock(mutex);
     std::shared_ptr<const Keys>& keys = kept[name + (entry.folder ? entry.folder->content_hash : "")];
-    if (!keys) keys = std::make_shared<const Keys>(variant_keys(plain));
+    if (!keys) keys = std::make_shared<const Keys>(technique_keys(plain));
     return keys;
 }
 
 /// The name of the technique that an entry names; where that is a folder, from the config's, it is added to the table.
 std::string read_technique_name(JsonObject& entry, const std::filesystem::path& folder) {
-    const std::string named = entry.text("variant");
+    const std::string named = entry.text("technique");
     try {
         return technique_name(named, folder);
     } catch (const Error& error) {
-        fail(entry.at("variant"), ": ", error.what());
+        fail(entry.at("technique"), ": ", error.what());
     }
 }
 
 /// `folder`: of the config.
 void read_entry(JsonObject entry, const std::optional<std::vector<unsigned>>& study_seeds,
-                const std::filesystem::path& folder, std::vector<VariantConfig>& variants) {
+                const std::filesystem::path& folder, std::vector<PointConfig>& techniques) {
     const std::string name = read_technique_name(entry, folder);
-    const auto plain = make_checked(entry.at("variant"), name);
+    const auto plain = make_checked(entry.at("technique"), name);
     ConfigObject object(std::move(entry), kept_keys(name, *plain));
     if (object.has("remove")) fail(object.at("remove"), ": 'remove' is for a config that 'extends' another");
-    object.has("variant");
+    object.has("technique");
     const std::vector<std::string> presets = object.texts("preset");
     for (const std::string& preset : presets) make_checked(object.at("preset"), name, {}, preset);
     nlohmann::json parameters = read_values(object, "parameters", plain->params);
@@ -162,78 +163,78 @@ void read_entry(JsonObject entry, const std::optional<std::vector<unsigned>>& st
                         .is_timed = object.get<bool>("timing"),
                         .conditions = read_conditions(object, plain->params)};
     object.finish();
-    if (variants.size() + presets.size() * points.size() > most_points)
-        fail(object.where(), ": with it the study has ", variants.size() + presets.size() * points.size(),
+    if (techniques.size() + presets.size() * points.size() > most_points)
+        fail(object.where(), ": with it the study has ", techniques.size() + presets.size() * points.size(),
              " points; allowed are ", most_points);
-    const size_t before = variants.size();
+    const size_t before = techniques.size();
     for (const std::string& preset : presets)
         for (const nlohmann::json& values : points) {
-            VariantConfig point{.variant = name,
-                                .preset = preset,
-                                .parameters = with_values(parameters, values),
-                                .swept = values,
-                                .point = "",
-                                .seeds = {},
-                                .is_baseline = is_baseline,
-                                .against = against};
-            if (complete_point(point, shared, object)) variants.push_back(std::move(point));
+            PointConfig point{.technique = name,
+                              .preset = preset,
+                              .parameters = with_values(parameters, values),
+                              .swept = values,
+                              .point = "",
+                              .seeds = {},
+                              .is_baseline = is_baseline,
+                              .against = against};
+            if (complete_point(point, shared, object)) techniques.push_back(std::move(point));
         }
-    if (variants.size() == before) fail(object.where(), ": its conditions leave none of its points");
-    refuse_unread(std::span(variants).subspan(before), object.where());
+    if (techniques.size() == before) fail(object.where(), ": its conditions leave none of its points");
+    refuse_unread(std::span(techniques).subspan(before), object.where());
 }
 
 /// `folder`: of the config.
-void read_external_entry(JsonObject entry, const std::filesystem::path& folder, std::vector<VariantConfig>& variants) {
+void read_external_entry(JsonObject entry, const std::filesystem::path& folder, std::vector<PointConfig>& techniques) {
     ConfigObject object(std::move(entry), external_keys());
     if (object.has("remove")) fail(object.at("remove"), ": 'remove' is for a config that 'extends' another");
     const std::shared_ptr<const ExternalImages> images =
         read_external_images(folder / object.get<std::string>("external"), object.at("external"));
-    VariantConfig point{.variant = images->name,
-                        .preset = "",
-                        .parameters = nlohmann::json::object(),
-                        .swept = nlohmann::json::object(),
-                        .point = images->point,
-                        .label = object.get<std::string>("label"),
-                        .group = object.get<std::string>("group"),
-                        .seeds = std::vector<unsigned>(images->seeds),
-                        .depends_on_seed = images->seeds > 1,
-                        .is_baseline = object.get<bool>("baseline"),
-                        .is_timed = false,
-                        .external = images};
+    PointConfig point{.technique = images->name,
+                      .preset = "",
+                      .parameters = nlohmann::json::object(),
+                      .swept = nlohmann::json::object(),
+                      .point = images->point,
+                      .label = object.get<std::string>("label"),
+                      .group = object.get<std::string>("group"),
+                      .seeds = std::vector<unsigned>(images->seeds),
+                      .depends_on_seed = images->seeds > 1,
+                      .is_baseline = object.get<bool>("baseline"),
+                      .is_timed = false,
+                      .external = images};
     if (object.has("point")) point.point = object.get<std::string>("point");
     std::iota(point.seeds.begin(), point.seeds.end(), 0u);
     object.finish();
-    variants.push_back(std::move(point));
+    techniques.push_back(std::move(point));
 }
 
-/// The pairs (variant, point) name cells and rows, so they must differ, and one label for two would hide which is
+/// The pairs (technique, point) name cells and rows, so they must differ, and one label for two would hide which is
 /// which.
-void refuse_repetition(const std::vector<VariantConfig>& variants, const std::string& where) {
+void refuse_repetition(const std::vector<PointConfig>& techniques, const std::string& where) {
     std::set<std::pair<std::string, std::string>> points;
     std::set<std::string> labels;
-    for (const VariantConfig& v : variants) {
-        if (!points.insert({v.variant, v.point}).second)
-            fail(where, ": variants: '", v.variant, "' comes twice with the point '", v.point,
+    for (const PointConfig& v : techniques) {
+        if (!points.insert({v.technique, v.point}).second)
+            fail(where, ": techniques: '", v.technique, "' comes twice with the point '", v.point,
                  "'; give the second a preset or a sweep that distinguishes them");
         if (!v.label.empty() && !labels.insert(v.label).second)
-            fail(where, ": variants: two points have the label '", v.label,
+            fail(where, ": techniques: two points have the label '", v.label,
                  "'; distinguish them by {preset} or the name of a parameter in braces");
     }
 }
 
 }  // namespace
 
-Keys variant_keys(const Variant& variant) {
-    const Values parameters = {variant.params.schema(), "an object of parameter values", {}, {{"type", "object"}}};
+Keys technique_keys(const Technique& technique) {
+    const Values parameters = {technique.params.schema(), "an object of parameter values", {}, {{"type", "object"}}};
     const Keys keys = {
-        {"variant", any_text(), required,
-         "a name from `ssrlab list variants`, or with a `/` in it the folder of a technique of your own, from the "
+        {"technique", any_text(), required,
+         "a name from `ssrlab list techniques`, or with a `/` in it the folder of a technique of your own, from the "
          "config's: "
          "`./my_ssr`"},
         {"preset", some_of(any_text()), Default("", "none"),
          "what its points start from: names from `ssrlab list presets`"},
         {"parameters", parameters, none,
-         "values in place of the preset's or default ones: `ssrlab describe VARIANT` explains them"},
+         "values in place of the preset's or default ones: `ssrlab describe TECHNIQUE` explains them"},
         {"label", any_text(), Default("", "its name"),
          "how report, figures and tables show a point, with parameters and `{preset}` filled in"},
         {"group", any_text(), Default("", "none"), "what several points belong to, with the same braces"},
@@ -245,7 +246,7 @@ Keys variant_keys(const Variant& variant) {
          "otherwise the same"},
         {"timing", flag(), true, "false: results only, no times"},
         {"remove", flag(), otherwise("false"), "takes the entry away from what the config `extends`"}};
-    return joined(joined(keys, design_keys(variant.params)), condition_keys());
+    return joined(joined(keys, design_keys(technique.params)), condition_keys());
 }
 
 Keys external_keys() {
@@ -266,14 +267,14 @@ std::optional<std::vector<unsigned>> read_seeds(ConfigObject& object) {
     return numbers_of(object["seeds"], object.at("seeds") + ": 'seeds'");
 }
 
-std::vector<VariantConfig> read_variants(ConfigObject& study, const std::filesystem::path& folder) {
+std::vector<PointConfig> read_techniques(ConfigObject& study, const std::filesystem::path& folder) {
     const std::optional<std::vector<unsigned>> seeds = read_seeds(study);
-    std::vector<VariantConfig> variants;
-    for (JsonObject& entry : study.elements("variants"))
+    std::vector<PointConfig> techniques;
+    for (JsonObject& entry : study.elements("techniques"))
         if (entry.has("external"))
-            read_external_entry(std::move(entry), folder, variants);
+            read_external_entry(std::move(entry), folder, techniques);
         else
-            read_entry(std::move(entry), seeds, folder, variants);
-    refuse_repetition(variants, study.where());
-    return variants;
+            read_entry(std::move(entry), seeds, folder, techniques);
+    refuse_repetition(techniques, study.where());
+    return techniques;
 }

@@ -1,4 +1,4 @@
-#include "experiments/results/tables/manifest.h"
+#include "experiments/results/files/manifest.h"
 
 #include "metrics/temporal.h"
 

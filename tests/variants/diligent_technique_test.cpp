@@ -14,14 +14,14 @@ namespace {
 const char* const presets[] = {"april_2024", "current", "corrected"};
 
 nlohmann::json preset_parameters(const std::string& name) {
-    return std::ranges::find(find_variant("diligent_ssr").presets, name, &Preset::name)->parameters;
+    return std::ranges::find(find_technique("diligent_ssr").presets, name, &Preset::name)->parameters;
 }
 
 bool are_same(const HostImage& a, const HostImage& b) {  // in what is not a number, too
     return std::ranges::equal(a.values, b.values, {}, std::bit_cast<uint32_t, float>, std::bit_cast<uint32_t, float>);
 }
 
-struct DiligentVariant : DiligentSequence {
+struct DiligentTechnique : DiligentSequence {
     /// glossy_floor before a wall that shines more from frame to frame, seen by a camera that moves.
     std::vector<HostGBuffer> lively_frames(unsigned count) {
         return frames(count, [](unsigned frame) -> SyntheticScene {
@@ -33,14 +33,14 @@ struct DiligentVariant : DiligentSequence {
         });
     }
 
-    /// The passes of the last of these frames, run one by one on one graph.
+    /// The passes of the last of these frames, run one by one on one pass_list.
     HostImage by_hand(const std::vector<HostGBuffer>& hosts, const std::string& preset, const nlohmann::json& changes) {
         nlohmann::json parameters = preset_parameters(preset);
         parameters.update(changes);
         parameters.erase("repair_inputs");  // a pass before all of these
         DiligentFrames frame(device(), view.extent, parameters);
         const auto& [params, tracing, filter] = frame.parameters;
-        PassGraph& graph = frame.graph;
+        PassList& pass_list = frame.pass_list;
         BlueNoise noise;
         Image reflections;
         for (size_t i = 0; i < hosts.size(); ++i) {
@@ -48,25 +48,25 @@ struct DiligentVariant : DiligentSequence {
             const GBuffer& gbuffer = frame.gbuffer;
             const bool is_corrected = preset == "corrected";
             const Image numbers =
-                noise.render(graph, is_corrected ? NoiseShift::r2 : NoiseShift::golden_diagonal_from_half,
+                noise.render(pass_list, is_corrected ? NoiseShift::r2 : NoiseShift::golden_diagonal_from_half,
                              is_corrected ? NoisePrecision::float_32 : NoisePrecision::bits_8, NoiseStage::fragment);
-            const Image color = graph.image("color", Format::rgba32f);
-            graph.upload(color, hosts[tracing.previous_frame && i > 0 ? i - 1 : i].lit);
-            const Image depth_before = diligent_reprojected_depth(graph, gbuffer);
-            const Tracers::Images hierarchies = diligent_depth_hierarchies(graph, gbuffer, tracing);
+            const Image color = pass_list.image("color", Format::rgba32f);
+            pass_list.upload(color, hosts[tracing.previous_frame && i > 0 ? i - 1 : i].lit);
+            const Image depth_before = diligent_reprojected_depth(pass_list, gbuffer);
+            const Tracers::Images hierarchies = diligent_depth_hierarchies(pass_list, gbuffer, tracing);
             const DiligentMask mask = frame.mask();
-            const DiligentRays rays = diligent_trace(graph, gbuffer, hierarchies, numbers, color, mask, tracing);
-            const DiligentResolved resolved = diligent_reconstruct(graph, gbuffer, rays, mask, filter);
-            const DiligentHistories histories = diligent_histories(graph, filter);
-            diligent_accumulate(graph, gbuffer, depth_before, resolved, histories, mask, filter);
-            reflections =
-                diligent_cleanup(graph, gbuffer, histories.radiance.current, histories.variance.current, mask, filter);
+            const DiligentRays rays = diligent_trace(pass_list, gbuffer, hierarchies, numbers, color, mask, tracing);
+            const DiligentResolved resolved = diligent_reconstruct(pass_list, gbuffer, rays, mask, filter);
+            const DiligentHistories histories = diligent_histories(pass_list, filter);
+            diligent_accumulate(pass_list, gbuffer, depth_before, resolved, histories, mask, filter);
+            reflections = diligent_cleanup(pass_list, gbuffer, histories.radiance.current, histories.variance.current,
+                                           mask, filter);
         }
-        return graph.download(reflections);
+        return pass_list.download(reflections);
     }
 };
 
-TEST_F(DiligentVariant, RoughnessThatIsTakenForAlphaIsTheRootOfIt) {
+TEST_F(DiligentTechnique, RoughnessThatIsTakenForAlphaIsTheRootOfIt) {
     const auto of_roughness = [&](float roughness, bool is_perceptual) {
         const std::vector<HostGBuffer> hosts = frames(2, [=](unsigned) -> SyntheticScene {
             return [=](const CameraRay& ray) {
@@ -75,16 +75,16 @@ TEST_F(DiligentVariant, RoughnessThatIsTakenForAlphaIsTheRootOfIt) {
                 return hit;
             };
         });
-        return render(*make_variant("diligent_ssr", {{"roughness_perceptual", is_perceptual},
-                                                     {"float_roughness", true},
-                                                     {"roughness_threshold", 0.5}}),
+        return render(*make_technique("diligent_ssr", {{"roughness_perceptual", is_perceptual},
+                                                       {"float_roughness", true},
+                                                       {"roughness_threshold", 0.5}}),
                       hosts);
     };
     EXPECT_TRUE(are_same(of_roughness(0.0625f, false), of_roughness(0.25f, true)));
     EXPECT_FALSE(are_same(of_roughness(0.0625f, true), of_roughness(0.25f, true)));
 }
 
-TEST_F(DiligentVariant, RunsItsPassesInOrder) {
+TEST_F(DiligentTechnique, RunsItsPassesInOrder) {
     const std::vector<HostGBuffer> hosts = lively_frames(3);
     for (const std::string preset : presets) {
         std::vector<HostImage> results;
@@ -101,7 +101,7 @@ TEST_F(DiligentVariant, RunsItsPassesInOrder) {
 }
 
 /// The wall shines by the number of the frame.
-TEST_F(DiligentVariant, PreviousFrameShowsTheLastFramesColoursFromTheSecondOn) {
+TEST_F(DiligentTechnique, PreviousFrameShowsTheLastFramesColoursFromTheSecondOn) {
     speed = glm::vec3(0);
     const auto scene_of = [](unsigned frame) -> SyntheticScene {
         return [=](const CameraRay& ray) {
@@ -218,7 +218,7 @@ TEST_F(DiligentMirror, HistoryFollowsTheMirrorImage) {
 /// Everything radiates 1: whatever the confidence, the composite should be 1. Where half of the rays hit, the original
 /// takes the other half for black before it takes it for the fallback. Rays that see the environment where they miss
 /// know all there is.
-TEST_F(DiligentVariant, WhiteDipsToThreeQuartersUnlessPremultipliedOrMissesSeeTheEnvironment) {
+TEST_F(DiligentTechnique, WhiteDipsToThreeQuartersUnlessPremultipliedOrMissesSeeTheEnvironment) {
     view.extent = {160, 120};
     speed = glm::vec3(0);  // held: moved mirrors would mix confidences, too
     for (const float roughness : {0.0f, 0.05f, 0.1f, 0.19f}) {
@@ -233,8 +233,8 @@ TEST_F(DiligentVariant, WhiteDipsToThreeQuartersUnlessPremultipliedOrMissesSeeTh
         for (const nlohmann::json& parameters :
              {nlohmann::json::object(), {{"premultiply_confidence", true}}, {{"misses", "fallback"}}}) {
             SCOPED_TRACE(testing::Message() << roughness << ", " << parameters);
-            const auto variant = make_variant("diligent_ssr", parameters);
-            const HostImage incident = composited_incident(*variant, hosts, 1.0f);
+            const auto technique = make_technique("diligent_ssr", parameters);
+            const HostImage incident = composited_incident(*technique, hosts, 1.0f);
             const auto [low, high] = std::ranges::minmax(incident.values);
             const float lost = 0x1p-9f;  // colour and confidence are halves, which may be truncated
             EXPECT_LT(high, 1 + lost);
@@ -250,7 +250,7 @@ TEST_F(DiligentVariant, WhiteDipsToThreeQuartersUnlessPremultipliedOrMissesSeeTh
 // Work that no pixel needs.
 
 /// Rough floors, and floors without a specular term.
-TEST_F(DiligentVariant, LeavesOutWhatChangesNoPixelOfTheComposite) {
+TEST_F(DiligentTechnique, LeavesOutWhatChangesNoPixelOfTheComposite) {
     for (const std::string preset : presets)
         for (const bool is_half : {false, true})
             for (const bool is_rough : {false, true}) {
@@ -264,8 +264,8 @@ TEST_F(DiligentVariant, LeavesOutWhatChangesNoPixelOfTheComposite) {
                     };
                 });
                 const nlohmann::json changes = {{"half_resolution", is_half}, {"previous_frame", is_rough}};
-                const auto whole = make_variant("diligent_ssr", changes, preset),
-                           less = make_variant("diligent_ssr", changes, preset);
+                const auto whole = make_technique("diligent_ssr", changes, preset),
+                           less = make_technique("diligent_ssr", changes, preset);
                 std::vector<std::string> left_out, stages;
                 for (const LeftOut& part : less->leave_out({.has_geometry = true,
                                            .has_reflective = is_rough,
@@ -283,9 +283,9 @@ TEST_F(DiligentVariant, LeavesOutWhatChangesNoPixelOfTheComposite) {
             }
 }
 
-TEST_F(DiligentVariant, LeavesNothingOutWhereSomethingIsSmooth) {
+TEST_F(DiligentTechnique, LeavesNothingOutWhereSomethingIsSmooth) {
     for (const std::string preset : presets)
-        EXPECT_TRUE(make_variant("diligent_ssr", nlohmann::json::object(), preset)
+        EXPECT_TRUE(make_technique("diligent_ssr", nlohmann::json::object(), preset)
                         ->leave_out({.has_reflective = true,
                                      .min_roughness = 0.15f,
                                      .max_roughness = 0.9f,
@@ -296,7 +296,7 @@ TEST_F(DiligentVariant, LeavesNothingOutWhereSomethingIsSmooth) {
 }
 
 /// Histories included.
-TEST_F(DiligentVariant, RepeatsItselfUnlessTheSeedDiffers) {
+TEST_F(DiligentTechnique, RepeatsItselfUnlessTheSeedDiffers) {
     for (const std::string preset : presets) {
         const auto with_seed = [&](unsigned seed) {
             view.seed = seed;

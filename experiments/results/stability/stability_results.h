@@ -3,18 +3,18 @@
 #include "experiments/results/stability/stability_rows.h"
 
 /// The tables that `ssrlab stability` writes into a folder.
-struct StabilityTables {
+struct StabilityResults {
     std::vector<StabilityRow> rows;
     std::vector<StabilityCaseName> cases;  ///< as far as stability_cases.csv has them
     std::vector<StageRow> stages;
 };
 
 /// Nothing where there are none. Fails with Error, naming file and line, where a table is malformed.
-StabilityTables read_stability_tables(const std::filesystem::path& folder);
+StabilityResults read_stability_results(const std::filesystem::path& folder);
 
 /// An image of a stage that is not finite in runs of one technique.
 struct StageFailure {
-    std::string variant, place;  ///< "stage: image"
+    std::string technique, place;  ///< "stage: image"
     std::vector<std::string> points, cases;
     size_t nan = 0, infinite = 0;
     size_t first = 0;        ///< runs in which no stage before it fails
@@ -26,20 +26,20 @@ struct StageFailure {
 };
 
 /// By technique and place, in the order of stability_stages.csv.
-std::vector<StageFailure> stage_failures(const StabilityTables& tables);
+std::vector<StageFailure> stage_failures(const StabilityResults& tables);
 
 /// What the tables say, in a few sentences.
-std::string stability_lead(const StabilityTables& tables);
+std::string stability_lead(const StabilityResults& tables);
 
 /// How many cases each technique got each verdict in, in the order of stability.csv.
 std::vector<std::pair<std::string, std::vector<size_t>>> verdict_counts(const std::vector<StabilityRow>& rows);
 
 /// A technique as people read it.
-std::string technique_name(const std::string& variant, const std::string& point);
+std::string technique_name(const std::string& technique, const std::string& point);
 
 /// The sources among the failures, and how they are fixed, as a table for terminals.
 std::string failures_text(const std::vector<StageFailure>& failures);
 
 /// The values of the section `stability` of page/no_scripts.html: the lead, how often each technique got each
 /// verdict, and the failures.
-nlohmann::json stability_without_scripts(const StabilityTables& tables);
+nlohmann::json stability_without_scripts(const StabilityResults& tables);

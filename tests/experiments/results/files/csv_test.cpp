@@ -1,4 +1,4 @@
-#include "experiments/results/tables/csv.h"
+#include "experiments/results/files/csv.h"
 
 #include "core/files.h"
 

@@ -1,4 +1,4 @@
-#include "experiments/results/verdicts/study_tables.h"
+#include "experiments/results/verdicts/study_results.h"
 
 #include "core/error.h"
 #include "core/files.h"
@@ -17,12 +17,12 @@ const json& manifest_types() {
         "title?": "text", "is_complete?": "true or false", "study?": {"name?": "text", "config?": "text"},
         "primary?": {"metric?": "text", "mask?": "text", "target?": "text", "margin?": "number"},
         "written?": {"ssrlab?": "object"}, "config?": "object",
-        "variants?": [{"variant?": "text", "point?": "text", "label?": "text", "group?": "text",
+        "techniques?": [{"technique?": "text", "point?": "text", "label?": "text", "group?": "text",
                        "baseline?": "true or false", "uses_scene_data?": "true or false", "parameters?": "object"}],
         "shots?": [{"shot?": "text", "scene?": "text", "asset?": "text", "label?": "text", "group?": "text",
                     "exposure_ev?": "number", "references?": [{"hash?": "text"}],
                     "truth_ladder?": [{"rung?": "text", "target?": "text", "metric?": "text", "mask?": "text"}]}],
-        "images?": [{"shot?": "text", "variant?": "text", "point?": "text", "kind?": "text", "target?": "text"}],
+        "images?": [{"shot?": "text", "technique?": "text", "point?": "text", "kind?": "text", "target?": "text"}],
         "provenance?": [{"host?": {"name?": "text", "cpu?": "text"}, "device?": {"name?": "text"}, "ssrlab?": "object"}],
         "clock?": {"load?": [{"shot?": "text", "host?": {"name?": "text", "cpu?": "text"}}],
                    "proofs?": [{"verdict?": "text", "shots?": ["text"]}],
@@ -37,11 +37,11 @@ void require_manifest(const json& manifest, const std::filesystem::path& file) {
     require_type(manifest, manifest_types(), file.string(), OtherMembers::allowed);
 }
 
-StudyTables read_study_tables(const std::filesystem::path& folder) {
+StudyResults read_study_results(const std::filesystem::path& folder) {
     const auto file = [&](const char* name) { return path_inside(folder, name); };
     if (!std::filesystem::exists(file("manifest.json")))
         fail(folder.string(), " is no results folder: it has no manifest.json; `ssrlab run` makes one");
-    StudyTables tables;
+    StudyResults tables;
     tables.manifest = parse_json(read_text(file("manifest.json")), file("manifest.json").string());
     require_manifest(tables.manifest, file("manifest.json"));
     require_evaluation(folder, tables.manifest);
