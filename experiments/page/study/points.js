@@ -17,11 +17,11 @@ export const mostNamed = 30;  // more names than that cover each other
 /// The point's name at a mark, no longer than it takes to differ from the others.
 export const markName = (() => {
     const count = technique => comparedPoints.filter(p => p.technique === technique).length;
-    const techniques = techniques.filter(v => v !== "none");
+    const others = techniques.filter(t => t !== "none");
     return row => ownLabel(row) ??
-        (count(row.technique) === 1    ? row.technique :
-             techniques.length === 1 ? row.point :
-                                       pointLabel(row));
+        (count(row.technique) === 1 ? row.technique :
+             others.length === 1    ? row.point :
+                                      pointLabel(row));
 })();
 
 /// What the reader chose to see. `hidden`: keys of points that legends switched off.

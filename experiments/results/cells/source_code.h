@@ -13,7 +13,7 @@ struct SourceFile {
     std::vector<std::string> includes;  ///< what it includes in quotes, as written
 };
 
-/// The sources below `root` of core, groundtruth, metrics, techniques and experiments, ordered by path; benchmarks are
+/// The sources below `root` of core, groundtruth, metrics, variants and experiments, ordered by path; benchmarks are
 /// none of them. Fails with MachineError if one cannot be read.
 std::vector<SourceFile> read_sources(const std::filesystem::path& root);
 
@@ -23,7 +23,7 @@ std::vector<SourceFile> parse_source_table(std::string_view table);
 
 /// Which sources a number depends on, so that an edit of one redoes what may have changed and nothing else.
 ///
-/// A source needs what it includes. Of core, groundtruth, metrics, techniques and gpu_costs whatever needs one source
+/// A source needs what it includes. Of core, groundtruth, metrics, variants and gpu_costs whatever needs one source
 /// needs all that lie beside it in its folder: a class may be spread over several. So of a room within one some header
 /// must be included from outside. In the rest of experiments a header needs the source of its name: each of them
 /// implements its own header alone. Nothing depends on code that reads a config: cells hold what it read by value. No

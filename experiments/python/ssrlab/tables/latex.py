@@ -22,7 +22,7 @@ MOST_LINES = 45  # that a page has room for, with a caption and notes
 
 
 # What a reader calls what the files' columns and values are named.
-HEADS = {"technique": "technique", "shot_group": "shots", "mse": "MSE", "relmse": "relMSE", "mae": "MAE", "smape": "SMAPE", "psnr": "PSNR (dB)", "flip": "FLIP"}
+HEADS = {"shot_group": "shots", "mse": "MSE", "relmse": "relMSE", "mae": "MAE", "smape": "SMAPE", "psnr": "PSNR (dB)", "flip": "FLIP"}
 HEADS |= {"hdr_flip": "HDR-FLIP", "ssim": "SSIM", "bias_squared": "bias\N{SUPERSCRIPT TWO}"}
 WORDS = ("metric", "quantity", "mask", "target", "change", "what")  # whose values are words; others are names, which stay as they are
 
