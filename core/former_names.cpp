@@ -58,7 +58,8 @@ public:
 private:
     /// A technique may have a parameter `variant` of its own.
     const Names& names_at(const std::string& pointer) const {
-        const bool is_in_entry = pointer.starts_with("/techniques/") && std::ranges::count(pointer, '/') > 2;
+        const bool is_of_entries = pointer.starts_with("/techniques/") || pointer.starts_with("/presets/");
+        const bool is_in_entry = is_of_entries && std::ranges::count(pointer, '/') > 2;
         return which_ == FormerNames::of_technique || is_in_entry ? of_parameters : of_studies;
     }
 

@@ -7,8 +7,9 @@
 
 enum class FormerNames { of_study, of_technique };
 
-/// Renames keys, and texts that name columns, of a study's config or cell: `variant` is `technique`, `resolve` is
-/// `denoiser`; of a technique.json the latter alone. `shots` is left alone. Places move along.
+/// Renames keys, and texts that name columns, of a study's config or cell, or of tuned presets: `variant` is
+/// `technique`, `resolve` is `denoiser`; of a technique.json the latter alone. `shots` is left alone. Places move
+/// along.
 void take_former_names(JsonDocument& document, FormerNames which);
 
 /// The path of a shader or of parameters as it is: "resolves/ray.glsl" is "denoisers/ray.glsl".

@@ -1,6 +1,7 @@
 #include "variants/registry.h"
 
 #include "core/error.h"
+#include "core/former_names.h"
 #include "core/gpu/pipelines/shader_files.h"
 #include "core/json.h"
 #include "core/near_miss.h"
@@ -29,7 +30,7 @@ std::deque<TechniqueEntry> entries_with_tuned_presets() {
                              "four_mode_ssr", "composed_ssr"})
         entries.push_back(own_declared_entry(name));
     for (TechniqueEntry& entry : entries) {
-        const auto file = std::filesystem::path(SSRLAB_SOURCE_DIR) / "techniques" / entry.name / "tuned_presets.json";
+        const auto file = std::filesystem::path(SSRLAB_SOURCE_DIR) / "variants" / entry.name / "tuned_presets.json";
         if (std::filesystem::exists(file)) add_tuned_presets(entry, file);
     }
     return entries;
@@ -71,7 +72,8 @@ std::string technique_point_name(const std::string& text) {
 }
 
 void add_tuned_presets(TechniqueEntry& entry, const std::filesystem::path& file) {
-    const JsonDocument document = read_json_document(file);
+    JsonDocument document = read_json_document(file);
+    take_former_names(document, FormerNames::of_study);
     JsonObject root(document, file.string());
     for (JsonObject& found : root.objects("presets")) {
         const std::string of = found.text("technique");

@@ -53,7 +53,7 @@ TEST(Registry, TakesPresetsThatASearchFound) {
     EXPECT_EQ(error_message([&] { add(dda, R"({"technique": "amd_sssr", "name": "best_4x", )" + rest); }),
               file.string() + ":1:15: presets[0]: 'amd_sssr' is not 'mcguire_dda'");
     EXPECT_EQ(error_message([&] { add(dda, R"({"technique": "mcguire_dda", "name": "coarse", )" + rest); }),
-              file.string() + ":1:41: presets[0]: 'mcguire_dda' has a preset 'coarse' already");
+              file.string() + ":1:43: presets[0]: 'mcguire_dda' has a preset 'coarse' already");
 }
 
 TEST(Registry, DescribesEveryTechniqueInFull) {

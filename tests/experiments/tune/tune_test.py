@@ -103,7 +103,7 @@ class FakeSsrlab:
             json.dump({"techniques": own, "shots": shots}, stream)
         for name, rows in (("results", results), ("costs", costs), ("estimates", estimates), ("effects", effects), ("summary", []), ("time_summary", times), ("time_effects", time_effects)):
             with open(os.path.join(out, name + ".csv"), "w", newline="", encoding="utf-8") as stream:
-                writer = csv.DictWriter(stream, rows[0].keys() if rows else ["shot", "frame", "represents_shot", "standing", "dominated", "fits_from_ms"])
+                writer = csv.DictWriter(stream, rows[0].keys() if rows else ["shot", "frame", "technique", "represents_shot", "standing", "dominated", "fits_from_ms"])
                 writer.writeheader()
                 writer.writerows(rows)
 

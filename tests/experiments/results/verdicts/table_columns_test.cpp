@@ -27,8 +27,8 @@ std::string mistake_in(const std::string& table) {
 
 /// `ssrlab plan` and `run` check a config by this, before any work: else `ssrlab tables` would stumble after it.
 TEST(TableColumns, AreThoseOfTheFilesOrParameters) {
-    EXPECT_EQ(mistake_in(R"("of": "results", "rows": ["varaint", "point"], "columns": "shot")"),
-              ":2:59: tables[0]: 'rows': 'varaint' is neither a column of these rows nor a parameter; did you mean "
+    EXPECT_EQ(mistake_in(R"("of": "results", "rows": ["tecnique", "point"], "columns": "shot")"),
+              ":2:59: tables[0]: 'rows': 'tecnique' is neither a column of these rows nor a parameter; did you mean "
               "'technique'?");
     const std::string rest = R"(, "rows": ["technique", "dda.stride"], "columns": "metric")";
     EXPECT_NE(mistake_in(R"("of": "results")" + rest + R"(, "over": "shoot")").find("did you mean 'shot'?"),

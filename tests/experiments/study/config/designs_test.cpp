@@ -103,9 +103,9 @@ TEST_F(Designs, AConfigIsPatchedByWhatExtendsIt) {
         return R"({"extends": "middle/middle.json", "techniques": [)" + entry + "]}";
     };
     expect_starts(mistake_in(extending(R"({"technique": "amd_sssr", "preset": "best"})")),
-                  "study.json:1:48: techniques: 2 entries");
+                  "study.json:1:50: techniques: 2 entries");
     expect_starts(mistake_in(extending(R"({"technique": "simple_ssr", "remove": true})")),
-                  "study.json:1:48: techniques: nothing to remove");
+                  "study.json:1:50: techniques: nothing to remove");
     expect_starts(mistake_in(R"({"extends": "study.json"})"), "study.json:1:2: 'extends' leads back");
     expect_starts(mistake_in(R"({"extends": "nowhere.json"})"), "study.json:1:2: 'extends': there is no file");
 }
@@ -122,7 +122,7 @@ TEST_F(Designs, PathsOfCapturesAreThoseOfTheFileThatNamesThem) {
 TEST_F(Designs, MistakesNameLineAndColumn) {
     EXPECT_EQ(mistake(R"({"technique": "none"},
                          {"technique": "none", "prest": "best"})"),
-              "study.json:4:46: techniques[1]: unknown key 'prest'; did you mean 'preset'?");
+              "study.json:4:48: techniques[1]: unknown key 'prest'; did you mean 'preset'?");
     expect_starts(
         mistake("// why\n{\"technique\": \"mcguire_dda\", /* \"{ */ \"parameters\": {\n\"dda.strid\": 2}}"),
         "study.json:5:1: techniques[0]: parameters: unknown parameter 'dda.strid'; did you mean 'dda.stride'?");
@@ -152,9 +152,9 @@ TEST_F(Designs, AxesAreListsOrRanges) {
          {"[]", "3", R"({"lin": [1, 9]})", R"({"lin": [1, 9, 1]})", R"({"lin": [1, 1, 4]})", R"({"log": [0, 9, 4]})",
           R"({"log": [1, 9, 1e9]})", R"({"lin": [1, 2, 3], "log": [1, 2, 3]})", R"({"lin": [0, 9, 4]})", "{}"})
         expect_starts(mistake(dda(R"("sweep": {"dda.stride": )" + std::string(bad) + "}")),
-                      "study.json:3:38: techniques[0]: sweep: ");
+                      "study.json:3:40: techniques[0]: sweep: ");
     expect_starts(mistake(dda(R"("sweep": {"dda.refine": {"lin": [0, 1, 2]}})")),
-                  "study.json:3:38: techniques[0]: sweep: 'dda.refine' must be an array of values (true, false), not ");
+                  "study.json:3:40: techniques[0]: sweep: 'dda.refine' must be an array of values (true, false), not ");
 }
 
 TEST_F(Designs, WholeNumbersMayBeWrittenWithAPoint) {
@@ -175,14 +175,14 @@ TEST_F(Designs, CombineAxesInSeveralWays) {
     EXPECT_EQ(of(dda(R"("sweep": {"dda.stride": {"lin": [1, 4, 4]}, "dda.refine": [true, false]})")).techniques.size(),
               8u);
     expect_starts(mistake(dda(R"("zip": {"dda.stride": [1, 2], "dda.refine": [true]})")),
-                  "study.json:3:28: techniques[0]: 'zip' pairs");
+                  "study.json:3:30: techniques[0]: 'zip' pairs");
     expect_starts(mistake(dda(R"("zip": {"dda.stride": [1]}, "each": {"dda.refine": [true]})")),
-                  "study.json:3:56: techniques[0]: 'zip' and 'each'");
+                  "study.json:3:58: techniques[0]: 'zip' and 'each'");
     // Refused before memory is filled.
     const std::string thousand = R"({"lin": [0.1, 0.9, 1000]})";
     expect_starts(
         mistake(dda(R"("sweep": {"dda.thickness": )" + thousand + R"(, "dda.max_distance": {"lin": [1, 9, 1000]}})")),
-        "study.json:3:28: techniques[0]: 'sweep' makes 1e+06 points; allowed are 100000");
+        "study.json:3:30: techniques[0]: 'sweep' makes 1e+06 points; allowed are 100000");
 }
 
 TEST_F(Designs, SamplesFillTheirRanges) {
@@ -213,9 +213,9 @@ TEST_F(Designs, SamplesFillTheirRanges) {
     EXPECT_EQ(of(dda(R"("random": {"count": 50, "axes": {"dda.stride": {"lin": [1, 3]}}})")).techniques.size(), 3u)
         << "equal points count once";
     expect_starts(mistake(dda(R"("sobol": {"count": 4, "axes": {"dda.stride": {"lin": [0, 3]}}})")),
-                  "study.json:3:59: techniques[0]: sobol: axes: parameter 'dda.stride' = 0 is outside");
+                  "study.json:3:61: techniques[0]: sobol: axes: parameter 'dda.stride' = 0 is outside");
     expect_starts(mistake(dda(R"("random": {"count": 200000, "axes": {"dda.stride": [1]}})")),
-                  "study.json:3:39: techniques[0]: random: 'count'");
+                  "study.json:3:41: techniques[0]: random: 'count'");
 }
 
 /// Every interval of each axis holds exactly its share, whatever the seed.
@@ -368,7 +368,7 @@ TEST_F(Designs, LabelsAreFilledInAndTellPointsApart) {
     expect_starts(mistake(dda(R"("label": "DDA", "sweep": {"dda.stride": [1, 2]})")),
                   "study.json: techniques: two points have the label 'DDA'");
     expect_starts(mistake(dda(R"("label": "DDA {dda.strid}")")),
-                  "study.json:3:28: techniques[0]: 'label' names {dda.strid}");
+                  "study.json:3:30: techniques[0]: 'label' names {dda.strid}");
 }
 
 /// What `ssrlab tune` would stumble over hours later is refused while the config is read.
