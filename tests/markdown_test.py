@@ -56,16 +56,13 @@ class Markdown(unittest.TestCase):
                     self.assertIn(anchor, anchors(target), f"{document}: {link}")
         self.assertGreater(count, 50)
 
-    def test_scripts_of_findings_are_listed_and_say_what_they_promise(self):
+    def test_scripts_of_findings_are_listed_and_can_be_run(self):
         """They need packages from the network: whoever writes one runs it."""
         scripts = sorted(file.removeprefix("findings/") for file in FILES if re.fullmatch(r"findings/\w+\.sh", file))
         listed = re.findall(r"(?m)^\| `(\w+\.sh)` \|", (ROOT / "findings/README.md").read_text(encoding="utf-8"))
         self.assertEqual(sorted(listed), scripts)
         for script in scripts:
-            text = (ROOT / "findings" / script).read_text(encoding="utf-8")
             self.assertTrue(os.access(ROOT / "findings" / script, os.X_OK), script)
-            for promised in ("# For whom: ", "# Version", "as described", "BEHAVIOUR CHANGED"):
-                self.assertIn(promised, text, script)
 
     def test_paths_that_they_name_exist(self):
         """From the root, or from the document's own folder: `core/files.h`, `configs/best.json`."""

@@ -171,18 +171,6 @@ TEST(Configs, OfAmdMeasureEachCorrectionAlone) {
     EXPECT_GT(corrections, 0u);
 }
 
-TEST(Configs, OfAmdCompareAllOnTheSameSeeds) {
-    const Config config = read_config(source / "experiments/studies/configs/amd_sssr.json");
-    for (const PointConfig& technique : config.techniques) {
-        const bool is_alone = technique.point.find('=') != std::string::npos;
-        const bool is_faithful = technique.point.find("faithful") != std::string::npos;
-        EXPECT_EQ(technique.is_baseline, technique.point == "repeatable");
-        EXPECT_EQ(technique.is_timed, !is_alone || is_faithful) << technique.point;
-        EXPECT_EQ(technique.seeds.size(), technique.technique == "none" ? 1u : is_alone ? 4u : 8u) << technique.point;
-        EXPECT_EQ(technique.seeds.front(), 0u);
-    }
-}
-
 TEST(Configs, OfDiligentMeasureEachCorrectionAlone) {
     std::set<std::string> scenes, points;
     for (const char* file :
@@ -206,31 +194,6 @@ TEST(Configs, OfDiligentMeasureEachCorrectionAlone) {
         }
     }
     EXPECT_GT(changes, 20u);
-}
-
-/// Every combination with the published lobe, and all filtered ones with the other, on the same seeds.
-TEST(Configs, OfFrostbiteCrossEstimatorsTapsRaysTruncationAndLobe) {
-    const Config config = read_config(source / "experiments/studies/configs/frostbite.json");
-    std::set<std::string> scenes;
-    for (const ShotConfig& shot : config.shots) scenes.insert(shot.scene);
-    EXPECT_EQ(scenes, (std::set<std::string>{"roughness_gradient", "contact_hardening", "glossy_stretch", "firefly",
-                                             "metal_corner"}));
-    std::map<std::string, std::set<std::string>> combinations;  // of each lobe
-    for (const PointConfig& technique : config.techniques) {
-        if (technique.technique != "frostbite_sssr") continue;
-        EXPECT_EQ(technique.seeds.size(), 8u);
-        const bool is_reference_form = technique.parameters.value("estimator", "a") == "a";
-        EXPECT_EQ(technique.against_point.empty(), is_reference_form) << technique.point;
-        const std::unique_ptr<Technique> changed = make_technique("frostbite_sssr");
-        changed->params.assign(technique.parameters);
-        const nlohmann::json p = changed->params.values();
-        combinations[p["lobe"]].insert(
-            nlohmann::json{p["estimator"], p["taps"], p["max_rays"], p["importance_bias"], p["filtered_sampling"]}
-                .dump());
-    }
-    // Forms x taps x rays x truncation; of the reference form also single taps, and without filtered sampling.
-    EXPECT_EQ(combinations["normals"].size(), 3u * 2 * 2 * 2 + 2 + 2 * 2 * 2);
-    EXPECT_EQ(combinations["visible_normals"].size(), 3u * 2 * 2 * 2);
 }
 
 /// Every switch and choice of the technique, alone. Those that matter from two rays on, or after many frames, have
