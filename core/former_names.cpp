@@ -102,6 +102,10 @@ std::string present_path(std::string path) {
     return path.replace(0, former.size(), present);
 }
 
+std::string present_preset(const std::string& technique, const std::string& preset) {
+    return technique == "composed_ssr" ? present({{"repaired", "corrected"}}, preset) : preset;
+}
+
 std::string present_word(const std::string& word, const std::vector<std::string>& before) {
     static const Names options = {{"--variants", "--techniques"}, {"--variant", "--technique"}};
     static const Names listed = {{"variants", "techniques"}, {"resolves", "denoisers"}};

@@ -15,6 +15,9 @@ void take_former_names(JsonDocument& document, FormerNames which);
 /// The path of a shader or of parameters as it is: "resolves/ray.glsl" is "denoisers/ray.glsl".
 std::string present_path(std::string path);
 
+/// The preset of a technique as it is: "repaired" of composed_ssr is "corrected".
+std::string present_preset(const std::string& technique, const std::string& preset);
+
 /// A command's word as it is: "--variants" is "--techniques", and after `--cells` "variant=none" is "technique=none".
 /// `before`: the words before it.
 std::string present_word(const std::string& word, const std::vector<std::string>& before);

@@ -128,8 +128,10 @@ std::unique_ptr<Technique> make_technique(const std::string& name, const nlohman
                                           const std::string& preset) {
     const TechniqueEntry& entry = find_technique(name);
     std::unique_ptr<Technique> technique = entry.create();
-    if (!preset.empty())
-        technique->params.assign(find_named(entry.presets, preset, "preset of technique '" + name + "':").parameters);
+    if (!preset.empty()) {
+        const std::string what = "preset of technique '" + name + "':";
+        technique->params.assign(find_named(entry.presets, present_preset(name, preset), what).parameters);
+    }
     try {
         if (!parameters.is_null()) technique->params.assign(parameters);
     } catch (const Error& error) {

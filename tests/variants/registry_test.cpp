@@ -179,6 +179,8 @@ TEST(Registry, RecommendedPresetsRepairTheirInputs) {
         }
     }
     EXPECT_GE(count, 20u);
+    EXPECT_EQ(make_technique("composed_ssr", {}, "repaired")->params.values(),
+              make_technique("composed_ssr", {}, "corrected")->params.values());
 }
 
 }  // namespace
