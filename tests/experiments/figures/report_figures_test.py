@@ -201,6 +201,8 @@ def test_chosen_crops(folder, temporary):
     check(np.allclose(shown[-2][17, 9], expected, atol=1e-6), f"pixel {shown[-2][17, 9]}, expected {expected}")
     check(shown[-2].shape == (31, 40, 3), f"a crop of {shown[-2].shape}")
     plt.close("all")
+    former = json.loads(json.dumps(FIGURES_JSON).replace('"technique"', '"variant"'))
+    check(read_crops(file, former, results) == read_crops(file, FIGURES_JSON, results), "the name that `technique` had is not read")
 
     def mistake(change, part):
         content = copy.deepcopy(FIGURES_JSON)

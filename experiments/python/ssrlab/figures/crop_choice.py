@@ -5,7 +5,7 @@ import math
 from dataclasses import dataclass
 
 from ssrlab.figures.request import refuse_unknown
-from ssrlab.mistakes import ResultsError
+from ssrlab.mistakes import ResultsError, say
 
 TONE_CURVES = ("none", "reinhard", "aces")
 AUTO = "auto"
@@ -67,11 +67,16 @@ def is_exposure(value):
     return value == AUTO or isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
 
 
+def _present(point):
+    """A point whose technique is called so: `variant` is the name that the key had."""
+    return {"technique" if key == "variant" else key: text for key, text in point.items()}
+
+
 def _are_points(value):
     return (
         isinstance(value, list)
         and value
-        and all(isinstance(p, dict) and set(p) == {"technique", "point"} and all(isinstance(t, str) for t in p.values()) for p in value)
+        and all(isinstance(p, dict) and set(_present(p)) == {"technique", "point"} and all(isinstance(t, str) for t in p.values()) for p in value)
     )
 
 
@@ -88,7 +93,10 @@ def read_crops(file, content, results):
         for key, value, first in (("target", target, own.target), ("frame", frame, own.frame)):
             if value != first:
                 read.fail(key, f"{json.dumps(first)} as in the first crop of {shot}: they share a figure")
-        for p in read.value("points", _are_points, 'an array of {"technique", "point"}'):
+        points = read.value("points", _are_points, 'an array of {"technique", "point"}')
+        if any("variant" in p for p in points) and not shots[shot].crops:
+            say(f"note: {read.where}: 'variant' is read as 'technique', its name")
+        for p in map(_present, points):
             own.points.setdefault((p["technique"], p["point"]), read.where)
         own.crops.append(
             Crop(
