@@ -30,7 +30,7 @@ import matplotlib.pyplot as plt
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 
-from ssrlab.figures import crops, style
+from ssrlab.figures import crops, numbers, style
 from ssrlab.figures.crop_choice import read_crops
 from ssrlab.figures.request import Request, read_choice
 from ssrlab.repository import CONFIGS, FINDINGS, STUDIES, SUMMARIES
@@ -94,7 +94,7 @@ def draw_error_time():
                 axes.errorbar([time.value], [error.value], xerr=whiskers(time), yerr=whiskers(error), fmt=mark, color=color,
                               markerfacecolor=color if is_best else "white", label=technique if is_best else None)
         size = shot.split(".")[2]
-        axes.set(xscale="log", yscale="log", xlabel="time of a frame (ms)", title=f"{scene}, {size}" + ", in motion" * (".f" in shot))
+        axes.set(xlabel="time of a frame (ms)", title=f"{scene}, {size}" + ", in motion" * (".f" in shot))
         style.log_axis(axes.xaxis)
         style.log_axis(axes.yaxis)
         axes.margins(0.12)
@@ -127,7 +127,7 @@ def draw_comparison(folder):
             bar.set_label("absolute error, mean over channels")
             continue
         error = errors[(shot, *key)]
-        value, low, high = (style.number(x) for x in (error.value, error.low, error.high))
+        value, low, high = (numbers.short(x) for x in (error.value, error.low, error.high))
         top.set_title(f"{label(*key)}: {value} [{low}, {high}]")
         crops.show(below, maps[key][DISCS], cmap="magma", vmin=0, vmax=most)
     save(figure, OUT / "comparison.png", digest(CONFIGS / "readme.json"))

@@ -93,6 +93,11 @@ def rounded(text):
     return re.sub(r"(?<==)-?\d+\.\d+(?=\s|$)", lambda number: f"{float(number.group()):.3g}", text)
 
 
+def is_of(row, chosen):
+    """Whether a row has the target, metric and mask that a figure is of."""
+    return (row["target"], row["metric"], row["mask"]) == (chosen.target, chosen.metric, chosen.mask)
+
+
 def is_over_frames(row):
     """Whether it stands for all frames of its shot: such have no `frame`."""
     return row["frame"] == ""

@@ -18,6 +18,7 @@ import numpy as np
 from ssrlab.figures.__main__ import SHOT_FIGURES, STUDY_FIGURES, for_each_shot, make
 from matplotlib.text import Text
 from ssrlab.figures import effects, error_time, fetches, motion, style
+from ssrlab.figures.numbers import short
 from ssrlab.figures.request import Look
 from PIL import Image
 from ssrlab.mistakes import ResultsError
@@ -273,7 +274,7 @@ def test_fits(folder):
     check({"true", "false"} >= {t.get_text() for t in panel.texts} != set(), f"values of the parameter: {[t.get_text() for t in panel.texts]}")
     rung["value"] = 1e-9 * min(points.values())
     panel = draw(results, request_of("fits")).get_axes()[0]
-    far = f"limit of one frame: {style.number(rung['value'])} \N{DOWNWARDS ARROW}"
+    far = f"limit of one frame: {short(rung['value'])} \N{DOWNWARDS ARROW}"
     check(far in [t.get_text() for t in panel.texts] and panel.get_ylim()[0] > 0.01 * floor, "a rung far below flattens the points")
     check(draw(results, request_of("fits", points=[("sssr", next(iter(points)))])) is None, "a law without all of its points")
     check(draw(results, request_of("fits", metric="mse")) is None, "nobody asked for fits of another error")

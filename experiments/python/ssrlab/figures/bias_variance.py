@@ -22,22 +22,20 @@ def draw(results, chosen):
         name: [results.measured(s, (name, f"{name}_low", f"{name}_high")) for s in rows] for name in NAMES
     }
     limits = _limits([m for part in parts.values() for m in part])
+    seeds = {p: "/".join(sorted({s["seeds"] for s in rows if (s["technique"], s["point"]) == p})) for p in points}
+    names = [f"{results.point_label(*p)}\n({seeds[p]} seed{'s' * (seeds[p] != '1')})" for p in points]
     figure, panels = style.panels(len(shots), chosen, height=2.2 + 0.8 * len(points), sharex=True, sharey=True)
     for axes, shot in zip(panels, shots):
-        axes.set_xscale("log")
-        axes.set_xlim(limits)
         style.log_axis(axes.xaxis)
+        axes.set_xlim(limits)
         for index, (name, part) in enumerate(parts.items()):
             for row, measured in zip(rows, part):
                 if row["shot"] == shot:
                     _draw_part(axes, points.index((row["technique"], row["point"])), index, name, measured, limits)
         axes.set_title(style.panel_title(results.shot_label(shot), axes))
         axes.tick_params(labelbottom=True)
-        axes.grid(axis="y", visible=False)
+        style.name_rows(axes, names)
         axes.set_xlabel("part of the MSE (radiance\N{SUPERSCRIPT TWO})")
-    seeds = {p: "/".join(sorted({s["seeds"] for s in rows if (s["technique"], s["point"]) == p})) for p in points}
-    panels[0].set_yticks(range(len(points)), [f"{results.point_label(*p)}\n({seeds[p]} seed{'s' * (seeds[p] != '1')})" for p in points])
-    panels[0].set_ylim(len(points) - 0.5, -0.5)
     style.draw_legend(figure, panels)
     return figure
 

@@ -9,7 +9,7 @@ from ssrlab.figures.fetches import power_of
 from ssrlab.figures.placed_labels import place_labels
 from ssrlab.csv_files import whole
 from ssrlab.mistakes import ResultsError
-from ssrlab.results import Measured, frame_number, is_over_frames
+from ssrlab.results import Measured, frame_number, is_of, is_over_frames
 
 LEAST_POINTS = 3  # that a slope with an interval needs
 
@@ -51,7 +51,7 @@ def _over_frames(results, chosen, errors, shot):
     first = 1 + (entry.get("warm_up") or 0)
     lines = {}
     for r in results.all_errors:
-        if r["shot"] != shot or is_over_frames(r) or (r["target"], r["metric"], r["mask"]) != (chosen.target, chosen.metric, chosen.mask):
+        if r["shot"] != shot or is_over_frames(r) or not is_of(r, chosen):
             continue
         key = (r["technique"], r["point"])
         if key not in results.hidden and frame_number(r) in frames:

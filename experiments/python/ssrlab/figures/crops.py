@@ -10,7 +10,7 @@ from ssrlab.figures import numbers, style
 from ssrlab.figures.crop_choice import AUTO, TONE_CURVES as CURVE_NAMES, Crop, check_box, is_box, is_exposure
 from ssrlab.csv_files import number
 from ssrlab.mistakes import ResultsError
-from ssrlab.results import BEST, LIKE_BEST, label
+from ssrlab.results import BEST, LIKE_BEST, is_of, label
 
 REFERENCE = ("reference", "")
 MOST_POINTS = 6  # of those that nobody chose
@@ -243,10 +243,10 @@ def _below(results, shot, target, chosen, errors, look, crops):
     noise = _reference_noise(results, shot)
     if noise and noise[1] > NOISY:
         text += f" The truth is noisy: standard error of a pixel {_percent(noise[0])} (median), {_percent(noise[1])} (95th percentile)."
-    floors = [number(r, "floor") for r in results.errors if r.get("floor") and (r["shot"], r["target"], r["metric"], r["mask"]) == (shot, chosen.target, chosen.metric, chosen.mask)]
+    floors = [number(r, "floor") for r in results.errors if r.get("floor") and r["shot"] == shot and is_of(r, chosen)]
     least = min((e.value for e in errors.values() if e is not None and e.value > 0), default=None)
     if floors and least and max(floors) > NOISY * least:
-        text += f" Two halves of the truth differ by {chosen.metric} {style.number(max(floors))}, {_percent(max(floors) / least)} of the least error shown."
+        text += f" Two halves of the truth differ by {chosen.metric} {numbers.short(max(floors))}, {_percent(max(floors) / least)} of the least error shown."
     return text
 
 
@@ -350,4 +350,4 @@ def _draw_crop(axes, part, image, error, crop, place, maximum):
 def _mse(image, truth, crop):
     x, y, w, h = crop.box
     squared = (image[y : y + h, x : x + w].astype(np.float64) - truth[y : y + h, x : x + w]) ** 2
-    return style.number(float(np.nanmean(squared[np.isfinite(squared).all(axis=-1)])))
+    return numbers.short(float(np.nanmean(squared[np.isfinite(squared).all(axis=-1)])))

@@ -3,9 +3,9 @@ those that differ in one value alone."""
 
 import matplotlib.pyplot as plt
 
-from ssrlab.figures import style
+from ssrlab.figures import numbers, style
 from ssrlab.figures.sweeps import value_text
-from ssrlab.results import label
+from ssrlab.results import is_of, label
 
 LABELS = 0.36  # of the figure's width at most; longer labels are broken
 FARTHEST = 20.0  # ratios further from 1 would squeeze all others; they are written at the border of their panel
@@ -27,12 +27,7 @@ def _groups(results, rows):
 
 
 def _rows(results, chosen):
-    return [
-        e
-        for e in results.effects
-        if (e["target"], e["metric"], e["mask"]) == (chosen.target, chosen.metric, chosen.mask)
-        and e["technique"] == e["against_technique"]
-    ]
+    return [e for e in results.effects if is_of(e, chosen) and e["technique"] == e["against_technique"]]
 
 
 def comparisons(results, chosen):
@@ -89,10 +84,9 @@ def _draw(results, chosen, rows, groups, against):
         axes.axis("off")
     for index, (axes, (shot, title)) in enumerate(zip(grid.flat, titles.items())):
         _draw_shot(results, axes, [e for e in rows if e["shot"] == shot], list(groups))
+        style.name_rows(axes, list(groups.values()))
         axes.set_title(title)
         axes.tick_params(labelbottom=index + columns >= len(titles))
-    grid[0, 0].set_yticks(range(len(groups)), list(groups.values()))
-    grid[0, 0].set_ylim(len(groups) - 0.5, -0.5)
     _limit(grid[0, 0], results, rows)
     figure.supxlabel(below)
     return figure
@@ -106,8 +100,7 @@ def _family(rows):
 def _draw_shot(results, axes, rows, keys):
     color, mark = style.series(0)
     axes.axvline(1.0, color="#555555", linewidth=0.7)
-    axes.set_xscale("log")
-    axes.grid(axis="y", visible=False)
+    style.log_axis(axes.xaxis)
     for e in rows:
         ratio = results.measured(e, ("ratio", "low_holm", "high_holm"))
         if ratio is None:
@@ -115,9 +108,9 @@ def _draw_shot(results, axes, rows, keys):
         row = keys.index((e["technique"], e["point"]))
         if not _is_near(ratio):
             is_right = ratio.value > 1
-            number = style.number(ratio.value)
+            number = numbers.short(ratio.value)
             if ratio.low is not None:
-                number += f" [{style.number(ratio.low)}, {style.number(ratio.high)}]"
+                number += f" [{numbers.short(ratio.low)}, {numbers.short(ratio.high)}]"
             axes.text(
                 float(is_right),
                 row,
@@ -147,4 +140,3 @@ def _limit(axes, results, rows):
     ]
     low, high = min(ratios + ends) / 1.05, max(ratios + ends) * 1.05
     axes.set_xlim(low, high)
-    style.log_axis(axes.xaxis)

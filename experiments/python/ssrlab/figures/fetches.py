@@ -69,7 +69,6 @@ def draw(results, chosen):
                 ha="right",
             )
         axes.set_xscale("log", base=2)
-        axes.set_yscale("log")
         style.log_axis(axes.yaxis)
         rows = sorted({x for points in lines.values() for x, _ in points})
         axes.set_xticks(rows, [str(r) for r in rows])

@@ -106,7 +106,7 @@ def _draw_rung(panel, rung, limit, is_near):
         return
     bottom, top = panel.get_ylim()
     panel.set_ylim(bottom * (bottom / top) ** 0.12, top)  # a strip for the text
-    panel.text(0.02, 0.02, f"{RUNGS[rung]}: {style.number(limit.value)} \N{DOWNWARDS ARROW}", transform=panel.transAxes, va="bottom")
+    panel.text(0.02, 0.02, f"{RUNGS[rung]}: {numbers.short(limit.value)} \N{DOWNWARDS ARROW}", transform=panel.transAxes, va="bottom")
 
 
 def _draw_panel(panel, results, shot, own, rungs, unit):

@@ -4,15 +4,11 @@ from matplotlib.ticker import MaxNLocator
 
 from ssrlab.figures import style
 from ssrlab.figures.lines import draw_points
-from ssrlab.results import frame_number, is_over_frames
+from ssrlab.results import frame_number, is_of, is_over_frames
 
 
 def draw(results, chosen):
-    rows = [
-        r
-        for r in results.all_errors
-        if not is_over_frames(r) and (r["target"], r["metric"], r["mask"]) == (chosen.target, chosen.metric, chosen.mask)
-    ]
+    rows = [r for r in results.all_errors if not is_over_frames(r) and is_of(r, chosen)]
     shots = [s for s in results.shots() if len({r["frame"] for r in rows if r["shot"] == s}) > 1]
     if not shots:
         return None

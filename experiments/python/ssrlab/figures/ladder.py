@@ -1,7 +1,7 @@
 """Errors against the rungs of the truth ladder: how much of each a technique could avoid, and what one frame cannot show."""
 
 from ssrlab.figures import style
-from ssrlab.results import Measured
+from ssrlab.results import Measured, is_of
 
 RUNGS = {"on_screen": "limit of one frame", "camera_radiance": "camera's radiance"}  # groundtruth/reference/truth_ladder.h
 LOOKS = {"on_screen": ("#000000", "--"), "camera_radiance": ("#666666", ":")}
@@ -12,10 +12,7 @@ def rungs_of(results, shot, chosen):
     return {
         r["rung"]: Measured(r["value"], r.get("low"), r.get("high"))
         for r in results.shot_entries.get(shot, {}).get("truth_ladder", [])
-        if (r["target"], r["metric"], r["mask"]) == (chosen.target, chosen.metric, chosen.mask)
-        and r["rung"] in RUNGS
-        and r.get("value")
-        and r["value"] > 0
+        if is_of(r, chosen) and r["rung"] in RUNGS and (r.get("value") or 0) > 0
     }
 
 
@@ -31,8 +28,8 @@ def draw(results, chosen):
     row = 0.12 + 0.27 * (1 + max(name.count("\n") for name in names))
     figure, panels = style.panels(len(shots), chosen, height=1.8 + row * len(keys), sharey=True)
     for axes, shot in zip(panels, shots):
+        style.log_axis(axes.xaxis)
         limit = rungs[shot].get("on_screen", min(rungs[shot].values(), key=lambda m: m.value)).value
-        axes.set_xscale("log")
         for rung, m in rungs[shot].items():
             color, line = LOOKS[rung]
             axes.axvline(m.value, color=color, linestyle=line, linewidth=0.9, label=RUNGS[rung])
@@ -46,12 +43,9 @@ def draw(results, chosen):
             color = results.colors.get(key, style.COLORS[0])
             axes.hlines(row, min(limit, error.value), max(limit, error.value), color=color, linewidth=2.2 * style.scale(), alpha=0.45)
             style.draw_mark(axes, error, row, "o", color, error.is_one_seed, markersize=3.4 * style.scale(), markeredgewidth=0.8)
-        style.log_axis(axes.xaxis)
         axes.margins(x=0.08)
-        axes.grid(axis="y", visible=False)
+        style.name_rows(axes, names, 0.4)
         axes.set_title(style.panel_title(results.shot_label(shot), axes))
-    panels[0].set_yticks(range(len(keys)), names)
-    panels[0].set_ylim(len(keys) - 0.4, -0.6)
     style.draw_legend(figure, panels)
     style.note(figure, f"{chosen.metric} of {chosen.target}, {chosen.mask} pixels, 95 % intervals; bars begin at that limit")
     return figure

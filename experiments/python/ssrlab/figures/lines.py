@@ -35,7 +35,6 @@ def draw_lines(axes, lines, names, is_log, dodge=0.0, colors=None):
             label=name + (" (1 seed: no interval)" if is_one_seed else ""),
         )
     if is_log:
-        axes.set_yscale("log")
         style.log_axis(axes.yaxis)
     else:
         axes.axhline(0.0, color="#555555", linewidth=0.6)

@@ -7,7 +7,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm
 from matplotlib.patches import Rectangle
 
-from ssrlab.figures import style, sweeps
+from ssrlab.figures import numbers, style, sweeps
 from ssrlab.mistakes import ResultsError
 
 MOST_NUMBERS = 9  # columns of a panel whose cells have room for their number
@@ -79,7 +79,7 @@ def draw(results, chosen):
     for axes, (shot, measured) in zip(panels, maps.items()):
         _panel(axes, measured, values, norm)
         least = min(measured.values(), key=lambda m: m.value)
-        axes.set_title(style.panel_title(results.shot_label(shot), axes) + f"\nleast: {style.number(least.value)}" + (" ms" if show == "time" else ""))
+        axes.set_title(style.panel_title(results.shot_label(shot), axes) + f"\nleast: {numbers.short(least.value)}" + (" ms" if show == "time" else ""))
         axes.set_xlabel(sweeps.axis_text(results, names[0]))
     panels[0].set_ylabel(sweeps.axis_text(results, names[1]))
     bar = figure.colorbar(ScalarMappable(norm, PALETTE), ax=panels, aspect=30, pad=0.02)

@@ -5,7 +5,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from PIL import Image
 
-from ssrlab.figures import style
+from ssrlab.figures import numbers, style
 from ssrlab.figures.crops import REFERENCE, auto_exposure, best_of_each, display
 from ssrlab.mistakes import ResultsError
 from ssrlab.text_files import path_inside, whole_file
@@ -103,7 +103,7 @@ def draw(results, shot, chosen):
     titles = ["truth"]
     for key in keys:
         error = errors.get((shot, *key))
-        value = f", {chosen.metric} {style.number(error.value)}" if error else ""
+        value = f", {chosen.metric} {numbers.short(error.value)}" if error else ""
         titles.append(style.wrapped(results.point_label(*key) + value, letters))
     caption = f"{results.shot_label(shot)}, {target}, {exposure:+g} EV, first seed; errors of {chosen.mask} pixels over the shot"
     drawn = []

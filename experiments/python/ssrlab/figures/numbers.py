@@ -14,6 +14,16 @@ def decimals(value, low=None, high=None):
     return max(min(wanted, most), 0)
 
 
+def short(value, groups_thousands=False):
+    """Of a tick or within a sentence: three digits, as 0.125, 1.5e-4 and 2e5, or if asked from 1000 on as 200 000."""
+    if groups_thousands and value >= 1000:
+        return f"{value:,.0f}".replace(",", "\N{THIN SPACE}")
+    if 0 < abs(value) < 1e-3:
+        mantissa, exponent = f"{value:.2e}".split("e")
+        return f"{float(mantissa):g}e{int(exponent)}"
+    return f"{value:.3g}".replace("e+0", "e")
+
+
 def text(value, places):
     if value != 0 and abs(value) < 1e-4:
         return f"{value:.1e}"

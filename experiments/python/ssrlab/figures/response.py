@@ -39,7 +39,6 @@ def set_parameter_axis(axes, values, is_numeric):
         axes.set_xlim(-0.4, len(values) - 0.6)
         return
     if min(values) > 0 and max(values) >= 10 * min(values):
-        axes.set_xscale("log")
         style.log_axis(axes.xaxis)
     if len(values) <= 8:
         shares = [float(axes.xaxis.get_transform().transform(v)) for v in values]

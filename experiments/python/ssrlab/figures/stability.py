@@ -62,11 +62,10 @@ def draw(rows, out):
             markersize=3.6 if verdict != "ok" else 1.6,
             label=f"{verdict} ({len(points)})",
         )
-    axes.set_yticks(range(len(techniques)), [v if p == "default" else f"{v} {p}" for v, p in techniques], fontsize=5)
+    style.name_rows(axes, [v if p == "default" else f"{v} {p}" for v, p in techniques], 0.3, fontsize=5)
     axes.set_xticks(range(len(cases)), [case for _, case in cases], rotation=90, fontsize=4.5)
     axes.xaxis.tick_top()
     axes.set_xlim(-0.7, len(cases) - 0.3)
-    axes.set_ylim(len(techniques) - 0.3, -0.7)
     axes.tick_params(length=0, pad=2)
     axes.grid(False)
     for i, (group, _) in enumerate(cases):

@@ -12,12 +12,12 @@ from matplotlib.textpath import TextPath
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 import numpy as np
 
+from ssrlab.figures import numbers
 from ssrlab.figures.texts import wrapped
 from ssrlab.text_files import path_inside, whole_file
 
 CENTIMETRE = 1 / 2.54
 WIDTHS = {"column": 8.5, "page": 17.6, "slide": 25.0}  # cm
-SINGLE_COLUMN = WIDTHS["column"] * CENTIMETRE
 DOUBLE_COLUMN = WIDTHS["page"] * CENTIMETRE
 TEXT = 7  # pt, but for slides and for serifs, whose small letters are smaller
 SLIDE_TEXT, SERIF_SCALE = 12, 8 / 7
@@ -222,27 +222,28 @@ class _LogTicks(LogLocator):
         return super().tick_values(vmin, vmax)
 
 
-def log_axis(axis, text=None):
-    """`text`: how a tick's number is written; default: number()."""
+def log_axis(axis, text=numbers.short):
+    """Makes it logarithmic. `text`: how a tick's number is written."""
+    axis.axes.set(**{f"{axis.axis_name}scale": "log"})
     axis.set_major_locator(_LogTicks())
-    axis.set_major_formatter(FuncFormatter(lambda x, _: (text or number)(x)))
+    axis.set_major_formatter(FuncFormatter(lambda x, _: text(x)))
     axis.set_minor_formatter(NullFormatter())
 
 
-def log_log(axes, title, xlabel, margin, x_text=None):
+def log_log(axes, title, xlabel, margin, x_text=numbers.short):
     """A panel with two logarithmic axes."""
-    axes.set(xscale="log", yscale="log", xlabel=xlabel)
+    axes.set_xlabel(xlabel)
     log_axis(axes.xaxis, x_text)
     log_axis(axes.yaxis)
     axes.set_title(panel_title(title, axes))
     axes.margins(margin)
 
 
-def number(x):
-    if 0 < abs(x) < 1e-3:
-        mantissa, exponent = f"{x:.2e}".split("e")
-        return f"{float(mantissa):g}e{int(exponent)}"
-    return f"{x:.3g}".replace("e+0", "e")
+def name_rows(axes, names, margin=0.5, **options):
+    """Rows at 0, 1, ... from above, with a margin of so much of a row above and below them and no lines between."""
+    axes.set_yticks(range(len(names)), names, **options)
+    axes.set_ylim(len(names) - margin, margin - 1)
+    axes.grid(axis="y", visible=False)
 
 
 def file_name(text, longest=150):

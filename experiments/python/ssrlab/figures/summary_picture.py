@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import matplotlib.pyplot as plt
 
-from ssrlab.figures import style
+from ssrlab.figures import numbers, style
 from ssrlab.tables.cell import Cell
 
 GREY = "#666666"
@@ -27,6 +27,9 @@ class Panel:
     rows: list  # (label, [Mark]) from above
     line: float = None  # a value that the others are compared with
 
+    def labels(self, are_shown=True):
+        return [label if are_shown else "" for label, _ in self.rows]
+
 
 @dataclass
 class Picture:
@@ -44,11 +47,6 @@ def shown_numbers(picture):
     """The hash of all that a picture shows, whatever draws it."""
     told = [[p.title, p.line, [[label, [[m.series, m.color, m.mark, m.cell.value, m.cell.low, m.cell.high, m.cell.least, m.cell.most] for m in marks]] for label, marks in p.rows]] for p in picture.panels]
     return hashlib.sha256(json.dumps([told, picture.xlabel, picture.note, picture.kind]).encode()).hexdigest()
-
-
-def number(x):
-    """Of a tick."""
-    return f"{x:,.0f}".replace(",", "\N{THIN SPACE}") if x >= 1000 else style.number(x)
 
 
 def places_of(panel):
@@ -73,12 +71,10 @@ def draw_dots(axes, panel, picture, has_labels):
         axes.axvline(panel.line, color=GREY, linestyle="--", linewidth=1)
     ends = [end for _, m in places for end in (m.cell.value, m.cell.low, m.cell.high) if end is not None]
     if picture.is_log and max(ends) > 1.5 * min(ends) > 0:  # on a log axis there is room for few ticks
-        axes.set_xscale("log")
-        style.log_axis(axes.xaxis, number)
+        style.log_axis(axes.xaxis, lambda x: numbers.short(x, groups_thousands=True))
     else:
         axes.locator_params(axis="x", nbins=6)
-    axes.set_yticks(range(len(panel.rows)), [label for label, _ in panel.rows] if has_labels else [])
-    axes.set_ylim(len(panel.rows) - 0.4, -0.6)  # with room for whole marks
+    style.name_rows(axes, panel.labels(has_labels), 0.4)  # with room for whole marks
     axes.grid(axis="y", visible=len(places) > 2 * len(panel.rows))
 
 
@@ -102,9 +98,7 @@ def draw_bars(axes, panel, picture, has_labels):
         for mark in marks:
             axes.barh(place, mark.cell.value, left=left, color=mark.color, height=0.7, label=mark.series)
             left += mark.cell.value
-    axes.set_yticks(range(len(panel.rows)), [label for label, _ in panel.rows] if has_labels else [])
-    axes.set_ylim(len(panel.rows) - 0.5, -0.5)
-    axes.grid(axis="y", visible=False)
+    style.name_rows(axes, panel.labels(has_labels))
 
 
 def draw_lines(axes, panel, picture, has_labels):
@@ -117,7 +111,6 @@ def draw_lines(axes, panel, picture, has_labels):
         known = [(x, m.cell) for x, m in points if m.cell.low is not None]
         axes.vlines([x for x, _ in known], [c.low for _, c in known], [c.high for _, c in known], color=first.color)
         axes.plot([x for x, _ in points], [m.cell.value for _, m in points], first.mark, linestyle="-", color=first.color, label=series)
-    axes.set(xscale="log", yscale="log")
     style.log_axis(axes.xaxis)
     style.log_axis(axes.yaxis)
 
@@ -136,8 +129,7 @@ def draw(picture, width):
     figure, axes = plt.subplots(lines, columns, figsize=size, layout="constrained", squeeze=False)
     panels = list(axes.flat[: len(picture.panels)])
     for index, (one, panel) in enumerate(zip(panels, picture.panels)):
-        labels = [label for label, _ in panel.rows]
-        DRAW[picture.kind](one, panel, picture, index % columns == 0 or labels != [label for label, _ in picture.panels[index - 1].rows])
+        DRAW[picture.kind](one, panel, picture, index % columns == 0 or panel.labels() != picture.panels[index - 1].labels())
         one.set_title(panel.title)
         one.set(**picture.extra)
     draw_legend(figure, picture, panels)

@@ -2,7 +2,7 @@
 
 import json
 
-from ssrlab.figures import style
+from ssrlab.figures import numbers, style
 from ssrlab.figures.request import near
 from ssrlab.mistakes import ResultsError
 
@@ -63,7 +63,7 @@ def axis_values(families_found, index):
 
 
 def value_text(value):
-    return style.number(value) if isinstance(value, float) else str(value).lower() if isinstance(value, bool) else str(value)
+    return numbers.short(value) if isinstance(value, float) else str(value).lower() if isinstance(value, bool) else str(value)
 
 
 def axis_text(results, parameter):

@@ -46,12 +46,9 @@ def _draw_metric(results, axes, rows, metric):
         edge = 0.8 if value.is_one_seed else 0
         style.draw_mark(axes, value, y, mark, color, value.is_one_seed, markeredgewidth=edge, label=results.point_label(r["technique"], r["point"]))
     if is_log:
-        axes.set_xscale("log")
         style.log_axis(axes.xaxis)
     axes.margins(x=0.1)
     if not is_log:
         axes.set_xlim(left=-0.5, right=max(axes.get_xlim()[1], 1.0))
         axes.xaxis.set_major_locator(MaxNLocator(6, integer=True))
-    axes.set_yticks(range(len(shots)), [style.wrapped(results.shot_label(s), 22) for s in shots])
-    axes.set_ylim(len(shots) - 0.5, -0.5)
-    axes.grid(axis="y", visible=False)
+    style.name_rows(axes, [style.wrapped(results.shot_label(s), 22) for s in shots])

@@ -200,7 +200,6 @@ class Outcome:
                 x, y = place(point)
                 bars = [[max(y - error.low, 0)], [max(error.high - y, 0)]]
                 axes.errorbar(x, y, yerr=bars, fmt=mark, color=color, label=name if index == 0 else None, zorder=3)
-        axes.set_xscale("log"), axes.set_yscale("log")
         slowest = max(place(p)[0] for p in self.points.values())
         front = [place(p) for p in self.race.front()]
         front.append((max(slowest, front[-1][0]), front[-1][1]))  # more time buys nothing
