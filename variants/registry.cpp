@@ -10,13 +10,13 @@
 #include "variants/tracers/tracers.h"
 
 /// Of variants/declared, which the cells of points name among their sources: those of references do not depend on it.
-TechniqueEntry declared_entry(const std::filesystem::path& folder);
+TechniqueEntry declared_entry(const std::filesystem::path& folder, bool checks_frames = true);
 
 namespace {
 
 /// variants/<name>/technique.json.
 TechniqueEntry own_declared_entry(const std::string& name) {
-    TechniqueEntry entry = declared_entry(std::filesystem::path(SSRLAB_SOURCE_DIR) / "variants" / name);
+    TechniqueEntry entry = declared_entry(std::filesystem::path(SSRLAB_SOURCE_DIR) / "variants" / name, false);
     TechniqueFolder folder = *entry.folder;
     folder.is_ssrlabs = true;
     entry.folder = std::make_shared<TechniqueFolder>(std::move(folder));

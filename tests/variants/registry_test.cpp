@@ -3,6 +3,9 @@
 #include "core/gpu/pipelines/shader.h"
 #include "tests/error_message.h"
 #include "tests/variants/technique_fixture.h"
+#include "variants/declared/declared_entry.h"
+#include "variants/denoisers/denoisers.h"
+#include "variants/passes/check_frames.h"
 #include "variants/tracers/tracers.h"
 
 #include <algorithm>
@@ -164,6 +167,16 @@ TEST(Registry, ATechniqueBeginsWithItsOwnDefaults) {
     EXPECT_EQ(composed.at("dda.thickness"), 0);
     EXPECT_EQ(amd.at("hierarchy.judgement"), "amd");
     EXPECT_EQ(amd.at("hierarchy.min_traversal_occupancy"), 4);
+}
+
+TEST(Registry, EveryFrameOfOwnTechniquesAndDenoisersIsSound) {
+    for (const TechniqueEntry& entry : technique_table()) {
+        if (!entry.is_ssrlabs()) continue;
+        const auto declaration = read_technique(entry.folder->path, false).declaration;
+        EXPECT_NO_THROW(check_frames(*declaration, make_technique(entry.name)->params)) << entry.name;
+    }
+    for (const DenoiserEntry& entry : denoiser_table())
+        EXPECT_NO_THROW(check_frames(*entry.passes, Denoiser(entry).params)) << entry.name;
 }
 
 /// A NaN or Inf of a G-buffer stays in its pixel with every preset that is recommended.

@@ -158,7 +158,7 @@ std::string declared_name(const fs::path& folder) {
     return name;
 }
 
-DeclaredEntry read_technique(const fs::path& named) {
+DeclaredEntry read_technique(const fs::path& named, bool checks_frames) {
     std::error_code error;
     const fs::path folder = whole_path(named);
     const fs::path file = path_inside(named.lexically_normal(), "technique.json");
@@ -191,7 +191,7 @@ DeclaredEntry read_technique(const fs::path& named) {
     read_passes(root, KnownValues(plain->params), *declaration);
     TechniqueFolder read{.path = folder, .files = {}, .sources = {}, .content_hash = {}};
     read_shaders(*declaration, read);
-    check_frames(*declaration, plain->params);
+    if (checks_frames) check_frames(*declaration, plain->params);
     entry.limits = declaration->limits;
     entry.presets = read_presets(root, declaration);
     root.finish();
@@ -204,4 +204,6 @@ DeclaredEntry read_technique(const fs::path& named) {
     return {std::move(entry), declaration};
 }
 
-TechniqueEntry declared_entry(const fs::path& folder) { return read_technique(folder).entry; }
+TechniqueEntry declared_entry(const fs::path& folder, bool checks_frames) {
+    return read_technique(folder, checks_frames).entry;
+}

@@ -5,7 +5,6 @@
 #include "variants/common/names.h"
 #include "variants/common/parameter_block.h"
 #include "variants/denoisers/denoiser.h"
-#include "variants/passes/check_frames.h"
 #include "variants/passes/read_passes.h"
 #include "variants/passes/technique_files.h"
 
@@ -96,7 +95,6 @@ DenoiserEntry read_denoiser(const std::string& name) {
         for (DeclaredForm& form : pass.forms)
             if (form.shader.find('/') == std::string::npos) form.shader = declaration->name + "/" + form.shader;
     read_shaders(*declaration, read);
-    check_frames(*declaration, all);
 
     ContentHash hash;
     hash.add(document.value.dump());
