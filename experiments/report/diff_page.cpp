@@ -194,7 +194,7 @@ void write_diff_page(const std::filesystem::path& page, const StudyDiff& diff, c
     }
     json moved = json::array();
     for (const MovedShot& m : diff.moved) moved.push_back({m.shot, m.before, m.after});
-    json data = report_data({}, {});
+    json data = report_data({}, {}, {});
     data["warnings"] = json::array(), data["defaults"] = json::object();
     data["manifest"] = merged_manifest(before.manifest, after.manifest);
     data["is_study"] = false;

@@ -105,11 +105,10 @@ void add_images(json& values, const std::vector<std::string>& texts) {
 }
 
 StudyAnswers write_report(const std::filesystem::path& folder, bool links_images) {
-    const std::filesystem::path file = path_inside(folder, "manifest.json");
-    if (!std::filesystem::exists(file)) {
+    if (!std::filesystem::exists(path_inside(folder, "manifest.json"))) {
         if (const StabilityResults stability = read_stability_results(folder); !stability.rows.empty()) {
             // No study: the page has this one section.
-            json data = report_data({.stability = stability}, {});
+            json data = report_data({}, stability, {});
             for (const char* key : {"warnings", "notes", "images"}) data[key] = json::array();
             data["manifest"] = data["defaults"] = json::object();
             data["is_study"] = false;
@@ -126,35 +125,35 @@ StudyAnswers write_report(const std::filesystem::path& folder, bool links_images
                  " was stopped before its first results; the same `ssrlab run` continues it");
         fail(folder.string(), " holds no results (manifest.json is missing); `ssrlab run` makes some");
     }
-    const json manifest = read_json(file);
-    require_manifest(manifest, file);
-    const ResultTables tables = read_result_tables(folder, manifest);
+    const StudyResults tables = read_study_results(folder, Runs::left_out);
+    const StabilityResults stability = read_stability_results(folder);
+    const json& manifest = tables.manifest;
 
     const PointSet singles = single_changes(manifest);
-    json data = report_data(tables, singles);
-    const Headline headline = headline_of(manifest, tables.errors);
+    json data = report_data(tables, stability, singles);
+    const Headline headline = headline_of(manifest, tables.summary);
     data["headline"] = {{"metric", headline.metric},
                         {"mask", headline.mask},
                         {"target", headline.target},
                         {"perceptual_metric", headline.perceptual_metric},
                         {"margin", headline.margin}};
-    StudyAnswers answers{.shots = shot_answers(tables, manifest)};
+    StudyAnswers answers{.shots = shot_answers(tables)};
     answers.in_these_scenes = in_these_scenes(answers.shots, manifest, headline);
-    answers.in_scenes_like_these = in_scenes_like_these(tables, manifest);
+    answers.in_scenes_like_these = in_scenes_like_these(tables);
     data["in_these_scenes"] = answers.in_these_scenes;
     data["in_scenes_like_these"] = answers.in_scenes_like_these;
     data["answers"] = answers_json(answers.shots, headline);
     data["manifest"] = manifest;
     data["manifest"].erase("images");  // the page has its own list
     data["manifest"].erase("stale");   // not of this study as it is
-    data["warnings"] = report_warnings(manifest, tables.errors, tables.times);
+    data["warnings"] = report_warnings(manifest, tables.summary, tables.time_summary);
     data["defaults"] = parameter_defaults(manifest);
     data["is_study"] = true;
-    json values = without_scripts(data, headline, tables.errors, singles);
+    json values = without_scripts(data, headline, tables.summary, singles);
     values["is_study"] = true;
     values["files"] = data_files(folder);
     values["tables"] = "and the images as EXR and PNG in images/, beside it";
-    if (!tables.stability.rows.empty()) values["stability"] = stability_without_scripts(tables.stability);
+    if (!stability.rows.empty()) values["stability"] = stability_without_scripts(stability);
     const json title = manifest.value("title", json());
     const auto page = [&] {
         return report_page("report", title.is_string() ? title.get<std::string>() : "Study", data, values);

@@ -139,14 +139,14 @@ json stability_data(const StabilityResults& tables, Texts& code) {
 
 }  // namespace
 
-json report_data(const ResultTables& tables, const PointSet& single_changes) {
+json report_data(const StudyResults& tables, const StabilityResults& stability, const PointSet& single_changes) {
     Texts code;
     std::vector<MetricSummary> errors, frames;
     std::set<std::tuple<std::string, std::string, std::string, std::string>> known_over_frames;
     const auto quantity_of = [](const MetricSummary& e) { return std::tuple(e.shot, e.target, e.metric, e.mask); };
-    for (const MetricSummary& e : tables.errors)
+    for (const MetricSummary& e : tables.summary)
         if (e.frame == over_frames) known_over_frames.insert(quantity_of(e));
-    for (const MetricSummary& e : tables.errors) {
+    for (const MetricSummary& e : tables.summary) {
         if (e.represents_shot)
             errors.push_back(e);
         else if (known_over_frames.contains(quantity_of(e)) && !single_changes.contains({e.technique, e.point}))
@@ -163,9 +163,9 @@ json report_data(const ResultTables& tables, const PointSet& single_changes) {
                  {"model_range", {{"low", model_range.low}, {"high", model_range.high}, {"text", model_range_text()}}},
                  {"effects", table<EffectRow>(tables.effects, code)},
                  {"time_effects", table<TimeEffectRow>(tables.time_effects, code)},
-                 {"times", table<TimeSummary>(tables.times, code)},
+                 {"times", table<TimeSummary>(tables.time_summary, code)},
                  {"metrics", described_metrics()}};
-    if (!tables.stability.rows.empty()) data["stability"] = stability_data(tables.stability, code);
+    if (!stability.rows.empty()) data["stability"] = stability_data(stability, code);
     data["texts"] = std::move(code.list);
     return data;
 }

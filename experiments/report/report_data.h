@@ -5,4 +5,5 @@
 
 /// What the page's scripts read (page/study/data.js): tables as arrays, with texts as indices into `texts`, since few
 /// texts are repeated many times. Of the single changes only what represents a shot, not each of its frames.
-nlohmann::json report_data(const ResultTables& tables, const PointSet& single_changes);
+nlohmann::json report_data(const StudyResults& tables, const StabilityResults& stability,
+                           const PointSet& single_changes);

@@ -1,16 +1,8 @@
 #pragma once
-#include "experiments/results/cells/study_rows.h"
 #include "experiments/results/files/comparisons.h"
+#include "experiments/results/verdicts/study_results.h"
 
-#include <filesystem>
-#include <nlohmann/json.hpp>
-
-/// Writes what a results folder's numbers say, decided once for report, tables, figures and commands: summary.csv
-/// (means, intervals, standings), over_scenes.csv, time_summary.csv, effects.csv and time_effects.csv. `manifest` is
-/// the folder's; of points that it does not name it is taken that they depend on seeds and that runs repeat them.
-void write_evaluation(const std::filesystem::path& folder, const StudyRows& rows, const nlohmann::json& manifest,
-                      const std::vector<ComparedPoint>& compared, const PrimaryComparisons& primary);
-
-/// Fails with what to run where the folder lacks these files or another version of ssrlab wrote them, so that no
-/// verdict is taken from columns that are missing. `manifest` says which version it was.
-void require_evaluation(const std::filesystem::path& folder, const nlohmann::json& manifest);
+/// Decides what a study's numbers say, once for report, tables, figures and commands: of its manifest and measured rows
+/// makes the errors with their intervals and standings, the errors over scenes, the times, and the effects on both. Of
+/// points that the manifest does not name it is taken that they depend on seeds and that runs repeat them.
+void evaluate(StudyResults& study, const std::vector<ComparedPoint>& compared, const PrimaryComparisons& primary);

@@ -1,11 +1,7 @@
 #include "experiments/results/results_schema.h"
 
-#include "core/files.h"
 #include "experiments/results/cells/estimate_table.h"
-#include "experiments/results/verdicts/effects/effects.h"
-#include "experiments/results/verdicts/effects/over_scenes.h"
-#include "experiments/results/verdicts/effects/time_effects.h"
-#include "experiments/results/verdicts/summary.h"
+#include "experiments/results/verdicts/study_results.h"
 
 #include <map>
 
@@ -203,13 +199,14 @@ json resource(const std::string& file, json fields) {
         {"name", file}, {"path", file + ".csv"}, {"schema", {{"fields", std::move(fields)}, {"missingValues", {""}}}}};
 }
 
-template <class Row>
-json table(const std::string& file) {
-    const Row row{};
+template <class Owner, class Row>
+json table(const Table<Owner, Row>& of) {
+    const auto rows = rows_in_file(std::vector<Row>(1));
     json fields = json::array();
-    for_each_column<Row>(
-        [&](const auto& column) { fields.push_back(known_field(file, column.name, type_of(row.*column.member))); });
-    return resource(file, std::move(fields));
+    for_each_column<typename decltype(rows)::value_type>([&](const auto& column) {
+        fields.push_back(known_field(of.name, column.name, type_of(rows.front().*column.member)));
+    });
+    return resource(of.name, std::move(fields));
 }
 
 json parameters_table(const std::vector<ParameterColumn>& parameters) {
@@ -222,11 +219,8 @@ json parameters_table(const std::vector<ParameterColumn>& parameters) {
 }  // namespace
 
 nlohmann::json results_schema(const std::vector<ParameterColumn>& parameters) {
-    return {{"name", "results"},
-            {"resources",
-             {table<ResultRow>("results"), table<SplitRow>("splits"), table<EffectRow>("effects"),
-              table<TimeEffectRow>("time_effects"), table<TimeRow>("times"), table<MetricSummary>("summary"),
-              table<OverScenesRow>("over_scenes"), table<TimeSummary>("time_summary"), table<HitRow>("hits"),
-              table<CostRow>("costs"), table<CompiledRow>("compiled"), table<EstimateTableRow>("estimates"),
-              parameters_table(parameters)}}};
+    json resources = json::array();
+    for_each_table([&](const auto& of) { resources.push_back(table(of)); });
+    resources.push_back(parameters_table(parameters));
+    return {{"name", "results"}, {"resources", std::move(resources)}};
 }

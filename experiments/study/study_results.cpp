@@ -85,12 +85,11 @@ StudyAnswers write_results(StudySession& study, bool is_complete, const nlohmann
         manifest = manifest_of(study, is_complete);
         if (is_complete) handle_stale_files(study, manifest, before);
         write_text(file, manifest.dump(1) + "\n");
-        const StudyRows rows = rows_of(study.finished);
-        write_tables(study.settings.out, rows);
+        StudyResults results{rows_of(study.finished), manifest};
+        evaluate(results, compared_points(study.config.techniques), study.config.primary);
+        write_tables(study.settings.out, results);
         write_parameters(study.settings.out, study.config.techniques);
         write_technique_copies(study.settings.out, study.config.techniques);
-        write_evaluation(study.settings.out, rows, manifest, compared_points(study.config.techniques),
-                         study.config.primary);
     }
     StudyAnswers answers;
     if (study.settings.write_report) {

@@ -30,7 +30,7 @@ PointName name_of(const Row& row) {
 json verdict_on(const StudyResults& tables, const PointName& point, const PointName& against,
                 const std::string& label) {
     json said = {{"label", label}, {"verdict", ""}, {"why", ""}, {"views", json::array()}};
-    if (measure_alike(tables.seeds, point, against)) {
+    if (measure_alike(tables.results, point, against)) {
         said["verdict"] = judgement::identical;
         return said;
     }
@@ -85,7 +85,7 @@ json page_numbers(const fs::path& results, const WatchedPoint& point, const std:
     }
     verdicts.push_back(verdict_on(tables, name, no_reflections, "no reflections"));
     json shots = json::array();
-    for (const MetricSummary& e : tables.errors) {
+    for (const MetricSummary& e : tables.summary) {
         if (name_of(e) != name || e.metric != primary.metric || e.mask != primary.mask || e.target != primary.target)
             continue;
         shots.push_back({{"shot", e.shot},
@@ -96,18 +96,17 @@ json page_numbers(const fs::path& results, const WatchedPoint& point, const std:
 }
 
 json page_why(const fs::path& results, const WatchedPoint& point, PageImages& images) {
-    const StudyResults tables = read_study_results(results);
+    const StudyResults tables = read_study_results(results, Runs::left_out);
     const PointName name = point.name();
     json why = {{"causes", json::array()}, {"rays", json::array()}, {"hits", json::object()}};
-    if (const fs::path hits = results / "hits.csv"; fs::exists(hits))
-        for (const HitRow& h : read_rows<HitRow>(hits)) {
-            if (name_of(h) != name || h.mask != primary.mask) continue;
-            const std::string of_error = "error: ";
-            if (h.stage == error_stage && h.quantity.starts_with(of_error))
-                why["causes"].push_back({{"cause", h.quantity.substr(of_error.size())}, {"share", h.value}});
-            else if (std::ranges::count(ray_verdict_names(), h.quantity) > 0)
-                why["rays"].push_back({{"stage", h.stage}, {"verdict", h.quantity}, {"share", h.value}});
-        }
+    for (const HitRow& h : tables.hits) {
+        if (name_of(h) != name || h.mask != primary.mask) continue;
+        const std::string of_error = "error: ";
+        if (h.stage == error_stage && h.quantity.starts_with(of_error))
+            why["causes"].push_back({{"cause", h.quantity.substr(of_error.size())}, {"share", h.value}});
+        else if (std::ranges::count(ray_verdict_names(), h.quantity) > 0)
+            why["rays"].push_back({{"stage", h.stage}, {"verdict", h.quantity}, {"share", h.value}});
+    }
     for (const json& entry : tables.manifest.value("images", json::array()))
         if (entry.value("kind", "") == "hits" &&
             PointName(entry.value("technique", ""), entry.value("point", "")) == name)
@@ -116,13 +115,13 @@ json page_why(const fs::path& results, const WatchedPoint& point, PageImages& im
 }
 
 json page_times(const fs::path& results, const WatchedPoint& point, const std::vector<WatchedPoint>& against) {
-    const StudyResults tables = read_study_results(results);
+    const StudyResults tables = read_study_results(results, Runs::left_out);
     const PointName name = point.name();
     json times = {{"stages", json::array()},
                   {"effects", json::array()},
                   {"estimates", json::array()},
                   {"model_range", model_range_text()}};
-    for (const TimeSummary& t : tables.times)
+    for (const TimeSummary& t : tables.time_summary)
         if (name_of(t) == name) times["stages"].push_back(row_json(t));
     for (const TimeEffectRow& t : tables.time_effects) {
         if (name_of(t) != name || t.stage != "total") continue;

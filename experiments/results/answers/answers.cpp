@@ -222,30 +222,31 @@ Headline headline_of(const json& manifest, std::span<const MetricSummary> errors
     return headline;
 }
 
-std::vector<ShotAnswer> shot_answers(const ResultTables& tables, const json& manifest) {
-    const Headline headline = headline_of(manifest, tables.errors);
+std::vector<ShotAnswer> shot_answers(const StudyResults& tables) {
+    const json& manifest = tables.manifest;
+    const Headline headline = headline_of(manifest, tables.summary);
     const PointSet left_out = points_using_scene_data(manifest);
     auto labels = point_labels(manifest);
-    const size_t comparisons = comparisons_left(tables.errors, headline.target, headline.metric, headline.mask);
+    const size_t comparisons = comparisons_left(tables.summary, headline.target, headline.metric, headline.mask);
     std::vector<std::string> shots;
-    for (const MetricSummary& e : tables.errors)
+    for (const MetricSummary& e : tables.summary)
         if (std::ranges::count(shots, e.shot) == 0) shots.push_back(e.shot);
     std::vector<ShotAnswer> answers;
     for (const std::string& shot : shots) {
         ShotAnswer answer{.shot = shot, .limit = limit_of(manifest, shot, headline)};
         std::vector<Scored> scored, perceived;
         std::vector<const MetricSummary*> judged;  // by all metrics
-        for (const MetricSummary& e : tables.errors) {
+        for (const MetricSummary& e : tables.summary) {
             if (!e.represents_shot || e.shot != shot || e.mask != headline.mask || e.target != headline.target ||
                 !e.value || left_out.contains({e.technique, e.point}))
                 continue;
             judged.push_back(&e);
             const AnswerPoint point{e.technique, e.point, *e.value, e.low, e.high, labels[{e.technique, e.point}]};
             if (e.metric == headline.metric) {
-                const auto time = std::ranges::find_if(tables.times, [&](const TimeSummary& t) {
+                const auto time = std::ranges::find_if(tables.time_summary, [&](const TimeSummary& t) {
                     return t.shot == shot && t.technique == e.technique && t.point == e.point && t.stage == "total";
                 });
-                scored.push_back({point, &e, time == tables.times.end() ? nullptr : &*time});
+                scored.push_back({point, &e, time == tables.time_summary.end() ? nullptr : &*time});
                 if (e.technique == "none" && !answer.baseline) answer.baseline = point;
             }
             if (e.metric == headline.perceptual_metric) perceived.push_back({point, &e});

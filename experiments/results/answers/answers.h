@@ -1,5 +1,5 @@
 #pragma once
-#include "experiments/results/result_tables.h"
+#include "experiments/results/verdicts/study_results.h"
 
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -44,7 +44,7 @@ struct ShotAnswer {
 };
 
 /// One for each shot that has an error of the headline, in the order of the results.
-std::vector<ShotAnswer> shot_answers(const ResultTables& tables, const nlohmann::json& manifest);
+std::vector<ShotAnswer> shot_answers(const StudyResults& tables);
 
 /// What is said first, on the page and in the terminal: what holds in the study's own scenes, and what may hold in
 /// others (scenes_answer.h).

@@ -105,8 +105,9 @@ std::string in_these_scenes(const std::vector<ShotAnswer>& answers, const json& 
     return text;
 }
 
-std::string in_scenes_like_these(const ResultTables& tables, const json& manifest) {
-    const Headline headline = headline_of(manifest, tables.errors);
+std::string in_scenes_like_these(const StudyResults& tables) {
+    const json& manifest = tables.manifest;
+    const Headline headline = headline_of(manifest, tables.summary);
     const auto is_of_headline = [&](const auto& row) {
         return row.target == headline.target && row.metric == headline.metric && row.mask == headline.mask;
     };
@@ -130,7 +131,7 @@ std::string in_scenes_like_these(const ResultTables& tables, const json& manifes
         return "Over scenes nothing is ranked: no shot has an error of every point." +
                deciding_over_scenes_sentence(tables.over_scenes, first);
     std::set<std::string> scenes;
-    for (const MetricSummary& e : tables.errors)
+    for (const MetricSummary& e : tables.summary)
         if (is_of_headline(e)) scenes.insert(asset_of(manifest, e.shot));
     if (scenes.size() == 1)
         return "Of other scenes one scene says nothing: a verdict over scenes takes " + std::to_string(least_scenes) +

@@ -8,4 +8,4 @@ std::string in_these_scenes(const std::vector<ShotAnswer>& answers, const nlohma
 
 /// What the scenes say together of scenes like these, by the error of the headline (over_scenes.csv); empty where no
 /// point has such an error beside the baseline's.
-std::string in_scenes_like_these(const ResultTables& tables, const nlohmann::json& manifest);
+std::string in_scenes_like_these(const StudyResults& tables);

@@ -179,17 +179,36 @@ struct EstimateRow {
     }
 };
 
+/// What was measured: the rows of a cell, or of all cells of a study in their order.
+struct MeasuredRows {
+    std::vector<ResultRow> results = {};
+    std::vector<SplitRow> splits = {};
+    std::vector<TimeRow> times = {};
+    std::vector<HitRow> hits = {};
+    std::vector<CostRow> costs = {};
+    std::vector<CompiledRow> compiled = {};
+    std::vector<EstimateRow> estimates = {};
+    std::vector<ReferenceNoise> reference_noise = {};
+
+    /// The lists of rows that have columns, by their names in the files of cells.
+    static constexpr auto lists() {
+        return std::tuple(
+            Column{"rows", &MeasuredRows::results}, Column{"splits", &MeasuredRows::splits},
+            Column{"times", &MeasuredRows::times}, Column{"hits", &MeasuredRows::hits},
+            Column{"costs", &MeasuredRows::costs}, Column{"compiled", &MeasuredRows::compiled},
+            Column{"estimates", &MeasuredRows::estimates});
+    }
+};
+
+/// Calls `use(list)` for each of MeasuredRows::lists().
+template <class Use>
+void for_each_list(Use use) {
+    std::apply([&](const auto&... list) { (use(list), ...); }, MeasuredRows::lists());
+}
+
 /// The results of one shot and technique point with all its seeds, of the times of a shot, or of its references: the
 /// unit of work that is done once and kept.
-struct Cell {
-    std::vector<ResultRow> rows;
-    std::vector<SplitRow> splits;
-    std::vector<ReferenceNoise> reference_noise;
-    std::vector<TimeRow> times;
-    std::vector<HitRow> hits;
-    std::vector<CostRow> costs;
-    std::vector<CompiledRow> compiled;
-    std::vector<EstimateRow> estimates;
+struct Cell : MeasuredRows {
     nlohmann::json images = nlohmann::json::array();  ///< entries of manifest.json's `images`
     nlohmann::json timing;                            ///< as timing_entry() gives it; null where nothing was timed
     std::vector<std::string> notes;                   ///< sentences for the manifest: what is unknown, and why

@@ -12,7 +12,12 @@ struct EstimateTableRow : EstimateRow {
     }
 };
 
-inline std::vector<EstimateTableRow> estimate_table(const std::vector<EstimateRow>& rows) {
+/// Rows as the file of their table has them.
+template <class Row>
+std::vector<Row> rows_in_file(const std::vector<Row>& rows) {
+    return rows;
+}
+inline std::vector<EstimateTableRow> rows_in_file(const std::vector<EstimateRow>& rows) {
     std::vector<EstimateTableRow> table;
     for (const EstimateRow& row : rows) {
         EstimateTableRow& made = table.emplace_back(EstimateTableRow{row, std::nullopt, std::nullopt});

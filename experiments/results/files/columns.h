@@ -22,6 +22,21 @@ void for_each_column(Use use) {
     std::apply([&](const auto&... column) { (use(column), ...); }, Row::columns());
 }
 
+/// How a folder has a table.
+enum class TableUse {
+    always,    ///< every folder has the file
+    of_runs,   ///< likewise; it has a row for each run, so that only who asks for them reads them
+    if_any,    ///< no file where there are no rows
+};
+
+/// A table of a folder: the name of its file without `.csv`, and the member that holds its rows.
+template <class Tables, class Row>
+struct Table {
+    const char* name;
+    std::vector<Row> Tables::*rows;
+    TableUse use;
+};
+
 template <class Row>
 std::string csv_header() {
     std::string line;

@@ -25,7 +25,7 @@ bool is_error(const auto& row, const PrimaryComparisons& error) {
 auto ladder_of(const StudyResults& tables, const json& entry, const std::string& shot,
                const PrimaryComparisons& error) {
     decltype(MeasuredShot::ladder) ladder;
-    for (const MetricSummary& e : tables.errors)
+    for (const MetricSummary& e : tables.summary)
         if (e.represents_shot && e.shot == shot && is_error(e, error) && e.frame.empty()) return ladder;
     for (const json& rung : entry.value("truth_ladder", json::array())) {
         const auto is = [&](const char* key, const std::string& value) { return rung.value(key, "") == value; };
@@ -65,14 +65,14 @@ std::unique_ptr<MeasuredShot> measured_shot(const StudyResults& tables, const Pr
         const auto is_of_point = [&](const auto& other) {
             return other.shot == row.shot && other.technique == row.technique && other.point == row.point;
         };
-        for (const ResultRow& r : tables.seeds)
+        for (const ResultRow& r : tables.results)
             if (r.represents_shot && r.value && is_of_point(r) && is_error(r, error))
                 p.seeds.emplace_back(r.seed, *r.value);
         if (found.kind != CostKind::timed) continue;
         // Several seeds may have been timed: each of their frames is a round of its own.
-        for (const TimeRow& t : tables.rounds)
+        for (const TimeRow& t : tables.times)
             if (t.stage == "total" && is_of_point(t)) p.rounds[{t.seed, t.frame}] = t.milliseconds;
-        for (const TimeSummary& t : tables.times)
+        for (const TimeSummary& t : tables.time_summary)
             if (t.stage == "total" && is_of_point(t)) p.disturbed_share = t.disturbed_share;
     }
     std::vector<const MeasuredPoint*> judged;

@@ -50,9 +50,9 @@ Costs costs_of(const StudyResults& tables, const std::string& shot, const std::s
     Costs costs;
     if (cost_kind(tables, cost) == CostKind::timed) {
         costs.is_timed = true;
-        for (const TimeSummary& t : tables.times)
+        for (const TimeSummary& t : tables.time_summary)
             if (t.shot == shot && t.stage == "total") costs.values[{t.technique, t.point}] = {t.median, t.low, t.high};
-        for (const TimeRow& t : tables.rounds)
+        for (const TimeRow& t : tables.times)
             if (t.shot == shot && t.stage == "total")
                 costs.rounds[{t.technique, t.point}][{t.seed, t.frame}] = t.milliseconds;
         const std::optional<double> floor = aa_floor(tables.manifest, shot);
@@ -205,7 +205,7 @@ std::vector<PairRow> pairs_of(const StudyResults& tables, const PrimaryCompariso
     };
     std::vector<std::string> shots;
     std::map<std::string, std::vector<const MetricSummary*>> ranked;
-    for (const MetricSummary& e : tables.errors) {
+    for (const MetricSummary& e : tables.summary) {
         if (!is_of_error(e) || e.standing.empty()) continue;
         if (!ranked.contains(e.shot)) shots.push_back(e.shot);
         ranked[e.shot].push_back(&e);
@@ -216,7 +216,7 @@ std::vector<PairRow> pairs_of(const StudyResults& tables, const PrimaryCompariso
     Decided<TimeEffectRow> time_effects;
     for (const TimeEffectRow& e : tables.time_effects)
         if (e.stage == "total") time_effects.add(e);
-    const DecidedPair standings = decided_by_standings(tables.errors);
+    const DecidedPair standings = decided_by_standings(tables.summary);
     std::vector<OpenPair> pairs;
     for (const std::string& shot : shots) {
         const Costs costs = costs_of(tables, shot, cost);
@@ -246,7 +246,7 @@ std::vector<PairRow> pairs_of(const StudyResults& tables, const PrimaryCompariso
 
 void set_dominated(StudyResults& tables, const PrimaryComparisons& primary) {
     std::set<std::string> metrics;
-    for (const MetricSummary& e : tables.errors)
+    for (const MetricSummary& e : tables.summary)
         if (e.mask == primary.mask && e.target == primary.target && !e.standing.empty()) metrics.insert(e.metric);
     using PointOfShot =
         std::tuple<std::string, std::string, std::string, std::string>;  // metric, shot, technique, point
@@ -261,7 +261,7 @@ void set_dominated(StudyResults& tables, const PrimaryComparisons& primary) {
             note({metric, pair.shot, pair.technique, pair.point}, pair.is_dominated);
             note({metric, pair.shot, pair.other_technique, pair.other_point}, pair.dominates);
         }
-    for (MetricSummary& e : tables.errors) {
+    for (MetricSummary& e : tables.summary) {
         const auto own = found.find({e.metric, e.shot, e.technique, e.point});
         const bool is_asked = e.mask == primary.mask && e.target == primary.target && !e.standing.empty();
         e.dominated = is_asked && own != found.end() ? own->second : "";

@@ -54,7 +54,7 @@ std::string label_of(const Labels& labels, const PointName& name) {
 /// The shots that have such an error, with all their points.
 std::vector<TradeoffShot> shots_of(const StudyResults& tables, const TradeoffQuestion& question, const Labels& labels) {
     std::vector<TradeoffShot> shots;
-    for (const MetricSummary& e : tables.errors) {
+    for (const MetricSummary& e : tables.summary) {
         if (!e.represents_shot || !e.value || e.target != question.error.target || e.metric != question.error.metric ||
             e.mask != question.error.mask)
             continue;
@@ -114,7 +114,7 @@ void add_costs(std::vector<TradeoffShot>& shots, const StudyResults& tables, con
                 p.row.cost_low = other->second.low, p.row.cost_high = other->second.high;
                 p.fits_from = other->second.fits_from, p.may_fit_from = other->second.may_fit_from;
             }
-            for (const TimeSummary& t : tables.times) {
+            for (const TimeSummary& t : tables.time_summary) {
                 if (!is_timed || t.shot != shot.name || t.stage != "total" ||
                     PointName(t.technique, t.point) != p.name())
                     continue;
@@ -288,7 +288,7 @@ Tradeoff tradeoff_of(const StudyResults& tables, const TradeoffQuestion& questio
     leave_out(shots, question.left_out);
     if (shots.empty()) {
         std::set<std::string> known;
-        for (const MetricSummary& e : tables.errors)
+        for (const MetricSummary& e : tables.summary)
             if (e.represents_shot) known.insert(e.target + " " + e.metric + " " + e.mask);
         std::string list;
         for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;

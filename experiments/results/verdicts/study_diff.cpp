@@ -35,11 +35,11 @@ struct ComparedFolder {
         : manifest(tables.manifest),
           not_repeatable(points_not_repeatable(manifest)),
           without_seeds(points_without_seeds(manifest)) {
-        for (const MetricSummary& e : tables.errors)
+        for (const MetricSummary& e : tables.summary)
             if (e.represents_shot) errors[number_of(e)] = &e, points.insert({e.shot, e.technique, e.point});
-        for (const ResultRow& r : tables.seeds)
+        for (const ResultRow& r : tables.results)
             if (r.represents_shot && r.value) values[number_of(r)][r.seed] = *r.value;
-        for (const TimeSummary& t : tables.times)
+        for (const TimeSummary& t : tables.time_summary)
             if (t.stage == "total" && !t.technique.empty()) times[{t.shot, t.technique, t.point}] = &t;
     }
 

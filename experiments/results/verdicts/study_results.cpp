@@ -5,7 +5,9 @@
 #include "core/json.h"
 #include "core/json_types.h"
 #include "core/path_inside.h"
-#include "experiments/results/evaluation.h"
+#include "experiments/results/cells/estimate_table.h"
+
+#include <fstream>
 
 namespace {
 
@@ -31,28 +33,56 @@ const json& manifest_types() {
     return types;
 }
 
-}  // namespace
-
-void require_manifest(const json& manifest, const std::filesystem::path& file) {
-    require_type(manifest, manifest_types(), file.string(), OtherMembers::allowed);
+/// What to do about a table that cannot be used.
+std::string advice(const json& manifest) {
+    const json maker = manifest.value("written", json::object()).value("ssrlab", json::object());
+    const std::string commit = maker.value("commit", json("")).is_string() ? maker.value("commit", "") : "";
+    return "; " +
+           (commit.empty() ? "the manifest does not say which version of ssrlab wrote the folder"
+                           : "ssrlab of commit " + commit + " wrote the folder") +
+           ". Run `ssrlab run` or `ssrlab merge` again: finished cells are kept, and only the tables are made";
 }
 
-StudyResults read_study_results(const std::filesystem::path& folder) {
-    const auto file = [&](const char* name) { return path_inside(folder, name); };
-    if (!std::filesystem::exists(file("manifest.json")))
+template <class Row>
+void require_columns(const std::filesystem::path& file, const std::string& advice) {
+    std::string header;
+    std::getline(std::ifstream(file), header);
+    header = "," + header.substr(0, header.find('\r')) + ",";
+    for_each_column<Row>([&](const auto& column) {
+        if (header.find("," + std::string(column.name) + ",") == std::string::npos)
+            fail(file.string(), " has no column '", column.name, "'", advice);
+    });
+}
+
+}  // namespace
+
+void write_tables(const std::filesystem::path& folder, const StudyResults& study) {
+    for_each_table([&](const auto& table) {
+        const std::filesystem::path file = path_inside(folder, std::string(table.name) + ".csv");
+        if (table.use == TableUse::if_any && (study.*table.rows).empty())
+            std::filesystem::remove(file);
+        else
+            write_rows(file, rows_in_file(study.*table.rows));
+    });
+}
+
+StudyResults read_study_results(const std::filesystem::path& folder, Runs runs) {
+    const std::filesystem::path file = path_inside(folder, "manifest.json");
+    if (!std::filesystem::exists(file))
         fail(folder.string(), " is no results folder: it has no manifest.json; `ssrlab run` makes one");
-    StudyResults tables;
-    tables.manifest = parse_json(read_text(file("manifest.json")), file("manifest.json").string());
-    require_manifest(tables.manifest, file("manifest.json"));
-    require_evaluation(folder, tables.manifest);
-    tables.errors = read_rows<MetricSummary>(file("summary.csv"));
-    tables.seeds = read_rows<ResultRow>(file("results.csv"));
-    tables.times = read_rows<TimeSummary>(file("time_summary.csv"));
-    tables.rounds = read_rows<TimeRow>(file("times.csv"));
-    tables.effects = read_rows<EffectRow>(file("effects.csv"));
-    tables.time_effects = read_rows<TimeEffectRow>(file("time_effects.csv"));
-    if (std::filesystem::exists(file("costs.csv"))) tables.costs = read_rows<CostRow>(file("costs.csv"));
-    if (std::filesystem::exists(file("estimates.csv")))
-        tables.estimates = read_rows<EstimateRow>(file("estimates.csv"));
-    return tables;
+    StudyResults study;
+    study.manifest = parse_json(read_text(file), file.string());
+    require_type(study.manifest, manifest_types(), file.string(), OtherMembers::allowed);
+    const std::string what_to_do = advice(study.manifest);
+    for_each_table([&]<class Owner, class Row>(const Table<Owner, Row>& table) {
+        if (table.use == TableUse::of_runs && runs == Runs::left_out) return;
+        const std::filesystem::path csv = path_inside(folder, std::string(table.name) + ".csv");
+        if (!std::filesystem::exists(csv)) {
+            if (table.use == TableUse::if_any) return;
+            fail(csv.string(), " is missing", what_to_do);
+        }
+        require_columns<Row>(csv, what_to_do);
+        study.*table.rows = read_rows<Row>(csv);
+    });
+    return study;
 }

@@ -70,15 +70,12 @@ json cell_types() {
         "halves??": {"*": {"mean_z_squared??": "number", "low??": "number", "high??": "number", "correlation??": "number",
                           "most_correlation??": "number"}}})");
     types["shot??"]["reference??"] = reference, types["shot??"]["references??"] = json::array({reference});
-    json split = row_types<SplitRow>();
-    split.update(json::parse(R"({
+    for_each_list([&]<class Row>(const Column<MeasuredRows, std::vector<Row>>& list) {
+        types[list.name] = json::array({row_types<Row>()});
+    });
+    types["splits"][0].update(json::parse(R"({
         "seed_numbers": ["count"], "pairs": {"variance": ["number"], "bias_squared": ["number"]},
         "reference_noise": ["number"], "lit_noise??": "number", "lit_half_width??": "number"})"));
-    types["splits"] = json::array({split});
-    types["rows"] = json::array({row_types<ResultRow>()}), types["times"] = json::array({row_types<TimeRow>()});
-    types["hits"] = json::array({row_types<HitRow>()}), types["costs"] = json::array({row_types<CostRow>()});
-    types["compiled"] = json::array({row_types<CompiledRow>()});
-    types["estimates"] = json::array({row_types<EstimateRow>()});
     return types;
 }
 

@@ -68,7 +68,7 @@ public:
         Cell cell;
         errors.move_to(cell);
         // A difference of two images is below zero by their rounding wherever nothing is reflected, which is no fault.
-        for (ResultRow& row : cell.rows)
+        for (ResultRow& row : cell.results)
             if (row.target == "specular") row.negative = 0;
         cell.images = queue_.finish();
         cell.notes.push_back(note());

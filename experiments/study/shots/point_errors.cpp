@@ -141,7 +141,7 @@ std::vector<std::string> PointErrors::notes() const {
 }
 
 void PointErrors::move_to(Cell& cell) {
-    cell.rows = std::move(rows_);
+    cell.results = std::move(rows_);
     cell.splits = rows_of_splits();
     cell.reference_noise = means_of(
         noise_, {.shot = point_.shot.name(), .technique = point_.technique.technique, .point = point_.technique.point});

@@ -38,12 +38,12 @@ void say_result(StudySession& study, const Cell& cell) {
     const PrimaryComparisons& shown = study.config.primary;
     std::map<std::string, std::vector<double>> values;  // by frame
     size_t non_finite = 0;                              // pixels, of the worst seed
-    for (const ResultRow& r : cell.rows)
+    for (const ResultRow& r : cell.results)
         if (r.target == shown.target && r.metric == shown.metric && r.mask == shown.mask) {
             non_finite = std::max(non_finite, size_t(r.non_finite));
             if (r.value) values[r.frame].push_back(*r.value);
         }
-    const auto name = [&] { return display_name(study.config, cell.rows.front().technique, cell.rows.front().point); };
+    const auto name = [&] { return display_name(study.config, cell.results.front().technique, cell.results.front().point); };
     if (values.empty() && non_finite > 0)
         study.progress.say("  " + name() + ": no value, for " + std::to_string(non_finite) +
                            (non_finite == 1 ? " pixel is" : " pixels are") + " NaN or infinite");
@@ -185,7 +185,9 @@ Cell timing_cell(StudySession& study, OpenShot& open, double budget, const std::
                                             study.settings.keep_all, budget, report);
     if (const std::string why = disturbance(times.load); !why.empty())
         study.progress.say("warning: " + open.shot.name() + ": " + why);
-    return Cell{.times = times.rows, .timing = timing_entry(times, open.shot.name(), clock)};
+    Cell cell;
+    cell.times = times.rows, cell.timing = timing_entry(times, open.shot.name(), clock);
+    return cell;
 }
 
 Cell renders_cell(StudySession& study, OpenShot& open, const PlannedCell& planned,

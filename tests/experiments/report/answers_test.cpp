@@ -28,7 +28,7 @@ const json manifest = {
           {"high", 0.051}}}}}}}};
 
 struct Made {
-    ResultTables tables;
+    StudyResults tables;
 
     /// An error with an interval of -+ `half`, in all else as the headline; a total time unless it is 0.
     void add(const std::string& technique, double value, double half, double milliseconds = 0,
@@ -44,14 +44,14 @@ struct Made {
         e.value = value, e.low = value - half, e.high = value + half;
         e.holds_all_noise = true, e.represents_shot = true;
         e.interval = interval::reference;
-        tables.errors.push_back(e);
+        tables.summary.push_back(e);
         if (milliseconds > 0)
-            tables.times.push_back({"s", technique, "default", "total", "host_fence", 15, milliseconds,
+            tables.time_summary.push_back({"s", technique, "default", "total", "host_fence", 15, milliseconds,
                                     0.9 * milliseconds, 1.1 * milliseconds});
     }
     ShotAnswer answer(const json& of_study = manifest) {
-        set_standings(tables.errors, {}, {{"exact", "default"}});
-        set_fronts(tables.errors, tables.times);
+        set_standings(tables.summary, {}, {{"exact", "default"}});
+        set_fronts(tables.summary, tables.time_summary);
         return shot_answers(tables, of_study).at(0);
     }
 };
@@ -89,7 +89,7 @@ TEST(Answers, GiveTheEndsOfNarrowIntervalsAThirdDigit) {
     Made made;
     made.add("slow", 0.065, 0.0001, 10);
     made.add("quick", 0.0806, 0.0001, 6);
-    TimeSummary &slow = made.tables.times[0], &quick = made.tables.times[1];
+    TimeSummary &slow = made.tables.time_summary[0], &quick = made.tables.time_summary[1];
     slow.low = slow.high = 10, quick.low = 5.98, quick.high = 6.02;
     EXPECT_NE(made.answer().sentence.find("takes 0.6x [0.598x, 0.602x] its time"), std::string::npos)
         << made.answer().sentence;
@@ -125,7 +125,7 @@ TEST(Answers, SayWhatIsRankedAndWhatIsOnlyMeasured) {
     made.add("a", 0.06, 0.002);
     made.add("b", 0.2, 0.002);
     for (size_t i : {1, 2}) {
-        MetricSummary& e = made.tables.errors[i];
+        MetricSummary& e = made.tables.summary[i];
         e.holds_all_noise = false, e.interval = interval::one_seed, e.low = e.high = {};
     }
     const ShotAnswer alone = made.answer();
@@ -143,7 +143,7 @@ TEST(Answers, SayWhatIsRankedAndWhatIsOnlyMeasured) {
                                            "points (1 seed). Among those that are ranked, c has the least"))
         << made.answer().sentence;
 
-    for (MetricSummary& e : made.tables.errors) e.holds_all_noise = false, e.interval = interval::one_seed;
+    for (MetricSummary& e : made.tables.summary) e.holds_all_noise = false, e.interval = interval::one_seed;
     EXPECT_FALSE(made.answer().best);
     EXPECT_EQ(made.answer().sentence,
               "Nothing is ranked, as no mse of this shot has an interval that holds all noise (1 seed): a measures "
@@ -180,15 +180,15 @@ TEST(Answers, SayWhereTheEyeDisagrees) {
                   "b (0.1 [0.09, 0.11]) is significantly better in paired differences; a has 0.2 [0.19, 0.21]"),
               std::string::npos)
         << made.answer().perceptual_sentence;
-    made.tables.errors[3].value = 0.195, made.tables.errors[3].low = 0.185, made.tables.errors[3].high = 0.205;
+    made.tables.summary[3].value = 0.195, made.tables.summary[3].low = 0.185, made.tables.summary[3].high = 0.205;
     EXPECT_NE(made.answer().perceptual_sentence.find("b (0.195 [0.185, 0.205]) measures better, but that is not "
                                                      "decided; a has 0.2"),
               std::string::npos);
-    made.tables.errors[3].holds_all_noise = false;
+    made.tables.summary[3].holds_all_noise = false;
     EXPECT_NE(made.answer().perceptual_sentence.find("measures better, but is not ranked"), std::string::npos)
         << "its noise is not known";
-    made.tables.errors[3].holds_all_noise = true;
-    made.tables.errors[3].value = made.tables.errors[3].low = made.tables.errors[3].high = 0.3;
+    made.tables.summary[3].holds_all_noise = true;
+    made.tables.summary[3].value = made.tables.summary[3].low = made.tables.summary[3].high = 0.3;
     EXPECT_NE(made.answer().perceptual_sentence.find("it is the best, too"), std::string::npos);
 }
 
@@ -217,7 +217,7 @@ TEST(Answers, SayFirstWhatMayHoldInOtherScenes) {
     EXPECT_EQ(sentence({"best", "behind"}, 5),
               "Of other scenes one scene says nothing: a verdict over scenes takes 4.");
     for (const char* shot : {"t", "u", "v", "w", "x"})
-        made.tables.errors.push_back(made.tables.errors.front()), made.tables.errors.back().shot = shot;
+        made.tables.summary.push_back(made.tables.summary.front()), made.tables.summary.back().shot = shot;
     EXPECT_EQ(sentence({"best", "behind", "behind"}, 6),
               "In scenes like these A, labelled errs least on average for certain: 0.1x [0.05x, 0.2x] the mse of no "
               "reflections (none), geometric mean over 6 scenes.");

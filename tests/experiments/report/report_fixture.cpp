@@ -86,7 +86,7 @@ void add_rows(Cell& cell, ResultRow row, const HostImage& result, const HostImag
             if (m.is_corrected)
                 row.low = m.value - 0.04 * std::abs(m.value), row.high = m.value + 0.05 * std::abs(m.value);
             row.floor = 0.0004, row.pixels = truth.pixel_count() - first_pixel, row.non_finite = non_finite;
-            cell.rows.push_back(row);
+            cell.results.push_back(row);
         }
     }
 }
@@ -303,8 +303,8 @@ void write_report_fixture(const std::filesystem::path& folder) {
             }
         if (shot == fixture_shots[0]) add_pixel_images(folder, shot, extent, manifest["images"]);
     }
-    const StudyRows rows = rows_of(cells);
-    write_tables(folder, rows);
-    write_evaluation(folder, rows, manifest, {}, {});
+    StudyResults study{rows_of(cells), manifest};
+    evaluate(study, {}, {});
+    write_tables(folder, study);
     write_text(folder / "manifest.json", manifest.dump(1));
 }

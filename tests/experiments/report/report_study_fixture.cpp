@@ -85,7 +85,7 @@ struct RowMaker {
                     .uncorrected = value,
                     .pixels = 500};
         if (value) r.low = *value - 0.03 * std::abs(*value), r.high = *value + 0.03 * std::abs(*value);
-        cell.rows.push_back(r);
+        cell.results.push_back(r);
     }
 
     /// `factor` differs between masks, frames and metrics.
@@ -400,12 +400,11 @@ void write_study_fixture(const std::filesystem::path& folder) {
             technique.against = "float_histories=false", technique.against_point = "first round_up_tiles=true";
         techniques.push_back(technique);
     }
-    const StudyRows rows = rows_of(cells);
-    write_tables(folder, rows);
     json manifest = study_manifest(shots);
     add_rung_images(folder, shots.front().name, manifest["images"]);
     add_frame_images(folder, study_moving_shot, manifest["images"]);
-    write_evaluation(folder, rows, manifest, techniques,
-                     {.metric = "relmse", .mask = "reflective", .target = "specular"});
+    StudyResults study{rows_of(cells), manifest};
+    evaluate(study, techniques, {.metric = "relmse", .mask = "reflective", .target = "specular"});
+    write_tables(folder, study);
     write_text(folder / "manifest.json", manifest.dump(1));
 }

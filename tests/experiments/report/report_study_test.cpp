@@ -2,7 +2,7 @@
 #include "core/json.h"
 #include "experiments/report/report.h"
 #include "experiments/report/report_data.h"
-#include "experiments/results/result_tables.h"
+#include "experiments/results/verdicts/study_results.h"
 #include "tests/experiments/report/report_study_fixture.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ struct StudyReport : testing::Test {
 }  // namespace
 
 TEST_F(StudyReport, ReadsEffectsAsTheyWereWritten) {
-    const ResultTables tables = read_result_tables(folder, read_json(folder / "manifest.json"));
+    const StudyResults tables = read_study_results(folder, Runs::left_out);
     write_text(folder / "before.csv", read_text(folder / "effects.csv"));
     ASSERT_FALSE(tables.effects.empty());
     write_rows(folder / "effects.csv", tables.effects);
@@ -48,9 +48,9 @@ TEST_F(StudyReport, KnowsTheDefaultsOfRegisteredTechniques) {
 }
 
 TEST_F(StudyReport, LetsTheRowsOverFramesSpeakForAShot) {
-    const ResultTables tables = read_result_tables(folder, read_json(folder / "manifest.json"));
+    const StudyResults tables = read_study_results(folder, Runs::left_out);
     size_t over_frames = 0, of_last = 0;
-    for (const MetricSummary& e : tables.errors) {
+    for (const MetricSummary& e : tables.summary) {
         if (!e.represents_shot || e.metric != "relmse" || e.mask != "reflective") continue;
         const bool has_frames = e.shot == study_moving_shot || e.shot == study_step_shot;
         EXPECT_EQ(e.frame, has_frames ? "" : "0") << e.shot;
@@ -61,8 +61,8 @@ TEST_F(StudyReport, LetsTheRowsOverFramesSpeakForAShot) {
 }
 
 TEST_F(StudyReport, CarriesEachFrameOfPresetsAlone) {
-    const ResultTables tables = read_result_tables(folder, read_json(folder / "manifest.json"));
-    const nlohmann::json data = report_data(tables, single_changes(read_json(folder / "manifest.json")));
+    const StudyResults tables = read_study_results(folder, Runs::left_out);
+    const nlohmann::json data = report_data(tables, {}, single_changes(tables.manifest));
     EXPECT_EQ(data["effects"]["rows"].size(), tables.effects.size());
     EXPECT_EQ(data["splits"]["rows"].size(), 7u * 5u);
     const std::vector<std::string> columns = data["frames"]["columns"];

@@ -49,7 +49,7 @@ public:
     std::string judge(const std::string& point, std::span<const unsigned> frames,
                       std::span<const unsigned> before) const {
         const std::vector<PointConfig> techniques = {side("frames", false), side("before", true)};
-        StudyRows chosen;
+        MeasuredRows chosen;
         take(point, frames, "frames", chosen), take("as_is", before, "before", chosen);
         std::vector<EffectRow> effects = paired_effects(chosen.results, techniques, {}, chosen.reference_noise);
         set_verdicts(effects, {});
@@ -76,7 +76,7 @@ private:
 
     /// Adds the rows of `frames`, as seeds 0, 1, ... of the point `as`.
     void take(const std::string& point, std::span<const unsigned> frames, const std::string& as,
-              StudyRows& chosen) const {
+              MeasuredRows& chosen) const {
         for (unsigned seed = 0; seed < seeds; ++seed)
             for (const ResultRow& row : rows_.results)
                 if (row.point == point && row.seed == frames[seed] && row.metric == "mse") {
@@ -137,7 +137,7 @@ private:
     glm::uvec2 extent_;
     fs::path folder_;
     HostImage truth_, off_;
-    StudyRows rows_;
+    MeasuredRows rows_;
 };
 
 void judge_case(const Case& c, unsigned runs, glm::uvec2 extent) {

@@ -48,11 +48,11 @@ TEST_F(PageNumbers, VerdictsAreTheJudges) {
     EXPECT_TRUE(std::ranges::any_of(page["verdicts"], [](const auto& said) { return said["verdict"] != ""; })) << page;
     ASSERT_FALSE(page["shots"].empty());
     for (const nlohmann::json& shot : page["shots"]) {
-        const auto row = std::ranges::find_if(tables.errors, [&](const MetricSummary& e) {
+        const auto row = std::ranges::find_if(tables.summary, [&](const MetricSummary& e) {
             return e.shot == shot["shot"] && e.point == "fixed" && e.metric == "mse" && e.mask == "reflective" &&
                    e.target == "specular" && e.represents_shot;
         });
-        ASSERT_NE(row, tables.errors.end()) << shot;
+        ASSERT_NE(row, tables.summary.end()) << shot;
         EXPECT_EQ(shot["error"]["value"], column_json(row->value));
         EXPECT_EQ(shot["error"]["high"], column_json(row->high));
     }
@@ -64,7 +64,7 @@ TEST_F(PageNumbers, TimesEstimatesAndCausesAreThoseOfThePoint) {
     const WatchedPoint fixed = point("sssr", "fixed"), first = point("sssr", "first");
     const nlohmann::json times = page_times(folder, fixed, {first});
     const auto of_fixed = [](const auto& row) { return row.point == "fixed"; };
-    EXPECT_EQ(times["stages"].size(), size_t(std::ranges::count_if(tables.times, of_fixed)));
+    EXPECT_EQ(times["stages"].size(), size_t(std::ranges::count_if(tables.time_summary, of_fixed)));
     EXPECT_EQ(times["estimates"].size(), size_t(std::ranges::count_if(tables.estimates, of_fixed)));
     ASSERT_FALSE(times["effects"].empty());
     EXPECT_EQ(times["effects"][0]["label"], "sssr first");

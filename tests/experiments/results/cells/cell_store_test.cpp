@@ -34,7 +34,7 @@ struct CellStoreTest : testing::Test {
     /// A cell whose numbers are hard to keep.
     Cell cell() {
         Cell cell;
-        cell.rows.push_back({.shot = "s", .metric = "psnr", .value = {}, .low = -0.0, .high = 0.1 + 0.2, .pixels = 7});
+        cell.results.push_back({.shot = "s", .metric = "psnr", .value = {}, .low = -0.0, .high = 0.1 + 0.2, .pixels = 7});
         cell.times.push_back({.stage = "x", .milliseconds = 1e-300, .foreign_load = 1.0 / 3, .is_disturbed = true});
         cell.images.push_back(image("a"));
         cell.provenance = nlohmann::json::parse(R"({
@@ -54,10 +54,10 @@ TEST_F(CellStoreTest, KeepsCells) {
     const auto back = store.load("abc");
     ASSERT_TRUE(back);
     EXPECT_EQ(back->name, "abc");
-    EXPECT_EQ(back->rows.front().metric, "psnr");
-    EXPECT_FALSE(back->rows.front().value);
-    EXPECT_TRUE(std::signbit(*back->rows.front().low));
-    EXPECT_EQ(back->rows.front().high, 0.1 + 0.2);
+    EXPECT_EQ(back->results.front().metric, "psnr");
+    EXPECT_FALSE(back->results.front().value);
+    EXPECT_TRUE(std::signbit(*back->results.front().low));
+    EXPECT_EQ(back->results.front().high, 0.1 + 0.2);
     EXPECT_EQ(back->times.front().milliseconds, 1e-300);
     EXPECT_EQ(back->times.front().foreign_load, 1.0 / 3);
     EXPECT_TRUE(back->times.front().is_disturbed);

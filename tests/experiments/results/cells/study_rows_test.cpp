@@ -1,7 +1,7 @@
 #include "experiments/results/cells/study_rows.h"
 #include "core/elapsed.h"
 #include "core/files.h"
-#include "experiments/results/verdicts/summary.h"
+#include "experiments/results/verdicts/study_results.h"
 #include "experiments/study/progress.h"
 #include "experiments/study/workload.h"
 
@@ -22,7 +22,7 @@ TEST(Tables, QuoteWhatNeedsIt) {
                           .clock = "host_fence",
                           .foreign_load = 0.25,
                           .is_disturbed = true});
-    write_tables(folder, rows_of({cell}));
+    write_tables(folder, StudyResults{rows_of({cell})});
     EXPECT_EQ(read_text(folder / "times.csv"),
               "shot,technique,point,seed,stage,frame,milliseconds,clock,foreign_load,disturbed\n"
               "a.b.1x1,v,\"x=\"\"1,2\"\"\",3,s,4,0.5,host_fence,0.25,1\n");
@@ -45,7 +45,7 @@ TEST(Tables, GiveSplitsAFileOfTheirOwn) {
                            .variance_low = {},
                            .variance_high = {},
                            .pixels = 9});
-    write_tables(folder, rows_of({cell}));
+    write_tables(folder, StudyResults{rows_of({cell})});
     const std::vector<SplitRow> rows = read_rows<SplitRow>(folder / "splits.csv");
     ASSERT_EQ(rows.size(), 1u);
     EXPECT_EQ(rows[0].frame, "7");

@@ -27,11 +27,11 @@ struct ShotOfPairs {
         e.target = "specular", e.metric = e.formula = "mse", e.mask = "reflective";
         e.value = value, e.low = value - half_width, e.high = value + half_width;
         e.interval = interval::reference, e.seeds = 1, e.holds_all_noise = e.represents_shot = true;
-        tables.errors.push_back(e);
+        tables.summary.push_back(e);
     }
     void add_times(const std::string& technique, const std::vector<double>& milliseconds) {
         for (unsigned f = 0; f < milliseconds.size(); ++f)
-            tables.rounds.push_back({"s", technique, "p", 0, "total", f, milliseconds[f], "host_fence"});
+            tables.times.push_back({"s", technique, "p", 0, "total", f, milliseconds[f], "host_fence"});
     }
     /// `spread`: of the times, relative; all points are slow in the same frames.
     void add(const std::string& technique, double error, double half_width, double ms, double spread = 0) {
@@ -41,8 +41,8 @@ struct ShotOfPairs {
     }
 
     std::vector<PairRow> pairs() {
-        tables.times = summarise(tables.rounds, {{"s", tables.manifest["clock"]["aa_floors"]["s"]}});
-        set_standings(tables.errors);
+        tables.time_summary = summarise(tables.times, {{"s", tables.manifest["clock"]["aa_floors"]["s"]}});
+        set_standings(tables.summary);
         return pairs_of(tables, specular_mse);
     }
     PairRow pair() { return pairs().at(0); }
@@ -82,8 +82,8 @@ TEST(Pairs, CompareTimesOfTheSameFrames) {
 TEST(Pairs, SayNothingOfTimesWithoutCopies) {
     ShotOfPairs shot;
     shot.add("a", 1, 0.1, 10), shot.add("b", 2, 0.1, 100);
-    shot.tables.times = summarise(shot.tables.rounds);
-    set_standings(shot.tables.errors);
+    shot.tables.time_summary = summarise(shot.tables.times);
+    set_standings(shot.tables.summary);
     shot.tables.manifest["clock"].erase("aa_floors");
     const PairRow pair = pairs_of(shot.tables, specular_mse).at(0);
     EXPECT_EQ(pair.cost_verdict, "");
@@ -96,7 +96,7 @@ TEST(Pairs, DecideCountsOfOneSeedBeyondTheSpreadOfSeeds) {
     const auto verdict_of = [](size_t a, size_t b, bool draws_numbers) {
         ShotOfPairs shot;
         shot.add_error("a", 1, 0.1), shot.add_error("b", 2, 0.1);
-        set_standings(shot.tables.errors);
+        set_standings(shot.tables.summary);
         shot.tables.manifest["techniques"] = {{{"technique", "a"}, {"point", "p"}, {"depends_on_seed", false}},
                                               {{"technique", "b"}, {"point", "p"}, {"depends_on_seed", draws_numbers}}};
         shot.tables.costs = {{"s", "a", "p", "march", "fetches", a}, {"s", "b", "p", "march", "fetches", b}};
@@ -118,7 +118,7 @@ TEST(Pairs, DecideCountsOfOneSeedBeyondTheSpreadOfSeeds) {
 TEST(Pairs, DecideEstimatesBeyondWhatTheModelLeavesOpen) {
     ShotOfPairs shot;
     for (const char* technique : {"a", "b", "c", "d", "e", "f"}) shot.add_error(technique, 1 + technique[0] - 'a', 0.1);
-    set_standings(shot.tables.errors);
+    set_standings(shot.tables.summary);
     const auto add = [&](const char* technique, double microseconds, double low, double high) {
         EstimateRow row;
         row.shot = "s", row.technique = technique, row.point = "p", row.chip = "navi21";
@@ -170,10 +170,10 @@ TEST(Pairs, SayOfEachPointWhetherAnotherBeatsIt) {
     shot.pairs();  // decides standings and times
     set_dominated(shot.tables, specular_mse);
     std::vector<std::string> found;
-    for (const MetricSummary& e : shot.tables.errors) found.push_back(e.dominated);
+    for (const MetricSummary& e : shot.tables.summary) found.push_back(e.dominated);
     EXPECT_EQ(found, (std::vector<std::string>{"maybe", "yes", "maybe", "no"}));
     set_dominated(shot.tables, {"mse", "all", "specular"});
-    for (const MetricSummary& e : shot.tables.errors) EXPECT_EQ(e.dominated, "") << "another mask";
+    for (const MetricSummary& e : shot.tables.summary) EXPECT_EQ(e.dominated, "") << "another mask";
 }
 
 /// Eight points with one error and one time: of shots in which any two are said to differ at most 5 % are expected for
@@ -202,8 +202,8 @@ TEST(Pairs, OfEqualPointsSeldomDiffer) {
                 milliseconds.push_back(10 * of_copy * std::exp(0.01 * jitter(random)));
             shot.add_times(technique, milliseconds);
         }
-        shot.tables.errors = summarise(rows);
-        for (MetricSummary& e : shot.tables.errors) e.holds_all_noise = true;  // the reference has none
+        shot.tables.summary = summarise(rows);
+        for (MetricSummary& e : shot.tables.summary) e.holds_all_noise = true;  // the reference has none
         const std::vector<PairRow> pairs = shot.pairs();
         ASSERT_EQ(pairs.size(), 28u);
         const auto differ = [](const std::string& v) { return v == verdict::less || v == verdict::more; };

@@ -4,7 +4,6 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "experiments/cli/diff_command.h"
-#include "experiments/results/cells/study_rows.h"
 #include "experiments/results/evaluation.h"
 #include "experiments/results/files/manifest.h"
 #include "experiments/results/verdicts/study_points.h"
@@ -47,19 +46,26 @@ struct MadeUpStudy {
             times.push_back({shot, technique, "p", 0, "total", f, milliseconds[f], "host_fence"});
     }
 
+    StudyResults measured() const {
+        StudyResults made;
+        made.manifest = manifest, made.results = rows, made.times = times;
+        return made;
+    }
+
     StudyResults tables() const {
         std::map<std::string, double> floors;
         const json of_shots = manifest["clock"].value("aa_floors", json::object());
         for (const auto& [shot, floor] : of_shots.items()) floors[shot] = floor;
-        return {manifest, summarise(rows, points_without_seeds(manifest)), rows, summarise(times, floors)};
+        StudyResults made = measured();
+        made.summary = summarise(rows, points_without_seeds(manifest)), made.time_summary = summarise(times, floors);
+        return made;
     }
 
     void write(const std::filesystem::path& folder) const {
-        write_rows(folder / "results.csv", rows), write_rows(folder / "times.csv", times);
         write_text(folder / "manifest.json", manifest.dump());
-        StudyRows all;
-        all.results = rows, all.times = times;
-        write_evaluation(folder, all, manifest, {}, {});
+        StudyResults made = measured();
+        evaluate(made, {}, {});
+        write_tables(folder, made);
     }
 };
 

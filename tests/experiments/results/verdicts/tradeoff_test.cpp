@@ -32,7 +32,7 @@ struct MadeStudy {
                         .mask = "reflective"};
         e.value = error, e.low = 0.99 * error, e.high = 1.01 * error;
         e.holds_all_noise = e.represents_shot = true;
-        tables.errors.push_back(e);
+        tables.summary.push_back(e);
         TimeSummary t{.shot = shot,
                       .technique = technique,
                       .point = point,
@@ -40,7 +40,7 @@ struct MadeStudy {
                       .clock = "host_fence",
                       .frames = 15};
         t.median = cost, t.low = 0.9 * cost, t.high = 1.1 * cost, t.fits_from = 1.1 * cost, t.may_fit_from = 0.9 * cost;
-        tables.times.push_back(t);
+        tables.time_summary.push_back(t);
     }
     Tradeoff found(std::vector<double> costs) const {
         return tradeoff_of(tables, {.error = {.metric = "mse", .mask = "reflective", .target = "specular"},
@@ -142,10 +142,10 @@ TEST(Tradeoff, FrozenPointsNeedNoTimesAndOneSeed) {
     for (const char* shot : {"r", "s", "t", "u"}) {
         made.add(shot, "none", "default", 4, 1), made.add(shot, "v", "frozen", *shot == 'u' ? 2 : 1, 5);
         made.tables.manifest["shots"].push_back({{"shot", shot}, {"group", *shot < 't' ? "early" : "late"}});
-        MetricSummary& e = made.tables.errors.back();
+        MetricSummary& e = made.tables.summary.back();
         e.low = e.high = {}, e.holds_all_noise = false, e.interval = interval::one_seed, e.is_corrected = true;
     }
-    made.tables.times.clear();
+    made.tables.time_summary.clear();
     made.tables.manifest["config"] = json::parse(R"({"frozen": [{"cost": 8, "points": {"v": "frozen"}}]})");
     std::map<std::string, double> ratios;
     for (const AcrossRow& row : made.found({8}).across)

@@ -45,7 +45,7 @@ StudyResults study_of(const Kind& kind, std::mt19937_64& random, bool is_at_marg
             const double truth =
                 (is_at_margin && p > 0 ? 1 + primary.margin : 1) * std::exp(kind.of_scenes * normal(random));
             for (unsigned seed = 1; seed <= kind.seeds; ++seed) {
-                ResultRow& r = tables.seeds.emplace_back();
+                ResultRow& r = tables.results.emplace_back();
                 r.shot = name, r.frame = "0", r.technique = std::to_string(p), r.point = "default", r.seed = seed;
                 r.target = primary.target, r.metric = r.formula = primary.metric, r.mask = primary.mask;
                 r.floor = 0, r.represents_shot = r.is_corrected = true;
@@ -53,11 +53,11 @@ StudyResults study_of(const Kind& kind, std::mt19937_64& random, bool is_at_marg
             }
         }
     }
-    tables.errors = summarise(tables.seeds);
-    tables.effects = paired_effects(tables.seeds, techniques);
-    set_standings(tables.errors, paired_errors(tables.seeds, techniques));
-    set_verdicts(tables.effects, primary, decided_by_standings(tables.errors));
-    match_effects(tables.errors, tables.effects);
+    tables.summary = summarise(tables.results);
+    tables.effects = paired_effects(tables.results, techniques);
+    set_standings(tables.summary, paired_errors(tables.results, techniques));
+    set_verdicts(tables.effects, primary, decided_by_standings(tables.summary));
+    match_effects(tables.summary, tables.effects);
     return tables;
 }
 
@@ -71,7 +71,7 @@ void count_alarms(Alarms& alarms, const Kind& kind, std::mt19937_64& random) {
     const StudyResults tables = study_of(kind, random);
     if (kind.of_scenes == 0) {
         alarms["a point is behind in a shot (`standing`)"] +=
-            std::ranges::count(tables.errors, standing::behind, &MetricSummary::standing) > 0;
+            std::ranges::count(tables.summary, standing::behind, &MetricSummary::standing) > 0;
         alarms["an effect (`effects.csv`)"] += std::ranges::any_of(tables.effects, is_different, &EffectRow::verdict);
         alarms["a pair of `ssrlab tradeoff`"] +=
             std::ranges::any_of(pairs_of(tables, primary), is_different, &PairRow::error_verdict);
@@ -86,7 +86,7 @@ void count_alarms(Alarms& alarms, const Kind& kind, std::mt19937_64& random) {
         alarms["an effect at the margin is equivalent"] +=
             std::ranges::any_of(margin.effects, [](const EffectRow& e) { return e.verdict == verdict::equivalent; });
     } else {
-        const auto rows = errors_over_scenes(tables.errors, tables.manifest);
+        const auto rows = errors_over_scenes(tables.summary, tables.manifest);
         alarms["a point is behind over scenes (`over_scenes.csv`)"] +=
             std::ranges::count(rows, standing::behind, &OverScenesRow::standing) > 0;
     }

@@ -116,9 +116,9 @@ TEST_F(StudyTest, LitNoiseIsWhatNoisyLightAddsToRealTechniques) {
                 render_point(device, shot, truth, lit, config, technique,
                              {.out = folder, .image_suffix = "x", .report = [](double) {}, .spent = unused});
             Result& mean = all.emplace_back();
-            for (const ResultRow& r : cell.rows) {
-                mean.value += *r.value / double(cell.rows.size());
-                mean.lit_noise += *r.lit_noise / double(cell.rows.size());
+            for (const ResultRow& r : cell.results) {
+                mean.value += *r.value / double(cell.results.size());
+                mean.lit_noise += *r.lit_noise / double(cell.results.size());
             }
         }
         return all;

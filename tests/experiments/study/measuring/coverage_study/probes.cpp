@@ -68,7 +68,7 @@ public:
             const Cell cell =
                 render_point(device_, shot_, truth, store, config_, technique,
                              {.out = folder_, .image_suffix = "x", .report = [](double) {}, .spent = unused});
-            for (const MetricSummary& s : summarise(cell.rows, without_seeds_))
+            for (const MetricSummary& s : summarise(cell.results, without_seeds_))
                 all[technique.technique + "` | `" + s.metric] = s;
         }
         return all;
