@@ -12,7 +12,7 @@
 #include "experiments/results/answers/answers.h"
 #include "experiments/results/answers/scenes_answer.h"
 #include "experiments/results/results_schema.h"
-#include "experiments/results/verdicts/study_results.h"
+#include "experiments/results/verdicts/study_points.h"
 #include "experiments/results/verdicts/summary.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 #pragma once
-#include "experiments/results/result_tables.h"
+#include "experiments/results/stability/stability_results.h"
+#include "experiments/results/verdicts/study_results.h"
 
 #include <nlohmann/json.hpp>
 

@@ -12,7 +12,7 @@ void evaluate(StudyResults& study, const std::vector<ComparedPoint>& compared, c
     study.summary = summarise(study.results, points_without_seeds(study.manifest), study.reference_noise);
     // No interval holds how they scatter from run to run.
     for (MetricSummary& e : study.summary)
-        if (not_repeatable.contains({e.technique, e.point})) e.holds_all_noise = false;
+        if (not_repeatable.contains({e.technique, e.point})) e.ranked = false;
     set_standings(study.summary, paired_errors(study.results, compared, not_repeatable, study.reference_noise),
                   points_using_scene_data(study.manifest), primary.margin);
     std::map<std::string, double> floors;

@@ -43,7 +43,7 @@ struct Scored {
     AnswerPoint point;
     const MetricSummary* error = nullptr;
     const TimeSummary* time = nullptr;  ///< of all its stages; null: not timed
-    bool is_ranked() const { return error->holds_all_noise && error->low && error->high; }
+    bool is_ranked() const { return error->ranked && error->low && error->high; }
 };
 
 bool is_same(const AnswerPoint& a, const AnswerPoint& b) { return a.technique == b.technique && a.point == b.point; }

@@ -18,7 +18,7 @@ using nlohmann::json;
 /// Why a point is not ranked.
 enum class Cause { seeds, reference, runs };
 
-bool is_ranked_point(const MetricSummary& e) { return e.holds_all_noise && e.low && e.high; }
+bool is_ranked_point(const MetricSummary& e) { return e.ranked && e.low && e.high; }
 
 Cause cause_of(const MetricSummary& e) {
     if (e.interval == interval::one_seed || e.interval == interval::too_few_seeds) return Cause::seeds;

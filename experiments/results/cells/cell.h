@@ -18,27 +18,16 @@ struct ResultRow {
     unsigned seed = 0;
     std::string target, metric, formula, mask;
     std::optional<double> value;  ///< none where it is not finite, e.g. the PSNR of equal images
-    bool is_corrected = false;
+    bool corrected = false;
     std::optional<double> uncorrected, low, high, floor;
     std::optional<double> lit_noise, lit_half_width;  ///< see LitNoise
     size_t pixels = 0, non_finite = 0, negative = 0;
     bool represents_shot = false;  ///< see mark_representative_rows(); false in cells
     NoiseGrowth growth = {};       ///< no column: Score::growth while frames are measured; empty in cells
 
-    static constexpr auto columns() {
-        return std::tuple(
-            Column{"shot", &ResultRow::shot}, Column{"scene", &ResultRow::scene}, Column{"camera", &ResultRow::camera},
-            Column{"frame", &ResultRow::frame}, Column{"width", &ResultRow::width},
-            Column{"height", &ResultRow::height}, Column{"technique", &ResultRow::technique},
-            Column{"point", &ResultRow::point}, Column{"seed", &ResultRow::seed}, Column{"target", &ResultRow::target},
-            Column{"metric", &ResultRow::metric}, Column{"formula", &ResultRow::formula},
-            Column{"mask", &ResultRow::mask}, Column{"value", &ResultRow::value},
-            Column{"corrected", &ResultRow::is_corrected}, Column{"uncorrected", &ResultRow::uncorrected},
-            Column{"low", &ResultRow::low}, Column{"high", &ResultRow::high}, Column{"floor", &ResultRow::floor},
-            Column{"lit_noise", &ResultRow::lit_noise}, Column{"lit_half_width", &ResultRow::lit_half_width},
-            Column{"pixels", &ResultRow::pixels}, Column{"non_finite", &ResultRow::non_finite},
-            Column{"negative", &ResultRow::negative}, Column{"represents_shot", &ResultRow::represents_shot});
-    }
+    COLUMNS(ResultRow, shot, scene, camera, frame, width, height, technique, point, seed, target, metric, formula, mask,
+            value, corrected, uncorrected, low, high, floor, lit_noise, lit_half_width, pixels, non_finite, negative,
+            represents_shot)
 };
 
 /// One row of splits.csv: the bias and the variance of an error.
@@ -56,17 +45,8 @@ struct SplitRow {
     /// In bias_squared, as ResultRow has them; empty where `mse` is not measured.
     std::optional<double> lit_noise, lit_half_width;
 
-    static constexpr auto columns() {
-        return std::tuple(Column{"shot", &SplitRow::shot}, Column{"frame", &SplitRow::frame},
-                          Column{"technique", &SplitRow::technique}, Column{"point", &SplitRow::point},
-                          Column{"target", &SplitRow::target}, Column{"mask", &SplitRow::mask},
-                          Column{"seeds", &SplitRow::seeds}, Column{"mse", &SplitRow::mse},
-                          Column{"bias_squared", &SplitRow::bias_squared}, Column{"variance", &SplitRow::variance},
-                          Column{"variance_low", &SplitRow::variance_low},
-                          Column{"variance_high", &SplitRow::variance_high}, Column{"pixels", &SplitRow::pixels},
-                          Column{"bias_squared_low", &SplitRow::bias_squared_low},
-                          Column{"bias_squared_high", &SplitRow::bias_squared_high});
-    }
+    COLUMNS(SplitRow, shot, frame, technique, point, target, mask, seeds, mse, bias_squared, variance, variance_low,
+            variance_high, pixels, bias_squared_low, bias_squared_high)
 };
 
 /// One row of times.csv.
@@ -78,15 +58,9 @@ struct TimeRow {
     double milliseconds = 0;
     std::string clock;
     std::optional<double> foreign_load = {};  ///< see CpuTimes; none where the system does not report it
-    bool is_disturbed = false;                ///< other programs took too much CPU time meanwhile
+    bool disturbed = false;                   ///< other programs took too much CPU time meanwhile
 
-    static constexpr auto columns() {
-        return std::tuple(Column{"shot", &TimeRow::shot}, Column{"technique", &TimeRow::technique},
-                          Column{"point", &TimeRow::point}, Column{"seed", &TimeRow::seed},
-                          Column{"stage", &TimeRow::stage}, Column{"frame", &TimeRow::frame},
-                          Column{"milliseconds", &TimeRow::milliseconds}, Column{"clock", &TimeRow::clock},
-                          Column{"foreign_load", &TimeRow::foreign_load}, Column{"disturbed", &TimeRow::is_disturbed});
-    }
+    COLUMNS(TimeRow, shot, technique, point, seed, stage, frame, milliseconds, clock, foreign_load, disturbed)
 };
 
 /// One row of hits.csv: how the rays of one pass ended.
@@ -102,13 +76,7 @@ struct HitRow {
     double value = 0;
     std::optional<double> low, high;  ///< over the seeds; none with a single one
 
-    static constexpr auto columns() {
-        return std::tuple(
-            Column{"shot", &HitRow::shot}, Column{"frame", &HitRow::frame}, Column{"technique", &HitRow::technique},
-            Column{"point", &HitRow::point}, Column{"stage", &HitRow::stage}, Column{"mask", &HitRow::mask},
-            Column{"quantity", &HitRow::quantity}, Column{"seeds", &HitRow::seeds}, Column{"rays", &HitRow::rays},
-            Column{"value", &HitRow::value}, Column{"low", &HitRow::low}, Column{"high", &HitRow::high});
-    }
+    COLUMNS(HitRow, shot, frame, technique, point, stage, mask, quantity, seeds, rays, value, low, high)
 };
 
 /// One row of costs.csv: what the passes of a stage do in the shot's last frame.
@@ -117,11 +85,7 @@ struct CostRow {
     std::string quantity;  ///< a name of cost_quantities, experiments/gpu_costs/pass_cost.h
     size_t value = 0;
 
-    static constexpr auto columns() {
-        return std::tuple(Column{"shot", &CostRow::shot}, Column{"technique", &CostRow::technique},
-                          Column{"point", &CostRow::point}, Column{"stage", &CostRow::stage},
-                          Column{"quantity", &CostRow::quantity}, Column{"value", &CostRow::value});
-    }
+    COLUMNS(CostRow, shot, technique, point, stage, quantity, value)
 };
 
 /// One row of compiled.csv: what a GPU's compiler made of one shader of a stage.
@@ -140,14 +104,9 @@ struct CompiledRow : CompilerNumbers {
                 return std::tuple(Column{number.name, number.member}...);
             },
             compiler_numbers);
-        return std::tuple_cat(
-            std::tuple(Column{"shot", &CompiledRow::shot}, Column{"technique", &CompiledRow::technique},
-                       Column{"point", &CompiledRow::point}, Column{"stage", &CompiledRow::stage},
-                       Column{"pipeline", &CompiledRow::pipeline}, Column{"shader", &CompiledRow::shader},
-                       Column{"chip", &CompiledRow::chip}, Column{"driver", &CompiledRow::driver},
-                       Column{"lanes", &CompiledRow::lanes}, Column{"waves", &CompiledRow::waves},
-                       Column{"most_waves", &CompiledRow::most_waves}, Column{"limit", &CompiledRow::limit}),
-            numbers, std::tuple(Column{"hash", &CompiledRow::hash}, Column{"refusal", &CompiledRow::refusal}));
+        return std::tuple_cat(MEMBER_COLUMNS(CompiledRow, shot, technique, point, stage, pipeline, shader, chip, driver,
+                                             lanes, waves, most_waves, limit),
+                              numbers, MEMBER_COLUMNS(CompiledRow, hash, refusal));
     }
 };
 
@@ -162,21 +121,9 @@ struct EstimateRow {
     std::optional<double> waves, active_lanes, unmatched, cut_lanes;
     std::string refusal;  ///< why there are no numbers
 
-    static constexpr auto columns() {
-        return std::tuple(Column{"shot", &EstimateRow::shot}, Column{"technique", &EstimateRow::technique},
-                          Column{"point", &EstimateRow::point}, Column{"stage", &EstimateRow::stage},
-                          Column{"chip", &EstimateRow::chip}, Column{"product", &EstimateRow::product},
-                          Column{"microseconds", &EstimateRow::microseconds}, Column{"low", &EstimateRow::low},
-                          Column{"high", &EstimateRow::high}, Column{"bound", &EstimateRow::bound},
-                          Column{"vector", &EstimateRow::vector}, Column{"scalar", &EstimateRow::scalar},
-                          Column{"shared_memory", &EstimateRow::shared_memory},
-                          Column{"textures", &EstimateRow::textures}, Column{"targets", &EstimateRow::targets},
-                          Column{"memory", &EstimateRow::memory}, Column{"latency", &EstimateRow::latency},
-                          Column{"caches", &EstimateRow::caches}, Column{"waves", &EstimateRow::waves},
-                          Column{"active_lanes", &EstimateRow::active_lanes},
-                          Column{"unmatched", &EstimateRow::unmatched}, Column{"cut_lanes", &EstimateRow::cut_lanes},
-                          Column{"refusal", &EstimateRow::refusal});
-    }
+    COLUMNS(EstimateRow, shot, technique, point, stage, chip, product, microseconds, low, high, bound, vector, scalar,
+            shared_memory, textures, targets, memory, latency, caches, waves, active_lanes, unmatched, cut_lanes,
+            refusal)
 };
 
 /// What was measured: the rows of a cell, or of all cells of a study in their order.
@@ -192,11 +139,8 @@ struct MeasuredRows {
 
     /// The lists of rows that have columns, by their names in the files of cells.
     static constexpr auto lists() {
-        return std::tuple(
-            Column{"rows", &MeasuredRows::results}, Column{"splits", &MeasuredRows::splits},
-            Column{"times", &MeasuredRows::times}, Column{"hits", &MeasuredRows::hits},
-            Column{"costs", &MeasuredRows::costs}, Column{"compiled", &MeasuredRows::compiled},
-            Column{"estimates", &MeasuredRows::estimates});
+        return std::tuple_cat(std::tuple(Column{"rows", &MeasuredRows::results}),
+                              MEMBER_COLUMNS(MeasuredRows, splits, times, hits, costs, compiled, estimates));
     }
 };
 

@@ -7,8 +7,7 @@ struct EstimateTableRow : EstimateRow {
     std::optional<double> model_low, model_high;
 
     static constexpr auto columns() {
-        return std::tuple_cat(EstimateRow::columns(), std::tuple(Column{"model_low", &EstimateTableRow::model_low},
-                                                                 Column{"model_high", &EstimateTableRow::model_high}));
+        return std::tuple_cat(EstimateRow::columns(), MEMBER_COLUMNS(EstimateTableRow, model_low, model_high));
     }
 };
 

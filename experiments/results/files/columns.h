@@ -15,8 +15,21 @@ struct Column {
     Value Row::*member;
 };
 
-/// Calls `use(column)` for each column of a table, in order. A row declares them once, as a static constexpr function
-/// `columns()` that returns a tuple; files, cells and the report follow from that.
+/// A tuple of the columns that are called as the members which hold them.
+#define MEMBER_COLUMNS(Row, ...)                                                                  \
+    [] {                                                                                          \
+        using Of = Row;                                                                           \
+        return std::tuple{NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(MEMBER_COLUMN, __VA_ARGS__))}; \
+    }()
+#define MEMBER_COLUMN(name) Column{#name, &Of::name},
+
+/// Declares the columns of a row, all of them called as its members. Where some are not, the row itself has a function
+/// `columns()`.
+#define COLUMNS(Row, ...) \
+    static constexpr auto columns() { return MEMBER_COLUMNS(Row, __VA_ARGS__); }
+
+/// Calls `use(column)` for each column of a table, in order: files, cells and the report follow from the row's
+/// `columns()`.
 template <class Row, class Use>
 void for_each_column(Use use) {
     std::apply([&](const auto&... column) { (use(column), ...); }, Row::columns());
@@ -24,9 +37,9 @@ void for_each_column(Use use) {
 
 /// How a folder has a table.
 enum class TableUse {
-    always,    ///< every folder has the file
-    of_runs,   ///< likewise; it has a row for each run, so that only who asks for them reads them
-    if_any,    ///< no file where there are no rows
+    always,   ///< every folder has the file
+    of_runs,  ///< likewise; it has a row for each run, so that only who asks for them reads them
+    if_any,   ///< no file where there are no rows
 };
 
 /// A table of a folder: the name of its file without `.csv`, and the member that holds its rows.

@@ -68,20 +68,12 @@ struct StabilityRow : CaseFindings {
     std::vector<StageFinding> stages = {};
 
     static constexpr auto columns() {
-        using Row = StabilityRow;
-        return std::tuple(
-            Column{"case", &Row::case_name}, Column{"group", &Row::group}, Column{"technique", &Row::technique},
-            Column{"point", &Row::point}, Column{"verdict", &Row::verdict}, Column{"error", &Row::error},
-            Column{"benign_error", &Row::benign_error}, Column{"error_ratio", &Row::error_ratio},
-            Column{"seeds", &Row::seeds}, Column{"non_finite", &Row::non_finite},
-            Column{"first_non_finite", &Row::first_non_finite}, Column{"spread_pixels", &Row::spread_pixels},
-            Column{"spread_frames", &Row::spread_frames}, Column{"negative", &Row::negative},
-            Column{"too_bright", &Row::too_bright}, Column{"excess", &Row::excess},
-            Column{"bad_confidence", &Row::bad_confidence}, Column{"time_ratio", &Row::time_ratio},
-            Column{"depth_median", &Row::depth_median}, Column{"depth_p999", &Row::depth_p999},
-            Column{"normal_median", &Row::normal_median}, Column{"normal_p999", &Row::normal_p999},
-            Column{"lit_median", &Row::lit_median}, Column{"lit_p999", &Row::lit_p999}, Column{"drift", &Row::drift},
-            Column{"drift_noise", &Row::drift_noise}, Column{"gain", &Row::gain}, Column{"refusal", &Row::refusal});
+        return std::tuple_cat(
+            std::tuple(Column{"case", &StabilityRow::case_name}),
+            MEMBER_COLUMNS(StabilityRow, group, technique, point, verdict, error, benign_error, error_ratio, seeds,
+                           non_finite, first_non_finite, spread_pixels, spread_frames, negative, too_bright, excess,
+                           bad_confidence, time_ratio, depth_median, depth_p999, normal_median, normal_p999, lit_median,
+                           lit_p999, drift, drift_noise, gain, refusal));
     }
 };
 
@@ -96,11 +88,8 @@ struct StageRow : StageFinding {
     std::string case_name, technique, point;
 
     static constexpr auto columns() {
-        using Row = StageRow;
-        return std::tuple(Column{"case", &Row::case_name}, Column{"technique", &Row::technique},
-                          Column{"point", &Row::point}, Column{"stage", &Row::stage}, Column{"image", &Row::image},
-                          Column{"nan", &Row::nan}, Column{"infinite", &Row::infinite},
-                          Column{"largest", &Row::largest});
+        return std::tuple_cat(std::tuple(Column{"case", &StageRow::case_name}),
+                              MEMBER_COLUMNS(StageRow, technique, point, stage, image, nan, infinite, largest));
     }
 };
 /// Those that hold a value that is not finite, or all.

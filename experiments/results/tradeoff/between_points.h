@@ -24,17 +24,8 @@ struct ErrorAtCostRow {
     NineDigits point_error, point_low, point_high;
     std::string chosen_on;
 
-    static constexpr auto columns() {
-        using Row = ErrorAtCostRow;
-        return std::tuple(Column{"shot", &Row::shot}, Column{"scene", &Row::scene}, Column{"machine", &Row::machine},
-                          Column{"technique", &Row::technique}, Column{"label", &Row::label},
-                          Column{"cost", &Row::cost}, Column{"unit", &Row::unit}, Column{"status", &Row::status},
-                          Column{"error", &Row::error}, Column{"low", &Row::low}, Column{"high", &Row::high},
-                          Column{"fits", &Row::fits}, Column{"start", &Row::start}, Column{"end", &Row::end},
-                          Column{"point", &Row::point}, Column{"point_error", &Row::point_error},
-                          Column{"point_low", &Row::point_low}, Column{"point_high", &Row::point_high},
-                          Column{"chosen_on", &Row::chosen_on});
-    }
+    COLUMNS(ErrorAtCostRow, shot, scene, machine, technique, label, cost, unit, status, error, low, high, fits, start,
+            end, point, point_error, point_low, point_high, chosen_on)
 };
 
 /// The cost that an error asks for on a technique's curve.
@@ -45,15 +36,8 @@ struct CostToErrorRow {
     std::string status;  ///< "between", "at", "before start" or "not reached"
     NineDigits cost, low, high, share_that_reach, start, end;
 
-    static constexpr auto columns() {
-        using Row = CostToErrorRow;
-        return std::tuple(Column{"shot", &Row::shot}, Column{"scene", &Row::scene}, Column{"machine", &Row::machine},
-                          Column{"technique", &Row::technique}, Column{"label", &Row::label},
-                          Column{"factor", &Row::factor}, Column{"error", &Row::error}, Column{"unit", &Row::unit},
-                          Column{"status", &Row::status}, Column{"cost", &Row::cost}, Column{"low", &Row::low},
-                          Column{"high", &Row::high}, Column{"share_that_reach", &Row::share_that_reach},
-                          Column{"start", &Row::start}, Column{"end", &Row::end});
-    }
+    COLUMNS(CostToErrorRow, shot, scene, machine, technique, label, factor, error, unit, status, cost, low, high,
+            share_that_reach, start, end)
 };
 
 /// A law along a QualityAxis, and its floor beside a rung of the truth ladder.
@@ -67,21 +51,9 @@ struct FitRow {
     std::string status, rung;
     NineDigits rung_error, rung_low, rung_high, floor_over_rung, floor_over_rung_low, floor_over_rung_high;
 
-    static constexpr auto columns() {
-        using Row = FitRow;
-        return std::tuple(
-            Column{"shot", &Row::shot}, Column{"scene", &Row::scene}, Column{"machine", &Row::machine},
-            Column{"technique", &Row::technique}, Column{"label", &Row::label}, Column{"parameter", &Row::parameter},
-            Column{"fixed", &Row::fixed}, Column{"points", &Row::points}, Column{"point_names", &Row::point_names},
-            Column{"cost_from", &Row::cost_from}, Column{"cost_to", &Row::cost_to}, Column{"unit", &Row::unit},
-            Column{"floor", &Row::floor}, Column{"floor_low", &Row::floor_low}, Column{"floor_high", &Row::floor_high},
-            Column{"a", &Row::a}, Column{"b", &Row::b}, Column{"b_low", &Row::b_low}, Column{"b_high", &Row::b_high},
-            Column{"misfit", &Row::misfit}, Column{"status", &Row::status}, Column{"rung", &Row::rung},
-            Column{"rung_error", &Row::rung_error}, Column{"rung_low", &Row::rung_low},
-            Column{"rung_high", &Row::rung_high}, Column{"floor_over_rung", &Row::floor_over_rung},
-            Column{"floor_over_rung_low", &Row::floor_over_rung_low},
-            Column{"floor_over_rung_high", &Row::floor_over_rung_high});
-    }
+    COLUMNS(FitRow, shot, scene, machine, technique, label, parameter, fixed, points, point_names, cost_from, cost_to,
+            unit, floor, floor_low, floor_high, a, b, b_low, b_high, misfit, status, rung, rung_error, rung_low,
+            rung_high, floor_over_rung, floor_over_rung_low, floor_over_rung_high)
 };
 
 /// The least error of all ranked points of a shot beside a rung of the truth ladder.
@@ -92,17 +64,8 @@ struct LimitRow {
     NineDigits error, error_low, error_high, over_rung, over_rung_low, over_rung_high, cost;
     std::string unit;
 
-    static constexpr auto columns() {
-        using Row = LimitRow;
-        return std::tuple(
-            Column{"shot", &Row::shot}, Column{"scene", &Row::scene}, Column{"machine", &Row::machine},
-            Column{"rung", &Row::rung}, Column{"rung_error", &Row::rung_error}, Column{"rung_low", &Row::rung_low},
-            Column{"rung_high", &Row::rung_high}, Column{"technique", &Row::technique}, Column{"point", &Row::point},
-            Column{"label", &Row::label}, Column{"error", &Row::error}, Column{"error_low", &Row::error_low},
-            Column{"error_high", &Row::error_high}, Column{"over_rung", &Row::over_rung},
-            Column{"over_rung_low", &Row::over_rung_low}, Column{"over_rung_high", &Row::over_rung_high},
-            Column{"cost", &Row::cost}, Column{"unit", &Row::unit});
-    }
+    COLUMNS(LimitRow, shot, scene, machine, rung, rung_error, rung_low, rung_high, technique, point, label, error,
+            error_low, error_high, over_rung, over_rung_low, over_rung_high, cost, unit)
 };
 
 /// A shot of a Tradeoff with its points, and what is known of its truth and its clock.

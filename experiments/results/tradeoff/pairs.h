@@ -14,14 +14,8 @@ struct PairRow {
     std::string cost_verdict;             ///< empty where one has no cost, or where none of the shot was timed twice
     std::string dominates, is_dominated;  ///< "yes", "maybe" or "no"; empty without costs
 
-    static constexpr auto columns() {
-        return std::tuple(Column{"shot", &PairRow::shot}, Column{"technique", &PairRow::technique},
-                          Column{"point", &PairRow::point}, Column{"other_technique", &PairRow::other_technique},
-                          Column{"other_point", &PairRow::other_point}, Column{"error_p_holm", &PairRow::error_p_holm},
-                          Column{"error_verdict", &PairRow::error_verdict}, Column{"decided_by", &PairRow::decided_by},
-                          Column{"cost_p_holm", &PairRow::cost_p_holm}, Column{"cost_verdict", &PairRow::cost_verdict},
-                          Column{"dominates", &PairRow::dominates}, Column{"is_dominated", &PairRow::is_dominated});
-    }
+    COLUMNS(PairRow, shot, technique, point, other_technique, other_point, error_p_holm, error_verdict, decided_by,
+            cost_p_holm, cost_verdict, dominates, is_dominated)
 };
 
 /// Every pair of points of each shot that are ranked by the error, once. `cost`: see cost_kind(); "": the total time of

@@ -138,7 +138,7 @@ void judge_front(TradeoffShot& shot, const std::map<std::pair<PointName, PointNa
     std::vector<std::tuple<double, double, TradeoffPoint*>> by_cost;
     for (TradeoffPoint& p : shot.points) {
         const FrontRow& row = p.row;
-        const bool has_interval = p.error->holds_all_noise && row.error_low && row.error_high;
+        const bool has_interval = p.error->ranked && row.error_low && row.error_high;
         p.row.machine = shot.machine, p.uses_scene_data = using_scene.contains(p.name());
         p.row.verdict = p.uses_scene_data               ? "uses scene data"
                         : !has_interval                 ? "not ranked"

@@ -24,17 +24,8 @@ struct FrontRow {
     std::string verdict;                       ///< front, dominated, undecided, or why the point is not judged
     std::string dominated_by, undecided_with;  ///< labels
 
-    static constexpr auto columns() {
-        return std::tuple(Column{"shot", &FrontRow::shot}, Column{"scene", &FrontRow::scene},
-                          Column{"machine", &FrontRow::machine}, Column{"technique", &FrontRow::technique},
-                          Column{"point", &FrontRow::point}, Column{"label", &FrontRow::label},
-                          Column{"error", &FrontRow::error}, Column{"error_low", &FrontRow::error_low},
-                          Column{"error_high", &FrontRow::error_high}, Column{"cost", &FrontRow::cost},
-                          Column{"cost_low", &FrontRow::cost_low}, Column{"cost_high", &FrontRow::cost_high},
-                          Column{"unit", &FrontRow::unit}, Column{"is_nominal_front", &FrontRow::is_nominal_front},
-                          Column{"verdict", &FrontRow::verdict}, Column{"dominated_by", &FrontRow::dominated_by},
-                          Column{"undecided_with", &FrontRow::undecided_with});
-    }
+    COLUMNS(FrontRow, shot, scene, machine, technique, point, label, error, error_low, error_high, cost, cost_low,
+            cost_high, unit, is_nominal_front, verdict, dominated_by, undecided_with)
 };
 
 /// What holds over the scenes of points, or of techniques at a cost, each at its ChosenPoint; of the shots of one
@@ -52,26 +43,15 @@ struct AcrossRow : OverScenes {
     size_t wins = 0, shared = 0;  ///< shots with certainly the least error; with one that is not certainly more
 
     static constexpr auto columns() {
-        return std::tuple(
-            Column{"group", &AcrossRow::group}, Column{"machine", &AcrossRow::machine},
-            Column{"cost", &AcrossRow::cost}, Column{"unit", &AcrossRow::unit},
-            Column{"technique", &AcrossRow::technique}, Column{"point", &AcrossRow::point},
-            Column{"label", &AcrossRow::label}, Column{"baseline", &AcrossRow::baseline},
-            Column{"scenes", &AcrossRow::scenes}, Column{"of_scenes", &AcrossRow::of_scenes},
-            Column{"shots", &AcrossRow::shots}, Column{"ratio", &AcrossRow::ratio}, Column{"low", &AcrossRow::low},
-            Column{"high", &AcrossRow::high}, Column{"bootstrap_low", &AcrossRow::bootstrap_low},
-            Column{"bootstrap_high", &AcrossRow::bootstrap_high}, Column{"median", &AcrossRow::median},
-            Column{"median_low", &AcrossRow::median_low}, Column{"median_high", &AcrossRow::median_high},
-            Column{"scenes_that_fit", &AcrossRow::scenes_that_fit}, Column{"wins", &AcrossRow::wins},
-            Column{"shared", &AcrossRow::shared}, Column{"rank", &AcrossRow::rank},
-            Column{"rank_low", &AcrossRow::rank_low}, Column{"rank_high", &AcrossRow::rank_high},
-            Column{"against_best", &AcrossRow::over_best}, Column{"against_best_low", &AcrossRow::over_best_low},
-            Column{"against_best_high", &AcrossRow::over_best_high}, Column{"p_holm", &AcrossRow::p_holm},
-            Column{"p_equivalent", &AcrossRow::p_equivalent}, Column{"chance_first", &AcrossRow::chance_first},
-            Column{"chance_near", &AcrossRow::chance_near}, Column{"standing", &AcrossRow::standing},
-            Column{"scenes_needed", &AcrossRow::scenes_needed},
-            Column{"scenes_needed_low", &AcrossRow::scenes_needed_low},
-            Column{"scenes_needed_high", &AcrossRow::scenes_needed_high});
+        return std::tuple_cat(
+            MEMBER_COLUMNS(AcrossRow, group, machine, cost, unit, technique, point, label, baseline, scenes, of_scenes,
+                           shots, ratio, low, high, bootstrap_low, bootstrap_high, median, median_low, median_high,
+                           scenes_that_fit, wins, shared, rank, rank_low, rank_high),
+            std::tuple(Column{"against_best", &AcrossRow::over_best},
+                       Column{"against_best_low", &AcrossRow::over_best_low},
+                       Column{"against_best_high", &AcrossRow::over_best_high}),
+            MEMBER_COLUMNS(AcrossRow, p_holm, p_equivalent, chance_first, chance_near, standing, scenes_needed,
+                           scenes_needed_low, scenes_needed_high));
     }
 };
 
@@ -91,20 +71,9 @@ struct ChangeRow {
     std::optional<double> cost_per_percent, cost_per_percent_low, cost_per_percent_high;
     std::string verdict;
 
-    static constexpr auto columns() {
-        return std::tuple(Column{"shot", &ChangeRow::shot}, Column{"scenes", &ChangeRow::scenes},
-                          Column{"machine", &ChangeRow::machine}, Column{"technique", &ChangeRow::technique},
-                          Column{"point", &ChangeRow::point}, Column{"label", &ChangeRow::label},
-                          Column{"against_technique", &ChangeRow::against_technique},
-                          Column{"against_point", &ChangeRow::against_point}, Column{"change", &ChangeRow::change},
-                          Column{"error_ratio", &ChangeRow::error_ratio}, Column{"error_low", &ChangeRow::error_low},
-                          Column{"error_high", &ChangeRow::error_high}, Column{"cost", &ChangeRow::cost},
-                          Column{"cost_low", &ChangeRow::cost_low}, Column{"cost_high", &ChangeRow::cost_high},
-                          Column{"unit", &ChangeRow::unit}, Column{"cost_per_percent", &ChangeRow::cost_per_percent},
-                          Column{"cost_per_percent_low", &ChangeRow::cost_per_percent_low},
-                          Column{"cost_per_percent_high", &ChangeRow::cost_per_percent_high},
-                          Column{"verdict", &ChangeRow::verdict});
-    }
+    COLUMNS(ChangeRow, shot, scenes, machine, technique, point, label, against_technique, against_point, change,
+            error_ratio, error_low, error_high, cost, cost_low, cost_high, unit, cost_per_percent, cost_per_percent_low,
+            cost_per_percent_high, verdict)
 };
 
 /// All changes of one parameter among the compared points (effects.csv) that have costs, as `front` has them; `unit`:

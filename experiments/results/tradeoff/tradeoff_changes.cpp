@@ -1,4 +1,6 @@
 #include "experiments/results/tradeoff/tradeoff.h"
+
+#include "experiments/results/files/manifest.h"
 #include "metrics/statistics/estimates.h"
 #include "metrics/statistics/quantiles.h"
 

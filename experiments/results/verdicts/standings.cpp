@@ -152,7 +152,7 @@ void set_standings(std::span<MetricSummary> errors, const PairedErrors& paired, 
     for (MetricSummary& e : errors) {
         e.standing.clear();
         e.over_best = e.over_best_low = e.over_best_high = e.p_best = e.p_equivalent = std::nullopt;
-        if (e.represents_shot && e.holds_all_noise && e.value && e.low && e.high && direction_of(e.metric) &&
+        if (e.represents_shot && e.ranked && e.value && e.low && e.high && direction_of(e.metric) &&
             !without_part.contains({e.technique, e.point}))
             ranked.push_back(&e);
     }

@@ -21,9 +21,9 @@ inline const char* of(double p_best, double p_equivalent) {
 
 }  // namespace standing
 
-/// Decides `standing` of all rows that stand for their shot (represents_shot) and are ranked (holds_all_noise), among
-/// the points of each shot; fewer than two ranked points have none. All others keep it empty: a single seed's error is
-/// measured, not ranked. Points in `without_part` take none, as those that use scene data.
+/// Decides `standing` of all rows that stand for their shot (represents_shot) and are ranked (MetricSummary::ranked),
+/// among the points of each shot; fewer than two ranked points have none. All others keep it empty: a single seed's
+/// error is measured, not ranked. Points in `without_part` take none, as those that use scene data.
 ///
 /// Each point is compared with the best measured one, by the ratio of their errors paired by seed and reference
 /// (`paired`, jackknifed_ratio()) where that holds all noise, else by the intervals of both. All shots of an error

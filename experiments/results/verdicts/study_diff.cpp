@@ -113,7 +113,7 @@ void compare_errors(NumberChange& c, const MetricSummary& a, const MetricSummary
     }
     if (is_rounding(*a.value, *b.value)) return settle(c, change::equal, "rounding");
     for (const MetricSummary* e : {&a, &b})
-        if (!e->holds_all_noise || !e->low || !e->high)
+        if (!e->ranked || !e->low || !e->high)
             return settle(c, change::not_judged, e->interval.starts_with("none") ? e->interval : "not ranked");
     set(p_by_intervals(b, a, margin), "by intervals");
 }

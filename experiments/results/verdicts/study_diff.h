@@ -29,15 +29,7 @@ struct NumberChange {
     /// Of the relative change of values that both are there, in either direction: |ln(after / before)|.
     double size() const;
 
-    static constexpr auto columns() {
-        return std::tuple(Column{"shot", &NumberChange::shot}, Column{"frame", &NumberChange::frame},
-                          Column{"technique", &NumberChange::technique}, Column{"point", &NumberChange::point},
-                          Column{"target", &NumberChange::target}, Column{"metric", &NumberChange::metric},
-                          Column{"mask", &NumberChange::mask}, Column{"before", &NumberChange::before},
-                          Column{"after", &NumberChange::after}, Column{"p", &NumberChange::p},
-                          Column{"p_holm", &NumberChange::p_holm}, Column{"verdict", &NumberChange::verdict},
-                          Column{"how", &NumberChange::how});
-    }
+    COLUMNS(NumberChange, shot, frame, technique, point, target, metric, mask, before, after, p, p_holm, verdict, how)
 };
 
 using PointOfShot = std::array<std::string, 3>;  ///< shot, technique, point

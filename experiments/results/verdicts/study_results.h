@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-/// A results folder (experiments/RESULTS.md): its manifest and its tables, but for parameters.csv. The reference's noise
-/// is in no table: it is there while a study runs.
+/// A results folder (experiments/RESULTS.md): its manifest and its tables, but for parameters.csv. The reference's
+/// noise is in no table: it is there while a study runs.
 struct StudyResults : MeasuredRows {
     nlohmann::json manifest = nlohmann::json::object();
     std::vector<EffectRow> effects = {};

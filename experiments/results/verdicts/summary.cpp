@@ -52,7 +52,7 @@ bool is_of_pixels(const std::string& metric) {
 /// Whether the interval of a row comes from the noise of its pixels, which it lacks only where that is not trusted
 /// (noise_half_width()).
 bool is_freed_of_noise(const MetricSummary& s) {
-    return s.is_corrected || s.metric == "bias" || s.metric == "energy_ratio";
+    return s.corrected || s.metric == "bias" || s.metric == "energy_ratio";
 }
 
 void set_interval(MetricSummary& s, const std::vector<const ResultRow*>& rows, bool depends_on_seed) {
@@ -72,7 +72,7 @@ void set_interval(MetricSummary& s, const std::vector<const ResultRow*>& rows, b
                  : is_freed_of_noise(s)                  ? interval::few_paths
                                                          : interval::unknown_reference;
     if (std::string_view(s.interval).starts_with("none")) return;
-    s.holds_all_noise = true;
+    s.ranked = true;
     const double from_seeds = depends_on_seed ? student_t_quantile(0.975, double(s.seeds - 1)) * *s.seed_deviation /
                                                     std::sqrt(double(s.seeds))
                                               : 0.0;
@@ -91,7 +91,7 @@ MetricSummary summary_of(const std::vector<const ResultRow*>& rows, bool depends
     MetricSummary s{first.shot,   first.frame,  first.technique, first.point,
                     first.target, first.metric, first.formula,   first.mask};
     s.seeds = unsigned(rows.size());
-    s.is_corrected = first.is_corrected, s.represents_shot = first.represents_shot;
+    s.corrected = first.corrected, s.represents_shot = first.represents_shot;
     for (const ResultRow* row : rows) {
         s.pixels = std::max(s.pixels, row->pixels);
         s.non_finite = std::max(s.non_finite, row->non_finite);
@@ -132,9 +132,9 @@ Extrapolated MetricSummary::extrapolated() const {
 }
 
 bool MetricSummary::counts_over_scenes() const {
-    const bool has_known_bias = is_corrected || floor == 0.0 || value_of_power;
+    const bool has_known_bias = corrected || floor == 0.0 || value_of_power;
     const bool is_one_draw = interval == interval::one_seed || interval == interval::few_paths;
-    return value && ((holds_all_noise && low) || (is_one_draw && has_known_bias));
+    return value && ((ranked && low) || (is_one_draw && has_known_bias));
 }
 
 std::vector<MetricSummary> summarise(std::span<const ResultRow> rows, const PointSet& without_seeds,
@@ -167,7 +167,7 @@ std::vector<TimeSummary> summarise(std::span<const TimeRow> rows, const std::map
         for (const TimeRow* row : group) of_frame[{row->seed, row->frame}] += row->milliseconds;
         std::vector<double> times;
         for (const auto& [frame, milliseconds] : of_frame) times.push_back(milliseconds);
-        const auto disturbed = std::ranges::count_if(group, [](const TimeRow* row) { return row->is_disturbed; });
+        const auto disturbed = std::ranges::count_if(group, [](const TimeRow* row) { return row->disturbed; });
         const TimeRow& first = *group.front();
         const Estimate m = median_interval(times);
         const auto floor = floors.find(first.shot);

@@ -14,14 +14,14 @@
 struct MetricSummary {
     std::string shot, frame, technique, point, target, metric, formula, mask;
     unsigned seeds = 0;
-    std::optional<double> value;           ///< mean over the seeds; none if one of them has none
-    std::optional<double> low, high;       ///< 95 % interval, see summarise()
-    std::string interval = {};             ///< what it holds, or why there is none (interval.h)
-    bool holds_all_noise = false;          ///< so that it can be compared with other points': only such are ranked
+    std::optional<double> value;      ///< mean over the seeds; none if one of them has none
+    std::optional<double> low, high;  ///< 95 % interval, see summarise()
+    std::string interval = {};        ///< what it holds, or why there is none (interval.h)
+    bool ranked = false;              ///< the interval holds all noise, so that it can be compared with other points'
     std::optional<double> seed_deviation;  ///< standard deviation over the seeds; none for a single one
     std::optional<double> floor;           ///< what the reference's own noise scores
     std::optional<double> lit_noise;       ///< what the noise of the lit colour adds to the value (LitNoise)
-    bool is_corrected = false;
+    bool corrected = false;
     /// `value` without the reference's noise, by either law of its growth (Extrapolated); none of errors that are freed
     /// of it, and where it is not known.
     std::optional<double> value_of_power, value_of_bounded;
@@ -44,26 +44,10 @@ struct MetricSummary {
     /// bounds, of however few seeds and paths of the reference. How these scatter is then part of how scenes do.
     bool counts_over_scenes() const;
 
-    static constexpr auto columns() {
-        return std::tuple(
-            Column{"shot", &MetricSummary::shot}, Column{"frame", &MetricSummary::frame},
-            Column{"technique", &MetricSummary::technique}, Column{"point", &MetricSummary::point},
-            Column{"target", &MetricSummary::target}, Column{"metric", &MetricSummary::metric},
-            Column{"formula", &MetricSummary::formula}, Column{"mask", &MetricSummary::mask},
-            Column{"seeds", &MetricSummary::seeds}, Column{"value", &MetricSummary::value},
-            Column{"low", &MetricSummary::low}, Column{"high", &MetricSummary::high},
-            Column{"interval", &MetricSummary::interval}, Column{"ranked", &MetricSummary::holds_all_noise},
-            Column{"seed_deviation", &MetricSummary::seed_deviation}, Column{"floor", &MetricSummary::floor},
-            Column{"lit_noise", &MetricSummary::lit_noise}, Column{"corrected", &MetricSummary::is_corrected},
-            Column{"value_of_power", &MetricSummary::value_of_power},
-            Column{"value_of_bounded", &MetricSummary::value_of_bounded}, Column{"pixels", &MetricSummary::pixels},
-            Column{"non_finite", &MetricSummary::non_finite}, Column{"negative", &MetricSummary::negative},
-            Column{"represents_shot", &MetricSummary::represents_shot}, Column{"standing", &MetricSummary::standing},
-            Column{"over_best", &MetricSummary::over_best}, Column{"over_best_low", &MetricSummary::over_best_low},
-            Column{"over_best_high", &MetricSummary::over_best_high}, Column{"p_best", &MetricSummary::p_best},
-            Column{"p_equivalent", &MetricSummary::p_equivalent}, Column{"fronts", &MetricSummary::fronts},
-            Column{"dominated", &MetricSummary::dominated});
-    }
+    COLUMNS(MetricSummary, shot, frame, technique, point, target, metric, formula, mask, seeds, value, low, high,
+            interval, ranked, seed_deviation, floor, lit_noise, corrected, value_of_power, value_of_bounded, pixels,
+            non_finite, negative, represents_shot, standing, over_best, over_best_low, over_best_high, p_best,
+            p_equivalent, fronts, dominated)
 };
 
 /// The interval of the mean over n seeds joins, in quadrature, what the reference's noise leaves (it is the same

@@ -122,7 +122,7 @@ void add_rows(std::vector<ResultRow>& rows, const MetricReference& reference, co
         if (masks[i % masks.size()].count() == 0) continue;
         ResultRow r = shared;
         r.target = target, r.metric = s.metric->name, r.formula = s.formula, r.mask = s.mask;
-        r.is_corrected = s.corrected, r.floor = if_finite(s.floor);
+        r.corrected = s.corrected, r.floor = if_finite(s.floor);
         if (s.pixels >= needed[i % masks.size()]) {
             r.value = if_finite(s.value), r.uncorrected = if_finite(s.uncorrected);
             r.low = if_finite(s.low), r.high = if_finite(s.high);

@@ -82,7 +82,7 @@ void PointErrors::add_temporal_rows(unsigned seed, const std::vector<TemporalSco
         r.target = "specular", r.metric = s.metric->name, r.formula = s.formula, r.mask = s.mask;
         const auto if_finite = [](std::optional<double> v) { return v && std::isfinite(*v) ? v : std::nullopt; };
         r.value = if_finite(s.value), r.uncorrected = s.uncorrected ? if_finite(s.uncorrected) : r.value,
-        r.is_corrected = s.corrected;
+        r.corrected = s.corrected;
         r.low = if_finite(s.low), r.high = if_finite(s.high), r.pixels = s.pixels, r.non_finite = s.left_out;
         rows_.push_back(std::move(r));
         if (!s.note.empty()) missing_[{s.metric->name, s.note}].insert(s.mask);

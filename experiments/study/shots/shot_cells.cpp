@@ -43,7 +43,9 @@ void say_result(StudySession& study, const Cell& cell) {
             non_finite = std::max(non_finite, size_t(r.non_finite));
             if (r.value) values[r.frame].push_back(*r.value);
         }
-    const auto name = [&] { return display_name(study.config, cell.results.front().technique, cell.results.front().point); };
+    const auto name = [&] {
+        return display_name(study.config, cell.results.front().technique, cell.results.front().point);
+    };
     if (values.empty() && non_finite > 0)
         study.progress.say("  " + name() + ": no value, for " + std::to_string(non_finite) +
                            (non_finite == 1 ? " pixel is" : " pixels are") + " NaN or infinite");

@@ -42,17 +42,18 @@ struct Made {
                         .formula = metric,
                         .mask = "reflective"};
         e.value = value, e.low = value - half, e.high = value + half;
-        e.holds_all_noise = true, e.represents_shot = true;
+        e.ranked = true, e.represents_shot = true;
         e.interval = interval::reference;
         tables.summary.push_back(e);
         if (milliseconds > 0)
             tables.time_summary.push_back({"s", technique, "default", "total", "host_fence", 15, milliseconds,
-                                    0.9 * milliseconds, 1.1 * milliseconds});
+                                           0.9 * milliseconds, 1.1 * milliseconds});
     }
     ShotAnswer answer(const json& of_study = manifest) {
         set_standings(tables.summary, {}, {{"exact", "default"}});
         set_fronts(tables.summary, tables.time_summary);
-        return shot_answers(tables, of_study).at(0);
+        tables.manifest = of_study;
+        return shot_answers(tables).at(0);
     }
 };
 
@@ -126,7 +127,7 @@ TEST(Answers, SayWhatIsRankedAndWhatIsOnlyMeasured) {
     made.add("b", 0.2, 0.002);
     for (size_t i : {1, 2}) {
         MetricSummary& e = made.tables.summary[i];
-        e.holds_all_noise = false, e.interval = interval::one_seed, e.low = e.high = {};
+        e.ranked = false, e.interval = interval::one_seed, e.low = e.high = {};
     }
     const ShotAnswer alone = made.answer();
     EXPECT_EQ(alone.best->technique, "none");
@@ -143,7 +144,7 @@ TEST(Answers, SayWhatIsRankedAndWhatIsOnlyMeasured) {
                                            "points (1 seed). Among those that are ranked, c has the least"))
         << made.answer().sentence;
 
-    for (MetricSummary& e : made.tables.summary) e.holds_all_noise = false, e.interval = interval::one_seed;
+    for (MetricSummary& e : made.tables.summary) e.ranked = false, e.interval = interval::one_seed;
     EXPECT_FALSE(made.answer().best);
     EXPECT_EQ(made.answer().sentence,
               "Nothing is ranked, as no mse of this shot has an interval that holds all noise (1 seed): a measures "
@@ -184,10 +185,10 @@ TEST(Answers, SayWhereTheEyeDisagrees) {
     EXPECT_NE(made.answer().perceptual_sentence.find("b (0.195 [0.185, 0.205]) measures better, but that is not "
                                                      "decided; a has 0.2"),
               std::string::npos);
-    made.tables.summary[3].holds_all_noise = false;
+    made.tables.summary[3].ranked = false;
     EXPECT_NE(made.answer().perceptual_sentence.find("measures better, but is not ranked"), std::string::npos)
         << "its noise is not known";
-    made.tables.summary[3].holds_all_noise = true;
+    made.tables.summary[3].ranked = true;
     made.tables.summary[3].value = made.tables.summary[3].low = made.tables.summary[3].high = 0.3;
     EXPECT_NE(made.answer().perceptual_sentence.find("it is the best, too"), std::string::npos);
 }
@@ -211,7 +212,8 @@ TEST(Answers, SayFirstWhatMayHoldInOtherScenes) {
         made.tables.over_scenes.clear();
         for (size_t i = 0; i < standings.size(); ++i)
             add(std::string(1, char('a' + i)), double(i + 1), standings[i], scenes);
-        return in_scenes_like_these(made.tables, study);
+        made.tables.manifest = study;
+        return in_scenes_like_these(made.tables);
     };
     EXPECT_EQ(sentence({}, 5), "");
     EXPECT_EQ(sentence({"best", "behind"}, 5),

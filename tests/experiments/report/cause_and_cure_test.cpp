@@ -28,7 +28,7 @@ struct MadeShot {
         e.metric = metric, e.mask = "reflective", e.value = 1, e.floor = 0.1, e.pixels = 5000, e.seeds = 4;
         e.interval = interval;
         if (interval.empty()) {
-            e.interval = interval::reference_and_seeds, e.holds_all_noise = true, e.low = 0.9, e.high = 1.1;
+            e.interval = interval::reference_and_seeds, e.ranked = true, e.low = 0.9, e.high = 1.1;
             e.standing = standing::tied;
         }
         return errors.emplace_back(e);
@@ -69,7 +69,7 @@ TEST(CauseAndCure, TellsSeedsFromRunsAndFromMissingHalves) {
 
     MadeShot runs;
     MetricSummary& e = runs.add("a", "");
-    e.holds_all_noise = false, e.standing.clear();
+    e.ranked = false, e.standing.clear();
     runs.add("a", "", "flip"), runs.add("b", "", "flip");
     EXPECT_EQ(runs.cure(),
               " No number of seeds ranks a: results differ from run to run. flip decides now: it ranks all 2 "

@@ -74,16 +74,16 @@ void add_rows(Cell& cell, ResultRow row, const HostImage& result, const HostImag
         struct Value {
             const char *metric, *formula;
             double value;
-            bool is_corrected;
+            bool corrected;
         };
         for (const Value& m :
              {Value{"mse", "mse", mse, true}, Value{"relmse", "relmse_a", mse * 2.5, true},
               Value{"flip", "ldr_flip", std::sqrt(mse), false},
               Value{"ssim", "ssim_gauss11", 1.0 - std::sqrt(mse), false}, Value{"bias", "bias", -mse / 3, true}}) {
             row.mask = mask, row.metric = m.metric, row.formula = m.formula, row.value = m.value,
-            row.is_corrected = m.is_corrected, row.uncorrected = m.value * 1.02;
+            row.corrected = m.corrected, row.uncorrected = m.value * 1.02;
             row.low = row.high = std::nullopt;
-            if (m.is_corrected)
+            if (m.corrected)
                 row.low = m.value - 0.04 * std::abs(m.value), row.high = m.value + 0.05 * std::abs(m.value);
             row.floor = 0.0004, row.pixels = truth.pixel_count() - first_pixel, row.non_finite = non_finite;
             cell.results.push_back(row);

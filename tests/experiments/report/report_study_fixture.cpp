@@ -81,7 +81,7 @@ struct RowMaker {
                     .formula = formula,
                     .mask = mask,
                     .value = value,
-                    .is_corrected = true,
+                    .corrected = true,
                     .uncorrected = value,
                     .pixels = 500};
         if (value) r.low = *value - 0.03 * std::abs(*value), r.high = *value + 0.03 * std::abs(*value);

@@ -2,6 +2,7 @@
 #include "core/json.h"
 #include "experiments/report/report.h"
 #include "experiments/report/report_data.h"
+#include "experiments/results/verdicts/study_points.h"
 #include "experiments/results/verdicts/study_results.h"
 #include "tests/experiments/report/report_study_fixture.h"
 

@@ -286,7 +286,7 @@ TEST_F(Report, WarnsOfDisturbedTimesAndOfSeveralMakers) {
     auto manifest = read_json(folder / "manifest.json");
     const auto now = [&] { return report_warnings(manifest, errors, summarise(rows)); };
     const size_t before = now().size();
-    for (TimeRow& row : rows) row.is_disturbed = row.shot == fixture_shots[1] && row.frame < 3;
+    for (TimeRow& row : rows) row.disturbed = row.shot == fixture_shots[1] && row.frame < 3;
     EXPECT_TRUE(contains(now(), "fence.low.160x90: other programs disturbed 20 % of the timed frames"));
     EXPECT_EQ(now().size(), before + 1);
 

@@ -231,10 +231,10 @@ void judge(EffectRow& e, const PairP& p, size_t count) {
     set_adjusted_interval(e, is_exact ? std::pair(*e.low, *e.high) : e.estimate.interval(level));
 }
 
-using Table = std::map<Quantity, std::map<Point, SeedsOfPoint>>;
+using PointsOfQuantities = std::map<Quantity, std::map<Point, SeedsOfPoint>>;
 
-Table errors_by_point(std::span<const ResultRow> rows, std::span<const ReferenceNoise> noise) {
-    Table table;
+PointsOfQuantities errors_by_point(std::span<const ResultRow> rows, std::span<const ReferenceNoise> noise) {
+    PointsOfQuantities table;
     for (const ResultRow& r : rows)
         if (r.represents_shot && is_error(r.metric)) table[quantity_of(r)][{r.technique, r.point}].seeds[r.seed] = &r;
     for (const ReferenceNoise& n : noise) {
@@ -247,7 +247,7 @@ Table errors_by_point(std::span<const ResultRow> rows, std::span<const Reference
     return table;
 }
 
-void set_seed_dependence(Table& table, const std::vector<ComparedPoint>& compared) {
+void set_seed_dependence(PointsOfQuantities& table, const std::vector<ComparedPoint>& compared) {
     for (auto& [quantity, points] : table)
         for (const ComparedPoint& v : compared)
             if (const auto found = points.find({v.technique, v.point}); found != points.end())
@@ -255,7 +255,7 @@ void set_seed_dependence(Table& table, const std::vector<ComparedPoint>& compare
 }
 
 /// `table` holds what was measured, by quantity and point.
-std::vector<EffectRow> effects_in(Table table, const std::vector<ComparedPoint>& compared,
+std::vector<EffectRow> effects_in(PointsOfQuantities table, const std::vector<ComparedPoint>& compared,
                                   const PointSet& not_repeatable,
                                   std::vector<EffectRow> (*effects_of)(const SeedsOfPoint&, const SeedsOfPoint&)) {
     set_seed_dependence(table, compared);
@@ -285,7 +285,7 @@ std::vector<EffectRow> paired_effects(std::span<const ResultRow> rows, const std
 
 PairedErrors paired_errors(std::span<const ResultRow> rows, const std::vector<ComparedPoint>& compared,
                            const PointSet& not_repeatable, std::span<const ReferenceNoise> noise) {
-    auto table = std::make_shared<Table>(errors_by_point(rows, noise));
+    auto table = std::make_shared<PointsOfQuantities>(errors_by_point(rows, noise));
     set_seed_dependence(*table, compared);
     return [table, not_repeatable](const EffectRow& asked) -> std::optional<EffectRow> {
         const auto points = table->find({asked.shot, asked.target, asked.metric, asked.mask});
@@ -302,7 +302,7 @@ PairedErrors paired_errors(std::span<const ResultRow> rows, const std::vector<Co
 
 std::vector<EffectRow> split_effects(std::span<const SplitRow> rows, const std::vector<ComparedPoint>& compared,
                                      const PointSet& not_repeatable) {
-    Table table;
+    PointsOfQuantities table;
     for (const SplitRow& r : rows) table[{r.shot, r.target, "", r.mask}][{r.technique, r.point}].split = &r;
     return effects_in(table, compared, not_repeatable, effects_of_splits);
 }

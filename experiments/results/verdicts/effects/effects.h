@@ -26,20 +26,9 @@ struct EffectRow {
     std::string verdict;                        ///< see set_verdicts(); empty without a p
     RatioEstimate estimate{};                   ///< what all of these are made of; no column
 
-    static constexpr auto columns() {
-        return std::tuple(
-            Column{"shot", &EffectRow::shot}, Column{"frame", &EffectRow::frame},
-            Column{"technique", &EffectRow::technique}, Column{"point", &EffectRow::point},
-            Column{"against", &EffectRow::against}, Column{"against_technique", &EffectRow::against_technique},
-            Column{"against_point", &EffectRow::against_point}, Column{"target", &EffectRow::target},
-            Column{"metric", &EffectRow::metric}, Column{"formula", &EffectRow::formula},
-            Column{"mask", &EffectRow::mask}, Column{"seeds", &EffectRow::seeds}, Column{"ratio", &EffectRow::ratio},
-            Column{"low", &EffectRow::low}, Column{"high", &EffectRow::high}, Column{"interval", &EffectRow::interval},
-            Column{"p", &EffectRow::p}, Column{"family", &EffectRow::family}, Column{"p_holm", &EffectRow::p_holm},
-            Column{"low_holm", &EffectRow::low_holm}, Column{"high_holm", &EffectRow::high_holm},
-            Column{"p_equivalent", &EffectRow::p_equivalent},
-            Column{"p_equivalent_holm", &EffectRow::p_equivalent_holm}, Column{"verdict", &EffectRow::verdict});
-    }
+    COLUMNS(EffectRow, shot, frame, technique, point, against, against_technique, against_point, target, metric,
+            formula, mask, seeds, ratio, low, high, interval, p, family, p_holm, low_holm, high_holm, p_equivalent,
+            p_equivalent_holm, verdict)
 };
 
 /// (technique, point)

@@ -99,21 +99,9 @@ std::optional<Extrapolated> divisor_of(std::span<const MetricSummary* const> err
 struct OverScenesRow : OverScenes {
     std::string target, metric, mask, baseline_technique, baseline_point;
 
-    static constexpr auto columns() {
-        return std::tuple(
-            Column{"target", &OverScenesRow::target}, Column{"metric", &OverScenesRow::metric},
-            Column{"mask", &OverScenesRow::mask}, Column{"technique", &OverScenesRow::technique},
-            Column{"point", &OverScenesRow::point}, Column{"baseline_technique", &OverScenesRow::baseline_technique},
-            Column{"baseline_point", &OverScenesRow::baseline_point}, Column{"scenes", &OverScenesRow::scenes},
-            Column{"shots", &OverScenesRow::shots}, Column{"ratio", &OverScenesRow::ratio},
-            Column{"low", &OverScenesRow::low}, Column{"high", &OverScenesRow::high},
-            Column{"rank", &OverScenesRow::rank}, Column{"rank_low", &OverScenesRow::rank_low},
-            Column{"rank_high", &OverScenesRow::rank_high}, Column{"over_best", &OverScenesRow::over_best},
-            Column{"over_best_low", &OverScenesRow::over_best_low},
-            Column{"over_best_high", &OverScenesRow::over_best_high}, Column{"p_holm", &OverScenesRow::p_holm},
-            Column{"p_equivalent", &OverScenesRow::p_equivalent}, Column{"chance_first", &OverScenesRow::chance_first},
-            Column{"chance_near", &OverScenesRow::chance_near}, Column{"standing", &OverScenesRow::standing});
-    }
+    COLUMNS(OverScenesRow, target, metric, mask, technique, point, baseline_technique, baseline_point, scenes, shots,
+            ratio, low, high, rank, rank_low, rank_high, over_best, over_best_low, over_best_high, p_holm, p_equivalent,
+            chance_first, chance_near, standing)
 };
 
 /// Of every error (target, metric, mask) for which less is better, the points that can be ranked in a shot

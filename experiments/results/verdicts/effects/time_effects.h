@@ -19,18 +19,8 @@ struct TimeEffectRow {
     std::optional<double> p_holm, low_holm, high_holm;
     std::string verdict;  ///< as EffectRow's; empty without a p
 
-    static constexpr auto columns() {
-        return std::tuple(Column{"shot", &TimeEffectRow::shot}, Column{"technique", &TimeEffectRow::technique},
-                          Column{"point", &TimeEffectRow::point}, Column{"against", &TimeEffectRow::against},
-                          Column{"against_technique", &TimeEffectRow::against_technique},
-                          Column{"against_point", &TimeEffectRow::against_point},
-                          Column{"stage", &TimeEffectRow::stage}, Column{"clock", &TimeEffectRow::clock},
-                          Column{"rounds", &TimeEffectRow::rounds}, Column{"ratio", &TimeEffectRow::ratio},
-                          Column{"low", &TimeEffectRow::low}, Column{"high", &TimeEffectRow::high},
-                          Column{"p", &TimeEffectRow::p}, Column{"p_holm", &TimeEffectRow::p_holm},
-                          Column{"low_holm", &TimeEffectRow::low_holm}, Column{"high_holm", &TimeEffectRow::high_holm},
-                          Column{"verdict", &TimeEffectRow::verdict});
-    }
+    COLUMNS(TimeEffectRow, shot, technique, point, against, against_technique, against_point, stage, clock, rounds,
+            ratio, low, high, p, p_holm, low_holm, high_holm, verdict)
 };
 
 /// All comparisons_of() `compared` by times.csv's rows. The points took turns in each frame, so that the ratio of one

@@ -336,7 +336,7 @@ ShotTimes time_techniques(FrameSource& source, const Shot& shot, const Config& c
                        .frame = unsigned(round),
                        .clock = source.pass_list().clock() == Clock::host_fence ? "host_fence" : "gpu_timestamp",
                        .foreign_load = load.rounds()[round].foreign,
-                       .is_disturbed = load.rounds()[round].is_disturbed()};
+                       .disturbed = load.rounds()[round].is_disturbed()};
     };
     const std::vector<size_t> chosen = rounds_among(load.rounds().size());
     for (const size_t round : chosen) add_rows(result.rows, row_of(round), source_times[round]);

@@ -34,8 +34,9 @@ struct CellStoreTest : testing::Test {
     /// A cell whose numbers are hard to keep.
     Cell cell() {
         Cell cell;
-        cell.results.push_back({.shot = "s", .metric = "psnr", .value = {}, .low = -0.0, .high = 0.1 + 0.2, .pixels = 7});
-        cell.times.push_back({.stage = "x", .milliseconds = 1e-300, .foreign_load = 1.0 / 3, .is_disturbed = true});
+        cell.results.push_back(
+            {.shot = "s", .metric = "psnr", .value = {}, .low = -0.0, .high = 0.1 + 0.2, .pixels = 7});
+        cell.times.push_back({.stage = "x", .milliseconds = 1e-300, .foreign_load = 1.0 / 3, .disturbed = true});
         cell.images.push_back(image("a"));
         cell.provenance = nlohmann::json::parse(R"({
             "what": "", "started": "", "finished": "",
@@ -60,7 +61,7 @@ TEST_F(CellStoreTest, KeepsCells) {
     EXPECT_EQ(back->results.front().high, 0.1 + 0.2);
     EXPECT_EQ(back->times.front().milliseconds, 1e-300);
     EXPECT_EQ(back->times.front().foreign_load, 1.0 / 3);
-    EXPECT_TRUE(back->times.front().is_disturbed);
+    EXPECT_TRUE(back->times.front().disturbed);
     EXPECT_TRUE(notices.empty());
 }
 

@@ -21,7 +21,7 @@ TEST(Tables, QuoteWhatNeedsIt) {
                           .milliseconds = 0.5,
                           .clock = "host_fence",
                           .foreign_load = 0.25,
-                          .is_disturbed = true});
+                          .disturbed = true});
     write_tables(folder, StudyResults{rows_of({cell})});
     EXPECT_EQ(read_text(folder / "times.csv"),
               "shot,technique,point,seed,stage,frame,milliseconds,clock,foreign_load,disturbed\n"

@@ -269,7 +269,7 @@ TEST(OverScenes, EveryErrorHasItsRows) {
                         .target = "specular",
                         .metric = metric,
                         .mask = "all"};
-        e.value = value, e.low = 0.9 * value, e.high = 1.1 * value, e.holds_all_noise = e.represents_shot = true;
+        e.value = value, e.low = 0.9 * value, e.high = 1.1 * value, e.ranked = e.represents_shot = true;
         errors.push_back(e);
     };
     for (const char* shot : {"s", "t", "u", "v"})
@@ -311,10 +311,10 @@ TEST(OverScenes, EveryErrorHasItsRows) {
     // One seed has no interval in a shot, but counts over scenes, if the reference's noise is no part of its value.
     for (MetricSummary& e : errors)
         if (e.technique == "half")
-            e.low = e.high = {}, e.holds_all_noise = false, e.interval = interval::one_seed, e.is_corrected = true;
+            e.low = e.high = {}, e.ranked = false, e.interval = interval::one_seed, e.corrected = true;
     EXPECT_EQ(errors_over_scenes(errors, manifest).front().technique, "half");
     for (MetricSummary& e : errors)
-        if (e.technique == "half") e.is_corrected = false;
+        if (e.technique == "half") e.corrected = false;
     EXPECT_EQ(errors_over_scenes(errors, manifest).size(), 1u);
     // Or if it is known how large a part it may be.
     for (MetricSummary& e : errors) {

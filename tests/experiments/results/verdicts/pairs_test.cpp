@@ -26,7 +26,7 @@ struct ShotOfPairs {
         MetricSummary e{.shot = "s", .frame = "0", .technique = technique, .point = "p"};
         e.target = "specular", e.metric = e.formula = "mse", e.mask = "reflective";
         e.value = value, e.low = value - half_width, e.high = value + half_width;
-        e.interval = interval::reference, e.seeds = 1, e.holds_all_noise = e.represents_shot = true;
+        e.interval = interval::reference, e.seeds = 1, e.ranked = e.represents_shot = true;
         tables.summary.push_back(e);
     }
     void add_times(const std::string& technique, const std::vector<double>& milliseconds) {
@@ -203,7 +203,7 @@ TEST(Pairs, OfEqualPointsSeldomDiffer) {
             shot.add_times(technique, milliseconds);
         }
         shot.tables.summary = summarise(rows);
-        for (MetricSummary& e : shot.tables.summary) e.holds_all_noise = true;  // the reference has none
+        for (MetricSummary& e : shot.tables.summary) e.ranked = true;  // the reference has none
         const std::vector<PairRow> pairs = shot.pairs();
         ASSERT_EQ(pairs.size(), 28u);
         const auto differ = [](const std::string& v) { return v == verdict::less || v == verdict::more; };

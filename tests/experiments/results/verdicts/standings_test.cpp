@@ -19,7 +19,7 @@ MetricSummary error_of(const std::string& technique, double value, double half, 
                     .mask = "reflective"};
     e.value = value, e.low = value - half, e.high = value + half;
     e.interval = interval::reference, e.seeds = 1;
-    e.holds_all_noise = e.represents_shot = true;
+    e.ranked = e.represents_shot = true;
     return e;
 }
 
@@ -54,9 +54,9 @@ TEST(Standings, FollowTheDirectionOfTheMetric) {
 
 TEST(Standings, RankOnlyWhatHasAnIntervalOfAllNoise) {
     std::vector<MetricSummary> errors = {error_of("a", 1, 0.1), error_of("b", 2, 0.1), error_of("c", 0.1, 0.01)};
-    errors[2].holds_all_noise = false;
+    errors[2].ranked = false;
     EXPECT_EQ(standings(errors), (Standings{"best", "behind", ""}));
-    errors[1].holds_all_noise = false;
+    errors[1].ranked = false;
     EXPECT_EQ(standings(errors), (Standings{"", "", ""})) << "one alone is the best of nothing";
     EXPECT_EQ(standings({error_of("a", 1, 0.1), error_of("b", 2, 0.1), error_of("exact_scene", 0.1, 0.01)},
                         {{"exact_scene", "default"}}),
@@ -226,7 +226,7 @@ TEST(Standings, AgreeWithTheirPairsAmongEffects) {
 TEST(Fronts, HoldWhatNoRankedPointBeatsAtLess) {
     std::vector<MetricSummary> errors = {error_of("a", 3, 0.1), error_of("b", 2, 0.1), error_of("c", 1, 0.1),
                                          error_of("single_seed", 0.1, 0.01)};
-    errors[3].holds_all_noise = false;
+    errors[3].ranked = false;
     set_standings(errors);
     std::vector<TimeSummary> times;
     std::vector<CostRow> costs;

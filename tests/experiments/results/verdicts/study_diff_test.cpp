@@ -168,7 +168,7 @@ TEST(StudyDiff, DoesNotJudgeWhatIsNotRanked) {
     std::mt19937 random(6);
     StudyResults before = study_of(random, 1, "t", 8, 0.1).tables(),
                  after = study_of(random, 101, "u", 8, 0.1).tables();
-    for (MetricSummary& e : after.errors) *e.value *= 3, e.holds_all_noise = false;
+    for (MetricSummary& e : after.summary) *e.value *= 3, e.ranked = false;
     const StudyDiff diff = diff_studies(before, after, false);
     EXPECT_EQ(count_of(diff.errors, change::not_judged), diff.errors.size());
 }
@@ -187,11 +187,11 @@ TEST(StudyDiff, ComparesTimesOfOneMachineAlone) {
     ASSERT_EQ(moved.moved.size(), 1u);
     EXPECT_EQ(moved.moved.front().after, "other (c), d");
     EXPECT_EQ(moved.times.size(), 36u);
-    for (TimeRow& t : slower.times) t.is_disturbed = true;
+    for (TimeRow& t : slower.times) t.disturbed = true;
     EXPECT_EQ(count_of(diff_studies(before.tables(), slower.tables(), true).times, change::not_judged), 36u);
     slower.manifest["clock"].erase("aa_floors");
     StudyResults unknown = slower.tables();
-    for (TimeSummary& t : unknown.times) t.disturbed_share = 0;
+    for (TimeSummary& t : unknown.time_summary) t.disturbed_share = 0;
     EXPECT_EQ(diff_studies(before.tables(), unknown, true).times.front().how, "no point was timed twice");
 }
 

@@ -44,17 +44,17 @@ TEST(Summary, GivesASingleSeedNoIntervalUnlessAllAreEqual) {
     EXPECT_EQ(one.value, 2.0);
     EXPECT_FALSE(one.low || one.high) << "the reference's noise alone is not what another seed would give";
     EXPECT_EQ(one.interval, interval::one_seed);
-    EXPECT_FALSE(one.holds_all_noise);
+    EXPECT_FALSE(one.ranked);
     EXPECT_EQ(only.low, 1.5);
     EXPECT_EQ(only.high, 2.5);
     EXPECT_EQ(only.interval, interval::reference);
-    EXPECT_TRUE(only.holds_all_noise);
+    EXPECT_TRUE(only.ranked);
 }
 
 TEST(Summary, GivesTheSeedsAloneNoIntervalUnlessTheReferenceIsExact) {
     std::vector<ResultRow> rows = rows_of("flip", {0.11, 0.12, 0.13});
     for (ResultRow& row : rows) row.floor = 0.1;
-    EXPECT_FALSE(summary(rows).low || summary(rows).high || summary(rows).holds_all_noise);
+    EXPECT_FALSE(summary(rows).low || summary(rows).high || summary(rows).ranked);
     EXPECT_EQ(summary(rows).interval, interval::unknown_reference);
     EXPECT_EQ(summary_without_seeds(rows_of("flip", {1})).interval, interval::unknown_reference);
     EXPECT_FALSE(summary(rows).counts_over_scenes()) << "another reference has other noise in it";
@@ -64,12 +64,12 @@ TEST(Summary, GivesTheSeedsAloneNoIntervalUnlessTheReferenceIsExact) {
     EXPECT_NEAR(*exact.high - 0.12, 0.043027 / std::sqrt(3.0), 1e-6);
     EXPECT_NEAR(0.12 - *exact.low, 0.043027 / std::sqrt(3.0), 1e-6);
     EXPECT_EQ(exact.interval, interval::seeds);
-    EXPECT_TRUE(exact.holds_all_noise);
+    EXPECT_TRUE(exact.ranked);
     // One of three seeds was given none.
     std::vector<ResultRow> mse = rows_of("mse", {1, 2, 3});
-    for (ResultRow& row : mse) row.floor = 0.1, row.is_corrected = true;
+    for (ResultRow& row : mse) row.floor = 0.1, row.corrected = true;
     mse[0].low = 0.5, mse[0].high = 1.5, mse[1].low = 1.5, mse[1].high = 2.5;
-    EXPECT_FALSE(summary(mse).low || summary(mse).holds_all_noise);
+    EXPECT_FALSE(summary(mse).low || summary(mse).ranked);
     EXPECT_EQ(summary(mse).interval, interval::few_paths);
     EXPECT_TRUE(summary(mse).counts_over_scenes()) << "its value has no bias: one scene of several";
     std::vector<ResultRow> flicker = rows_of("flicker", {1, 2});

@@ -31,7 +31,7 @@ struct MadeStudy {
                         .metric = "mse",
                         .mask = "reflective"};
         e.value = error, e.low = 0.99 * error, e.high = 1.01 * error;
-        e.holds_all_noise = e.represents_shot = true;
+        e.ranked = e.represents_shot = true;
         tables.summary.push_back(e);
         TimeSummary t{.shot = shot,
                       .technique = technique,
@@ -143,7 +143,7 @@ TEST(Tradeoff, FrozenPointsNeedNoTimesAndOneSeed) {
         made.add(shot, "none", "default", 4, 1), made.add(shot, "v", "frozen", *shot == 'u' ? 2 : 1, 5);
         made.tables.manifest["shots"].push_back({{"shot", shot}, {"group", *shot < 't' ? "early" : "late"}});
         MetricSummary& e = made.tables.summary.back();
-        e.low = e.high = {}, e.holds_all_noise = false, e.interval = interval::one_seed, e.is_corrected = true;
+        e.low = e.high = {}, e.ranked = false, e.interval = interval::one_seed, e.corrected = true;
     }
     made.tables.time_summary.clear();
     made.tables.manifest["config"] = json::parse(R"({"frozen": [{"cost": 8, "points": {"v": "frozen"}}]})");

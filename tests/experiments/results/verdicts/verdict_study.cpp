@@ -48,7 +48,7 @@ StudyResults study_of(const Kind& kind, std::mt19937_64& random, bool is_at_marg
                 ResultRow& r = tables.results.emplace_back();
                 r.shot = name, r.frame = "0", r.technique = std::to_string(p), r.point = "default", r.seed = seed;
                 r.target = primary.target, r.metric = r.formula = primary.metric, r.mask = primary.mask;
-                r.floor = 0, r.represents_shot = r.is_corrected = true;
+                r.floor = 0, r.represents_shot = r.corrected = true;
                 r.value = truth * std::exp(kind.deviation * normal(random));
             }
         }
@@ -81,7 +81,7 @@ void count_alarms(Alarms& alarms, const Kind& kind, std::mt19937_64& random) {
         alarms["`ssrlab judge`, all views"] += verdict == judgement::better || verdict == judgement::worse;
         const StudyResults margin = study_of(kind, random, true);
         alarms["a point at the margin is equivalent (`standing`)"] += std::ranges::any_of(
-            margin.errors,
+            margin.summary,
             [](const MetricSummary& e) { return e.technique != "0" && e.p_equivalent.value_or(1) < significance; });
         alarms["an effect at the margin is equivalent"] +=
             std::ranges::any_of(margin.effects, [](const EffectRow& e) { return e.verdict == verdict::equivalent; });

@@ -214,8 +214,8 @@ public:
         for (const MetricSummary& s : summarise(measured.rows, without_seeds))
             all.push_back({{s.technique, s.target, s.mask, s.metric},
                            s.value,
-                           s.holds_all_noise ? s.low : std::nullopt,
-                           s.holds_all_noise ? s.high : std::nullopt});
+                           s.ranked ? s.low : std::nullopt,
+                           s.ranked ? s.high : std::nullopt});
         for (const SplitRow& s : measured.splits) {
             all.push_back({{s.technique, s.target, s.mask, "bias_squared"},
                            s.bias_squared,

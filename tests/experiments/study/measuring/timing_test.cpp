@@ -153,7 +153,7 @@ TEST_F(Timing, RepeatsFramesThatOthersDisturbed) {
     std::set<unsigned> frames;
     for (const TimeRow& row : times.rows) {
         frames.insert(row.frame);
-        EXPECT_FALSE(row.is_disturbed);
+        EXPECT_FALSE(row.disturbed);
         EXPECT_NEAR(row.foreign_load.value(), row.frame == 1 ? 0.05 : row.frame == 5 ? 0.01 : 0.0, 1e-12);
     }
     EXPECT_EQ(frames, (std::set<unsigned>{0, 1, 3, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16}));
@@ -170,7 +170,7 @@ TEST_F(Timing, MarksWhatItCannotRepeat) {
     const ShotTimes times = time(source, still, false, busy);
     EXPECT_EQ(source.steps.size(), 2u + (1 + most_repeated_frames) * 15u) << "and no more";
     std::map<unsigned, bool> disturbed;
-    for (const TimeRow& row : times.rows) disturbed[row.frame] = row.is_disturbed;
+    for (const TimeRow& row : times.rows) disturbed[row.frame] = row.disturbed;
     ASSERT_EQ(disturbed.size(), 15u);
     EXPECT_FALSE(disturbed.at(7));
     EXPECT_TRUE(disturbed.at(20)) << "the least disturbed come first";
@@ -237,7 +237,7 @@ TEST_F(Timing, TakesTimesWhereLoadCannotBeTold) {
     const ShotTimes times = time_techniques(
         source, still, config, lit, false, no_limit, [](double) {}, [] { return CpuTimes{}; });
     EXPECT_EQ(source.steps.size(), 17u);
-    for (const TimeRow& row : times.rows) EXPECT_FALSE(row.foreign_load || row.is_disturbed);
+    for (const TimeRow& row : times.rows) EXPECT_FALSE(row.foreign_load || row.disturbed);
     EXPECT_FALSE(times.load.largest);
 }
 

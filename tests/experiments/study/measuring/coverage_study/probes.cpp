@@ -87,7 +87,7 @@ struct Count {
     double intervals = 0, covered = 0, half_width = 0;
 
     void add(const MetricSummary& s, double truth) {
-        if (!s.low || !s.high || !s.holds_all_noise) return;
+        if (!s.low || !s.high || !s.ranked) return;
         ++intervals, covered += *s.low <= truth && truth <= *s.high, half_width += (*s.high - *s.low) / 2;
     }
 };

@@ -131,7 +131,7 @@ Counts counts_of(const ChangingScene& scene, unsigned references) {
                     if (value == known.end()) continue;
                     Count& count = counts[{s.metric, seeds}];
                     ++count.trials;
-                    if (!s.holds_all_noise || !s.low || !s.high) continue;
+                    if (!s.ranked || !s.low || !s.high) continue;
                     ++count.intervals, count.covered += *s.low <= value->second && value->second <= *s.high;
                     std::printf("%s,%s,%u,%s,%s,%.6g,%.6g,%.6g,%.6g\n", scene.name, technique, seeds, s.metric.c_str(),
                                 s.mask.c_str(), *s.value, *s.low, *s.high, value->second);
