@@ -22,7 +22,7 @@ namespace {
 /// One line for what went wrong; "" for what did not.
 std::string complaint(const StabilityRow& row) {
     if (row.verdict <= Verdict::worse) return {};
-    std::string line = row.case_name + ": " + technique_name(row.technique, row.point) + ": " + csv_field(row.verdict);
+    std::string line = row.case_name + ": " + point_text({row.technique, row.point}) + ": " + csv_field(row.verdict);
     if (!row.refusal.empty()) return line + ": " + row.refusal;
     if (row.non_finite) line += ", first in " + row.first_non_finite;
     if (row.spread_pixels) line += ", " + std::to_string(row.spread_pixels) + " pixels";

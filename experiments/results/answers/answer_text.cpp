@@ -16,10 +16,7 @@ std::string interval_text(const std::optional<double>& low, const std::optional<
     return low && high ? " [" + shown(*low) + ", " + shown(*high) + "]" : "";
 }
 
-std::string name_of(const AnswerPoint& p) {
-    if (!p.label.empty()) return p.label;
-    return p.point == "default" || p.point.empty() ? p.technique : p.technique + " " + p.point;
-}
+std::string name_of(const AnswerPoint& p) { return point_text({p.technique, p.point}, p.label); }
 
 std::string listed(const std::vector<AnswerPoint>& points, size_t most) {
     std::vector<std::string> names;

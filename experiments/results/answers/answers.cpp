@@ -64,24 +64,8 @@ Ratio inverse(const Ratio& r) {
     return {1 / r.value, inverted(r.high), inverted(r.low)};
 }
 std::optional<AnswerPoint> limit_of(const json& manifest, const std::string& shot, const Headline& headline) {
-    for (const json& entry : manifest.value("shots", json::array())) {
-        if (!entry.is_object() || entry.value("shot", "") != shot) continue;
-        for (const json& rung : entry.value("truth_ladder", json::array()))
-            if (rung.value("rung", "") == "on_screen" && rung.value("target", "") == headline.target &&
-                rung.value("metric", "") == headline.metric && rung.value("mask", "") == headline.mask &&
-                rung.contains("value") && rung["value"].is_number()) {
-                AnswerPoint limit{"truth ladder", "on_screen", rung["value"], {}, {}};
-                read_json(rung.value("low", json()), limit.low), read_json(rung.value("high", json()), limit.high);
-                return limit;
-            }
-    }
-    return {};
-}
-
-/// What manifest.json says of a shot's reference; null where it says nothing.
-json reference_of(const json& manifest, const std::string& shot) {
-    for (const json& entry : manifest.value("shots", json::array()))
-        if (entry.is_object() && entry.value("shot", "") == shot) return entry.value("reference", json());
+    for (const Rung& rung : truth_ladder(manifest, shot, {headline.metric, headline.mask, headline.target}))
+        if (rung.name == "on_screen") return AnswerPoint{"truth ladder", rung.name, rung.value, rung.low, rung.high};
     return {};
 }
 
@@ -104,15 +88,6 @@ struct ClockRecord {
     double floor = 0;        ///< by which two copies of the same point differed: smaller differences say nothing
     bool is_proven = false;  ///< the clock that timed the shot proved itself
 };
-ClockRecord clock_of(const json& manifest, const std::string& shot) {
-    const json clock = manifest.value("clock", json::object());
-    ClockRecord found;
-    found.floor = aa_floor(manifest, shot).value_or(0);
-    for (const json& proof : clock.value("proofs", json::array()))
-        if (std::ranges::count(proof.value("shots", json::array()), json(shot)) > 0)
-            found.is_proven = proof.value("verdict", "") == "passed";
-    return found;
-}
 
 /// " Y takes 0.6x its time at 1.8x the error.": of the front's cheaper points, the one with the least error among those
 /// that save a fifth of the time or more, and more than copies of the same point differ by.
@@ -266,9 +241,10 @@ std::vector<ShotAnswer> shot_answers(const StudyResults& tables) {
                 answer.tied.push_back(s.point);
         }
         answer.front = front_of(scored);
-        const ClockRecord clock = clock_of(manifest, shot);
+        const ClockRecord clock{aa_floor(manifest, shot).value_or(0), is_clock_proven(manifest, shot)};
         answer.is_clock_proven = clock.is_proven;
-        const JudgedShot of_shot{judged, headline.metric, reference_of(manifest, shot), labels, comparisons};
+        const JudgedShot of_shot{judged, headline.metric, shot_entry(manifest, shot).value("reference", json()), labels,
+                                 comparisons};
         answer.sentence =
             sentence_of(answer, scored, headline, clock) + cure_sentences(of_shot) + power_sentence(of_shot);
         answer.perceptual_sentence = perceptual_sentence_of(answer, perceived, headline.perceptual_metric);

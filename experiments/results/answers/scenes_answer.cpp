@@ -4,6 +4,7 @@
 #include "core/number_text.h"
 #include "experiments/results/answers/answer_text.h"
 #include "experiments/results/answers/cause_and_cure.h"
+#include "experiments/results/files/manifest.h"
 #include "experiments/results/verdicts/standings.h"
 #include "experiments/results/verdicts/study_points.h"
 
@@ -23,10 +24,10 @@ constexpr double worth_naming = 0.02;  // of a probability
 std::map<std::string, std::string> scene_names(const std::vector<ShotAnswer>& answers, const json& manifest) {
     std::map<std::string, std::string> names;
     std::map<std::string, size_t> counts;
-    for (const ShotAnswer& a : answers) names[a.shot] = a.shot;
-    for (const json& entry : manifest.value("shots", json::array()))
-        if (entry.is_object() && names.contains(entry.value("shot", "")) && !entry.value("scene", "").empty())
-            names[entry.value("shot", "")] = entry.value("scene", "");
+    for (const ShotAnswer& a : answers) {
+        const std::string scene = shot_entry(manifest, a.shot).value("scene", "");
+        names[a.shot] = scene.empty() ? a.shot : scene;
+    }
     for (const auto& [shot, name] : names) ++counts[name];
     for (auto& [shot, name] : names)
         if (counts[name] > 1) name = shot;

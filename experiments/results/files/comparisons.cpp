@@ -14,3 +14,14 @@ std::vector<PointComparison> comparisons_of(const std::vector<ComparedPoint>& po
                 comparisons.push_back({&p, &other, p.against});
     return comparisons;
 }
+
+std::string point_text(const PointName& name, const std::string& label) {
+    if (!label.empty()) return label;
+    const auto& [technique, point] = name;
+    return point.empty() || point == "default" ? technique : technique + " " + point;
+}
+
+std::string point_text(const PointName& name, const std::map<PointName, std::string>& labels) {
+    const auto own = labels.find(name);
+    return point_text(name, own == labels.end() ? "" : own->second);
+}

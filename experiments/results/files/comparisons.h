@@ -1,6 +1,14 @@
 #pragma once
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
+
+using PointName = std::pair<std::string, std::string>;  // technique, point
+
+/// A point as people read it: by its label, if the study gave it one, else by technique and point.
+std::string point_text(const PointName& name, const std::string& label = "");
+std::string point_text(const PointName& name, const std::map<PointName, std::string>& labels);
 
 /// A point of a study, with what it is compared with.
 struct ComparedPoint {

@@ -36,6 +36,60 @@ nlohmann::json metric_descriptions() {
     return all;
 }
 
+const nlohmann::json& shot_entry(const nlohmann::json& manifest, const std::string& shot) {
+    static const nlohmann::json none = nlohmann::json::object();
+    const auto shots = manifest.find("shots");
+    if (shots == manifest.end()) return none;
+    const auto entry = std::ranges::find_if(*shots, [&](const auto& s) { return s.value("shot", "") == shot; });
+    return entry == shots->end() ? none : *entry;
+}
+
+std::string asset_of(const nlohmann::json& manifest, const std::string& shot) {
+    for (const char* key : {"asset", "scene"})
+        if (const std::string name = shot_entry(manifest, shot).value(key, ""); !name.empty()) return name;
+    return shot;
+}
+
+std::vector<Rung> truth_ladder(const nlohmann::json& manifest, const std::string& shot,
+                               const PrimaryComparisons& error) {
+    std::vector<Rung> rungs;
+    for (const nlohmann::json& rung : shot_entry(manifest, shot).value("truth_ladder", nlohmann::json::array())) {
+        const auto number = [&](const char* key) {
+            const nlohmann::json value = rung.value(key, nlohmann::json());
+            return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
+        };
+        const auto value = number("value");
+        if (value && rung.value("target", "") == error.target && rung.value("metric", "") == error.metric &&
+            rung.value("mask", "") == error.mask)
+            rungs.push_back({rung.value("rung", ""), *value, number("low"), number("high")});
+    }
+    return rungs;
+}
+
+bool is_clock_proven(const nlohmann::json& manifest, const std::string& shot) {
+    const nlohmann::json clock = manifest.value("clock", nlohmann::json::object());
+    bool is_proven = false;
+    for (const nlohmann::json& proof : clock.value("proofs", nlohmann::json::array()))
+        if (std::ranges::count(proof.value("shots", nlohmann::json::array()), nlohmann::json(shot)) > 0)
+            is_proven = proof.value("verdict", "") == "passed";
+    return is_proven;
+}
+
+std::map<PointName, nlohmann::json> parameters_of_points(const nlohmann::json& manifest) {
+    std::map<PointName, nlohmann::json> parameters;
+    for (const nlohmann::json& v : manifest.value("techniques", nlohmann::json::array()))
+        parameters[{v.value("technique", ""), v.value("point", "")}] = v.value("parameters", nlohmann::json::object());
+    return parameters;
+}
+
+std::map<PointName, std::string> point_labels(const nlohmann::json& manifest) {
+    std::map<PointName, std::string> labels;
+    for (const nlohmann::json& v : manifest.value("techniques", nlohmann::json::array()))
+        if (const std::string label = v.value("label", ""); !label.empty())
+            labels[{v.value("technique", ""), v.value("point", "")}] = label;
+    return labels;
+}
+
 std::optional<double> aa_floor(const nlohmann::json& manifest, const std::string& shot) {
     const nlohmann::json::json_pointer place("/clock/aa_floors");
     if (!manifest.contains(place) || !manifest[place].is_object()) return {};

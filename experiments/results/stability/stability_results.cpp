@@ -70,10 +70,6 @@ std::vector<StageFailure> stage_failures(const StabilityResults& tables) {
     return failures;
 }
 
-std::string technique_name(const std::string& technique, const std::string& point) {
-    return technique + (point == "default" ? "" : " " + point);
-}
-
 std::string stability_lead(const StabilityResults& tables) {
     std::set<std::string> techniques, cases, failing;
     std::vector<std::pair<std::string, std::vector<std::string>>>
@@ -83,7 +79,7 @@ std::string stability_lead(const StabilityResults& tables) {
     std::string where;
     for (const StabilityRow& row : tables.rows) {
         if (row.technique == "metrics") continue;
-        const std::string name = technique_name(row.technique, row.point);
+        const std::string name = point_text({row.technique, row.point});
         ++runs, techniques.insert(name), cases.insert(row.case_name);
         if (row.non_finite) ++failed, failing.insert(name);
         if (row.spread_pixels) {
@@ -104,7 +100,7 @@ std::string stability_lead(const StabilityResults& tables) {
     size_t count = 0;
     std::vector<std::string> names;
     for (const auto& [technique, points] : spreading)
-        count += points.size(), names.push_back(technique_name(technique, joined(points)));
+        count += points.size(), names.push_back(point_text({technique, joined(points)}));
     text += spreading.empty() ? "No fault of an input reaches a pixel whose inputs are sound. "
                               : "Faults of an input reach pixels whose inputs are sound in " +
                                     counted(count, "technique") + ": " + joined(names, "; ") + ". ";
@@ -118,7 +114,7 @@ std::vector<std::pair<std::string, std::vector<size_t>>> verdict_counts(const st
     std::vector<std::pair<std::string, std::vector<size_t>>> counts;
     std::map<std::string, size_t> places;
     for (const StabilityRow& row : rows) {
-        const std::string name = technique_name(row.technique, row.point);
+        const std::string name = point_text({row.technique, row.point});
         const auto [place, is_new] = places.try_emplace(name, counts.size());
         if (is_new) counts.emplace_back(name, std::vector<size_t>(verdict_names().size()));
         ++counts[place->second].second[size_t(row.verdict)];

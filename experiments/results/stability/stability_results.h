@@ -1,4 +1,5 @@
 #pragma once
+#include "experiments/results/files/comparisons.h"
 #include "experiments/results/stability/known_failures.h"
 #include "experiments/results/stability/stability_rows.h"
 
@@ -33,9 +34,6 @@ std::string stability_lead(const StabilityResults& tables);
 
 /// How many cases each technique got each verdict in, in the order of stability.csv.
 std::vector<std::pair<std::string, std::vector<size_t>>> verdict_counts(const std::vector<StabilityRow>& rows);
-
-/// A technique as people read it.
-std::string technique_name(const std::string& technique, const std::string& point);
 
 /// The sources among the failures, and how they are fixed, as a table for terminals.
 std::string failures_text(const std::vector<StageFailure>& failures);

@@ -45,7 +45,7 @@ struct AnswerContext {
     Names machines;                ///< those with points at a cost
 
     bool is_timed() const { return found.kind == CostKind::timed; }
-    std::string label_of(const PointName& name) const;
+    std::string label_of(const PointName& name) const { return point_text(name, labels); }
     const MeasuredShot& shot_of(const std::string& name) const;
 };
 

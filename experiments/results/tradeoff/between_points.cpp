@@ -9,56 +9,29 @@ namespace {
 
 using nlohmann::json;
 
-const json& shot_entry(const json& manifest, const std::string& shot) {
-    static const json none = json::object();
-    const auto shots = manifest.find("shots");
-    if (shots == manifest.end()) return none;
-    const auto own = std::ranges::find_if(*shots, [&](const json& s) { return s.value("shot", "") == shot; });
-    return own == shots->end() ? none : *own;
-}
-
 bool is_error(const auto& row, const PrimaryComparisons& error) {
     return row.target == error.target && row.metric == error.metric && row.mask == error.mask;
 }
 
 /// Of the last frame alone: none where the errors stand for all frames of the shot.
-auto ladder_of(const StudyResults& tables, const json& entry, const std::string& shot,
-               const PrimaryComparisons& error) {
-    decltype(MeasuredShot::ladder) ladder;
+std::vector<Rung> ladder_of(const StudyResults& tables, const std::string& shot, const PrimaryComparisons& error) {
     for (const MetricSummary& e : tables.summary)
-        if (e.represents_shot && e.shot == shot && is_error(e, error) && e.frame.empty()) return ladder;
-    for (const json& rung : entry.value("truth_ladder", json::array())) {
-        const auto is = [&](const char* key, const std::string& value) { return rung.value(key, "") == value; };
-        if (!is("target", error.target) || !is("metric", error.metric) || !is("mask", error.mask)) continue;
-        const auto number = [&](const char* key) {
-            const json value = rung.value(key, json());
-            return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
-        };
-        if (const auto value = number("value"))
-            ladder.emplace_back(rung.value("rung", ""), *value, number("low"), number("high"));
-    }
-    return ladder;
+        if (e.represents_shot && e.shot == shot && is_error(e, error) && e.frame.empty()) return {};
+    return truth_ladder(tables.manifest, shot, error);
 }
 
 std::unique_ptr<MeasuredShot> measured_shot(const StudyResults& tables, const PrimaryComparisons& error,
                                             const Tradeoff& found, const FrontRow& first) {
     auto shot = std::make_unique<MeasuredShot>();
-    const json& entry = shot_entry(tables.manifest, first.shot);
-    const json clock = tables.manifest.value("clock", json::object());
     shot->name = first.shot, shot->scene = first.scene, shot->machine = first.machine;
-    const json label = entry.value("label", json());
-    shot->label = label.is_string() && !label.get<std::string>().empty() ? label.get<std::string>() : first.shot;
+    const std::string label = shot_entry(tables.manifest, first.shot).value("label", "");
+    shot->label = label.empty() ? first.shot : label;
     shot->divisor = std::ranges::find(found.divisors, first.shot, [](const auto& d) { return d.first; })->second;
     if (found.kind == CostKind::timed) {
-        const json floor = clock.value("aa_floors", json::object()).value(first.shot, json());
-        if (floor.is_number()) shot->floor = floor.get<double>();
-        const json proofs = clock.value("proofs", json::array());
-        shot->is_clock_proven = std::ranges::any_of(proofs, [&](const json& proof) {
-            const json shots = proof.value("shots", json::array());
-            return proof.value("verdict", "") == "passed" && std::ranges::find(shots, json(first.shot)) != shots.end();
-        });
+        shot->floor = aa_floor(tables.manifest, first.shot).value_or(shot->floor);
+        shot->is_clock_proven = is_clock_proven(tables.manifest, first.shot);
     }
-    shot->ladder = ladder_of(tables, entry, first.shot, error);
+    shot->ladder = ladder_of(tables, first.shot, error);
     for (const FrontRow& row : found.front) {
         if (row.shot != first.shot) continue;
         MeasuredPoint& p = shot->points.emplace_back(MeasuredPoint{.row = row, .seeds = {}, .rounds = {}});
@@ -154,8 +127,7 @@ struct OverRung {
 
 OverRung over_rung(const MeasuredShot& shot, const std::string& name, const std::optional<double>& error,
                    const std::optional<double>& error_low, const std::optional<double>& error_high) {
-    const auto& [rung, value, low, high] =
-        *std::ranges::find(shot.ladder, name, [](const auto& entry) { return std::get<0>(entry); });
+    const auto& [rung, value, low, high] = *std::ranges::find(shot.ladder, name, &Rung::name);
     OverRung found{.rung = rung, .error = value, .low = low, .high = high, .over = {}, .over_low = {}, .over_high = {}};
     if (!error || !(value > 0)) return found;
     found.over = *error / value;
@@ -165,7 +137,7 @@ OverRung over_rung(const MeasuredShot& shot, const std::string& name, const std:
 }
 
 bool has_rung(const MeasuredShot& shot, const std::string& name) {
-    return std::ranges::any_of(shot.ladder, [&](const auto& entry) { return std::get<0>(entry) == name; });
+    return std::ranges::count(shot.ladder, name, &Rung::name) > 0;
 }
 
 void add_limits(const MeasuredShot& shot, const Tradeoff& found, std::vector<LimitRow>& rows) {
@@ -218,9 +190,7 @@ std::string csv_field(const NineDigits& value) {
 
 BetweenPoints between_points(const StudyResults& tables, const PrimaryComparisons& error, const Tradeoff& found,
                              std::span<const double> costs, std::span<const double> factors) {
-    std::map<PointName, json> parameters;
-    for (const json& v : tables.manifest.value("techniques", json::array()))
-        parameters[{v.value("technique", ""), v.value("point", "")}] = v.value("parameters", json::object());
+    const std::map<PointName, json> parameters = parameters_of_points(tables.manifest);
     BetweenPoints between;
     for (const FrontRow& row : found.front)
         if (std::ranges::none_of(between.shots, [&](const auto& shot) { return shot->name == row.shot; }))

@@ -1,4 +1,5 @@
 #pragma once
+#include "experiments/results/files/manifest.h"
 #include "experiments/results/tradeoff/curves.h"
 #include "experiments/results/tradeoff/fits.h"
 
@@ -75,7 +76,7 @@ struct MeasuredShot {
     double floor = 0;               ///< relative difference of costs below which nothing is said
     bool is_clock_proven = true;    ///< also of costs that are not timed
     std::vector<MeasuredPoint> points;
-    std::vector<std::tuple<std::string, double, std::optional<double>, std::optional<double>>> ladder;  ///< rungs
+    std::vector<Rung> ladder;
     std::vector<std::pair<std::string, Curve>> curves;  ///< by technique, of its judged points
 };
 

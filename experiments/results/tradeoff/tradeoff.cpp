@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/number_text.h"
+#include "experiments/results/files/manifest.h"
 #include "experiments/results/tradeoff/tradeoff_shots.h"
 #include "experiments/results/verdicts/standings.h"
 #include "experiments/results/verdicts/study_points.h"
@@ -17,15 +18,6 @@ using nlohmann::json;
 std::string text_of(const json& object, const char* key) {
     const json value = object.is_object() ? object.value(key, json()) : json();
     return value.is_string() ? value.get<std::string>() : value.is_null() ? "?" : value.dump();
-}
-
-const json& entry_of(const json& manifest, const std::string& shot) {
-    static const json none = json::object();
-    const auto shots = manifest.find("shots");
-    if (shots == manifest.end()) return none;
-    for (const json& entry : *shots)
-        if (entry.value("shot", "") == shot) return entry;
-    return none;
 }
 
 /// Shot to the processor and the device that its times were taken on.
@@ -46,11 +38,6 @@ std::map<std::string, std::string> machines_of(const json& manifest) {
 
 using Labels = std::map<PointName, std::string>;
 
-std::string label_of(const Labels& labels, const PointName& name) {
-    if (const auto own = labels.find(name); own != labels.end() && !own->second.empty()) return own->second;
-    return name.second.empty() || name.second == "default" ? name.first : name.first + " " + name.second;
-}
-
 /// The shots that have such an error, with all their points.
 std::vector<TradeoffShot> shots_of(const StudyResults& tables, const TradeoffQuestion& question, const Labels& labels) {
     std::vector<TradeoffShot> shots;
@@ -60,15 +47,16 @@ std::vector<TradeoffShot> shots_of(const StudyResults& tables, const TradeoffQue
             continue;
         auto shot = std::ranges::find(shots, e.shot, &TradeoffShot::name);
         if (shot == shots.end()) {
-            const std::string scene = entry_of(tables.manifest, e.shot).value("scene", "");
+            const json& entry = shot_entry(tables.manifest, e.shot);
+            const std::string scene = entry.value("scene", "");
             shot = shots.insert(shot, TradeoffShot{.name = e.shot,
                                                    .scene = scene.empty() ? e.shot.substr(0, e.shot.find('.')) : scene,
                                                    .asset = asset_of(tables.manifest, e.shot),
-                                                   .group = entry_of(tables.manifest, e.shot).value("group", "")});
+                                                   .group = entry.value("group", "")});
         }
         TradeoffPoint& p = shot->points.emplace_back(TradeoffPoint{.error = &e});
         p.row = {.shot = e.shot, .scene = shot->scene, .technique = e.technique, .point = e.point};
-        p.row.label = label_of(labels, {e.technique, e.point});
+        p.row.label = point_text({e.technique, e.point}, labels);
         p.row.error = e.value, p.row.error_low = e.low, p.row.error_high = e.high;
     }
     return shots;
@@ -122,7 +110,7 @@ void add_costs(std::vector<TradeoffShot>& shots, const StudyResults& tables, con
                 p.fits_from = t.fits_from, p.may_fit_from = t.may_fit_from, clock = t.clock;
             }
         }
-        const json& entry = entry_of(tables.manifest, shot.name);
+        const json& entry = shot_entry(tables.manifest, shot.name);
         shot.machine = text_of(entry, "width") + "x" + text_of(entry, "height");
         if (is_timed && clock.empty())
             shot.machine = "not timed, " + shot.machine;
@@ -337,7 +325,7 @@ Tradeoff tradeoff_of(const StudyResults& tables, const TradeoffQuestion& questio
         std::vector<TradeoffShot> of_group = shots;
         if (!group.empty()) std::erase_if(of_group, [&](const TradeoffShot& shot) { return shot.group != group; });
         std::vector<AcrossRow> rows = across_points(of_group, question.error.margin, less);
-        for (AcrossRow& row : rows) row.label = label_of(labels, {row.technique, row.point});
+        for (AcrossRow& row : rows) row.label = point_text({row.technique, row.point}, labels);
         for (const std::string& machine : machines)
             for (const double cost : question.costs)
                 std::ranges::move(across_at(machine, cost, of_group, found.chosen, question.error.margin, less),
@@ -345,7 +333,7 @@ Tradeoff tradeoff_of(const StudyResults& tables, const TradeoffQuestion& questio
         for (AcrossRow& row : rows) row.group = group;
         std::ranges::move(rows, std::back_inserter(found.across));
     }
-    for (AcrossRow& row : found.across) row.baseline = label_of(labels, found.baseline), row.unit = found.unit;
+    for (AcrossRow& row : found.across) row.baseline = point_text(found.baseline, labels), row.unit = found.unit;
     found.changes = changes_of(tables, question.error, found.front, found.unit, question.cost);
     return found;
 }

@@ -197,12 +197,6 @@ AnswerContext::AnswerContext(const StudyResults& tables, const PrimaryComparison
     machines = distinct(at_costs, &AcrossRow::machine);
 }
 
-std::string AnswerContext::label_of(const PointName& name) const {
-    const auto own = labels.find(name);
-    if (own != labels.end() && !own->second.empty()) return own->second;
-    return name.second.empty() || name.second == "default" ? name.first : name.first + " " + name.second;
-}
-
 const MeasuredShot& AnswerContext::shot_of(const std::string& name) const {
     return **std::ranges::find(between.shots, name, [](const auto& shot) { return shot->name; });
 }

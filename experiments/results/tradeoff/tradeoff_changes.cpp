@@ -176,9 +176,7 @@ std::vector<ChangeRow> changes_of(const StudyResults& tables, const PrimaryCompa
     using PairName = std::pair<Name, Name>;
     std::map<Name, const FrontRow*> points;
     for (const FrontRow& p : front) points[{p.shot, p.technique, p.point}] = &p;
-    std::map<PointName, json> parameters;
-    for (const json& v : tables.manifest.value("techniques", json::array()))
-        parameters[{v.value("technique", ""), v.value("point", "")}] = v.value("parameters", json::object());
+    std::map<PointName, json> parameters = parameters_of_points(tables.manifest);
     std::map<PairName, const TimeEffectRow*> time_effects;
     if (unit == unit_of_times)
         for (const TimeEffectRow& t : tables.time_effects)

@@ -2,7 +2,6 @@
 
 #include "core/error.h"
 #include "core/files.h"
-#include "experiments/results/evaluation.h"
 #include "experiments/results/files/manifest.h"
 #include "experiments/results/verdicts/interval.h"
 #include "experiments/results/verdicts/standings.h"
@@ -54,10 +53,8 @@ struct ComparedFolder {
 /// What the pixels of a shot's references are known by: how they were made, and what their noise came out as.
 json truth_of(const json& manifest, const std::string& shot) {
     json found = json::array();
-    for (const json& entry : manifest.value("shots", json::array()))
-        if (entry.value("shot", "") == shot)
-            for (const json& r : entry.value("references", json::array()))
-                found.push_back({r.value("hash", ""), r.value("relative_error", json()), r.value("rays", json())});
+    for (const json& r : shot_entry(manifest, shot).value("references", json::array()))
+        found.push_back({r.value("hash", ""), r.value("relative_error", json()), r.value("rays", json())});
     return found;
 }
 

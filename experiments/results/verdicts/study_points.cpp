@@ -1,5 +1,6 @@
 #include "experiments/results/verdicts/study_points.h"
 
+#include "experiments/results/files/manifest.h"
 #include "variants/registry.h"
 
 #include <algorithm>
@@ -8,27 +9,12 @@ namespace {
 
 using nlohmann::json;
 
-struct RunPoint {
-    std::string technique, point;
-    json parameters;
-};
-
-std::vector<RunPoint> read_points(const json& manifest) {
-    std::vector<RunPoint> points;
-    const json techniques = manifest.value("techniques", json::array());
-    for (const json& v : techniques)
-        if (v.is_object() && v.contains("technique") && v["technique"].is_string() && v.contains("point") &&
-            v["point"].is_string() && v.contains("parameters") && v["parameters"].is_object())
-            points.push_back({v["technique"], v["point"], v["parameters"]});
-    return points;
-}
-
 /// Those of the manifest's techniques for which `is_chosen(entry)`.
 template <class IsChosen>
 PointSet points_where(const json& manifest, IsChosen is_chosen) {
     PointSet points;
     for (const json& v : manifest.value("techniques", json::array()))
-        if (v.is_object() && is_chosen(v)) points.insert({v.value("technique", ""), v.value("point", "")});
+        if (is_chosen(v)) points.insert({v.value("technique", ""), v.value("point", "")});
     return points;
 }
 
@@ -48,10 +34,10 @@ PointSet single_changes(const json& manifest) {
 
 json parameter_defaults(const json& manifest) {
     json defaults = json::object();
-    for (const RunPoint& p : read_points(manifest))
-        if (!defaults.contains(p.technique) &&
-            std::ranges::find(technique_table(), p.technique, &TechniqueEntry::name) != technique_table().end())
-            defaults[p.technique] = make_technique(p.technique)->params.values();
+    for (const auto& [name, parameters] : parameters_of_points(manifest))
+        if (!defaults.contains(name.first) &&
+            std::ranges::find(technique_table(), name.first, &TechniqueEntry::name) != technique_table().end())
+            defaults[name.first] = make_technique(name.first)->params.values();
     return defaults;
 }
 
@@ -66,12 +52,4 @@ PointSet points_not_repeatable(const json& manifest) {
 
 PointSet points_using_scene_data(const json& manifest) {
     return points_where(manifest, [](const json& v) { return v.value("uses_scene_data", false); });
-}
-
-std::map<std::pair<std::string, std::string>, std::string> point_labels(const json& manifest) {
-    std::map<std::pair<std::string, std::string>, std::string> labels;
-    for (const json& v : manifest.value("techniques", json::array()))
-        if (v.is_object() && v.contains("label") && v["label"].is_string())
-            labels[{v.value("technique", ""), v.value("point", "")}] = v["label"];
-    return labels;
 }

@@ -27,6 +27,3 @@ PointSet points_not_repeatable(const nlohmann::json& manifest);
 
 /// Points that use scene data, which no engine has (exact_scene, exact_rays): they are never ranked.
 PointSet points_using_scene_data(const nlohmann::json& manifest);
-
-/// The names that the study gave its points, by (technique, point).
-std::map<std::pair<std::string, std::string>, std::string> point_labels(const nlohmann::json& manifest);

@@ -284,7 +284,7 @@ json technique_schema(const TechniqueEntry& entry) {
 std::string display_name(const Config& config, const std::string& technique, const std::string& point) {
     for (const PointConfig& v : config.techniques)
         if (v.technique == technique && v.point == point && !v.label.empty()) return v.label;
-    return point == "default" ? technique : technique + " " + point;
+    return point_text({technique, point});
 }
 
 Config read_config(const std::filesystem::path& file) {

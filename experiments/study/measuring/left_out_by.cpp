@@ -14,7 +14,7 @@ std::vector<LeftOutBy> left_out_of(const Shot& shot, const std::vector<PointConf
         for (const LeftOut& part : left_out_of_rasterizer(shot.facts)) all.push_back({"rasteriser", part});
     }
     for (const PointConfig& v : techniques) {
-        const std::string who = v.point == "default" ? v.technique : v.technique + " " + v.point;
+        const std::string who = point_text({v.technique, v.point});
         for (const LeftOut& part : technique_of(v)->leave_out(shot.facts)) all.push_back({who, part});
     }
     return all;

@@ -32,7 +32,7 @@ struct EffectRow {
 };
 
 /// (technique, point)
-using PointSet = std::set<std::pair<std::string, std::string>>;
+using PointSet = std::set<PointName>;
 
 /// All comparisons_of() `compared` by errors for which less is better, over the seeds that both have
 /// (jackknifed_ratio()): the ratio of the mean errors, since a mean of the seeds' ratios would hide what few seeds with

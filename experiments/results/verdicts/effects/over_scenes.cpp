@@ -1,6 +1,7 @@
 #include "experiments/results/verdicts/effects/over_scenes.h"
 
 #include "core/error.h"
+#include "experiments/results/files/manifest.h"
 #include "experiments/results/verdicts/family.h"
 #include "experiments/results/verdicts/standings.h"
 #include "experiments/results/verdicts/study_points.h"
@@ -172,16 +173,6 @@ void set_standings(std::vector<OverScenes>& points, OverScenes& first, std::span
 }
 
 }  // namespace
-
-std::string asset_of(const nlohmann::json& manifest, const std::string& shot) {
-    const auto shots = manifest.find("shots");
-    if (shots == manifest.end()) return shot;
-    for (const nlohmann::json& entry : *shots)
-        if (entry.is_object() && entry.value("shot", "") == shot)
-            for (const char* key : {"asset", "scene"})
-                if (const std::string name = entry.value(key, ""); !name.empty()) return name;
-    return shot;
-}
 
 MeanOverScenes mean_over_scenes(std::span<const ShotValue> values) {
     if (values.empty()) fail("a mean over scenes needs a value");

@@ -7,9 +7,6 @@
 
 // What holds over scenes: they are the sample. Shots of one scene, and scenes of one asset, are averaged first.
 
-/// What a shot's scene shows, as the manifest has it: scenes of one asset are no independent samples.
-std::string asset_of(const nlohmann::json& manifest, const std::string& shot);
-
 /// A value of one shot.
 struct ShotValue {
     std::string asset;
@@ -31,9 +28,6 @@ MeanOverScenes mean_over_scenes(std::span<const ShotValue> values);
 /// for comparison alone: of few scenes it is too narrow. The same numbers whenever it is asked with the same `seed`;
 /// none below least_scenes, or where all are the same.
 std::optional<std::pair<double, double>> bootstrap_over_scenes(std::span<const double> values, unsigned seed = 1);
-
-/// A point, or what else is compared by name.
-using PointName = std::pair<std::string, std::string>;  // technique, point
 
 /// One shot's errors of all that is compared over scenes, with and without the reference's noise.
 struct ShotErrors {
