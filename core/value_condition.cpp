@@ -1,7 +1,6 @@
 #include "core/value_condition.h"
 
 #include "core/error.h"
-#include "core/json.h"
 #include "core/near_miss.h"
 
 #include <algorithm>
@@ -56,4 +55,21 @@ void check_condition(const json& condition, const json& sample, const std::strin
     } else {
         check_value(condition);
     }
+}
+
+void check_conditions(const json& conditions, const json& samples, const JsonObject& places) {
+    for (const auto& [name, condition] : conditions.items()) {
+        if (!samples.contains(name)) {
+            std::vector<std::string> known;
+            for (const auto& [value_name, value] : samples.items()) known.push_back(value_name);
+            fail(places.at(name), ": '", shortened(name), "' is no parameter and no fact of a shot",
+                 suggestion(name, known));
+        }
+        check_condition(condition, samples[name], places.at(name) + ": '" + name + "'");
+    }
+}
+
+bool all_hold(const json& conditions, const json& values) {
+    return std::ranges::all_of(conditions.items(),
+                               [&](const auto& member) { return holds(member.value(), values.at(member.key())); });
 }

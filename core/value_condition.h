@@ -1,4 +1,6 @@
 #pragma once
+#include "core/json.h"
+
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -11,3 +13,11 @@ void check_condition(const nlohmann::json& condition, const nlohmann::json& samp
 /// Whether the value passes a condition that check_condition() let through. Numbers are compared as float32 holds them:
 /// 0.1 of a condition is the 0.1 of a parameter.
 bool holds(const nlohmann::json& condition, const nlohmann::json& value);
+
+// Conditions on several values, by their names: {"dda.stride": {"at_least": 2}, "shot.has_matte": false}.
+
+/// Fails with Error unless all names are among those of `samples`, and each condition can be put to values like its
+/// sample. `places` tells where the conditions stand.
+void check_conditions(const nlohmann::json& conditions, const nlohmann::json& samples, const JsonObject& places);
+
+bool all_hold(const nlohmann::json& conditions, const nlohmann::json& values);

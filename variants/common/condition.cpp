@@ -1,70 +1,56 @@
 #include "variants/common/condition.h"
 
 #include "core/error.h"
-#include "core/near_miss.h"
 #include "core/value_condition.h"
 
 #include <algorithm>
 
 using nlohmann::json;
 
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SceneFacts, has_geometry, has_reflective, has_matte, min_roughness, max_roughness,
+                                   camera_moves, objects_move, has_environment, has_textures, has_alpha_masks,
+                                   has_normal_maps, has_vertex_colors, has_faulty_inputs)
+
 namespace {
 
-const SceneFacts anything = {.has_geometry = true,
-                             .has_reflective = true,
-                             .has_matte = true,
-                             .min_roughness = 0,
-                             .max_roughness = 1,
-                             .camera_moves = true,
-                             .objects_move = true,
-                             .has_environment = true};
-
-/// The test with values in place of the names of parameters.
-json with_limits(const json& test, const KnownValues& known) {
-    if (!test.is_object()) return test;
-    json with = test;
-    for (json& limit : with)
-        if (limit.is_string() && known.by_name().contains(limit)) limit = known.by_name()[limit.get<std::string>()];
-    return with;
+/// Of a shot of which nothing is known.
+json facts_of_anything() {
+    json facts = facts_by_name({});
+    for (json& fact : facts)
+        if (fact.is_boolean()) fact = true;
+    facts["shot.is_still"] = false;
+    facts["shot.min_roughness"] = json_number(0), facts["shot.max_roughness"] = json_number(1);
+    return facts;
 }
 
-bool member_holds(const json& test, const json& value, const KnownValues& known) {
-    return holds(value.is_number() ? with_limits(test, known) : test, value);
-}
-
-bool all_hold(const json& members, const KnownValues& known) {
-    return std::ranges::all_of(members.items(), [&](const auto& member) {
-        return member_holds(member.value(), known.by_name().at(member.key()), known);
-    });
+/// The conditions with values in place of the names of parameters.
+json with_limits(json conditions, const json& values) {
+    for (const auto& [name, condition] : conditions.items())
+        if (condition.is_object() && values.contains(name) && values[name].is_number())
+            for (json& limit : condition)
+                if (limit.is_string() && values.contains(limit)) limit = values[limit.get<std::string>()];
+    return conditions;
 }
 
 void check_members(const JsonObject& condition, const json& members, const KnownValues& known) {
-    for (const auto& [name, test] : members.items()) {
-        if (!known.by_name().contains(name)) {
-            std::vector<std::string> names;
-            for (const auto& [value_name, value] : known.by_name().items()) names.push_back(value_name);
-            fail(condition.at(name), ": '", shortened(name), "' is no parameter and no fact of a shot",
-                 suggestion(name, names));
-        }
-        const json& value = known.by_name()[name];
-        check_condition(value.is_number() ? with_limits(test, known) : test, value,
-                        condition.at(name) + ": '" + name + "'");
-    }
+    check_conditions(with_limits(members, known.by_name()), known.by_name(), condition);
 }
 
 }  // namespace
+
+json facts_by_name(const SceneFacts& facts) {
+    json named = {{"shot.is_still", facts.is_still()}};
+    const json own = facts;
+    for (const auto& [name, fact] : own.items())
+        named["shot." + name] = fact.is_number() ? json_number(fact.get<float>()) : fact;
+    return named;
+}
 
 KnownValues::KnownValues(const ParameterSet& params) : KnownValues(params, std::nullopt) {}
 
 KnownValues::KnownValues(const ParameterSet& params, const std::optional<SceneFacts>& known)
     : values_(params.values()), knows_shot_(known.has_value()) {
-    const SceneFacts& facts = known ? *known : anything;
-    values_["shot.has_reflective"] = facts.has_reflective;
-    values_["shot.has_matte"] = facts.has_matte;
-    values_["shot.min_roughness"] = json_number(facts.min_roughness);
-    values_["shot.max_roughness"] = json_number(facts.max_roughness);
-    values_["shot.is_still"] = facts.is_still();
-    values_["shot.has_environment"] = facts.has_environment;
+    values_.update(known ? facts_by_name(*known) : facts_of_anything());
     values_["device.is_gpu"] = false;
 }
 
@@ -99,13 +85,17 @@ Condition Condition::or_truth(JsonObject& object, const std::string& key, const 
 
 bool Condition::holds(const KnownValues& known) const {
     if (is_never_) return false;
-    return any_.empty() || std::ranges::any_of(any_, [&](const json& members) { return all_hold(members, known); });
+    return any_.empty() || std::ranges::any_of(any_, [&](const json& members) {
+               return all_hold(with_limits(members, known.by_name()), known.by_name());
+           });
 }
 
 std::string Condition::failing_member(const KnownValues& known) const {
-    for (const json& members : any_)
-        for (const auto& [name, test] : members.items())
-            if (const json& value = known.by_name().at(name); !member_holds(test, value, known))
+    for (const json& members : any_) {
+        const json limited = with_limits(members, known.by_name());
+        for (const auto& [name, test] : limited.items())
+            if (const json& value = known.by_name().at(name); !::holds(test, value))
                 return name + " is " + shown(value);
+    }
     return {};
 }

@@ -7,7 +7,10 @@
 
 struct NamedCondition;
 
-/// What conditions can ask for: values of parameters, facts of the shot that is rendered, as `shot.max_roughness`,
+/// The facts as conditions name them, `shot.max_roughness`.
+nlohmann::json facts_by_name(const SceneFacts& facts);
+
+/// What conditions can ask for: values of parameters, facts of the shot that is rendered (facts_by_name()),
 /// whether the device takes the forms of shaders for GPUs (`device.is_gpu`), and conditions with a name.
 class KnownValues {
 public:

@@ -1,10 +1,9 @@
 #include "experiments/study/config/points/conditions.h"
 
-#include "core/error.h"
-#include "core/near_miss.h"
 #include "core/value_condition.h"
 #include "experiments/study/config/points/external_images.h"
 #include "experiments/study/config/shots/read_shots.h"
+#include "variants/common/condition.h"
 
 #include <algorithm>
 
@@ -15,26 +14,12 @@ using nlohmann::json;
 const std::string shot_prefix = "shot.";
 
 json values_of(const Shot& shot) {
-    const SceneFacts& facts = shot.facts;
-    json values = {{"shot.scene", shot.scene.name},
+    json values = facts_by_name(shot.facts);
+    values.update({{"shot.scene", shot.scene.name},
                    {"shot.camera", shot.camera.name},
                    {"shot.width", shot.config.extent.x},
                    {"shot.height", shot.config.extent.y},
-                   {"shot.frames", shot.config.frames.size()},
-                   {"shot.has_geometry", facts.has_geometry},
-                   {"shot.has_reflective", facts.has_reflective},
-                   {"shot.has_matte", facts.has_matte},
-                   {"shot.min_roughness", json_number(facts.min_roughness)},
-                   {"shot.max_roughness", json_number(facts.max_roughness)},
-                   {"shot.camera_moves", facts.camera_moves},
-                   {"shot.objects_move", facts.objects_move},
-                   {"shot.is_still", facts.is_still()},
-                   {"shot.has_environment", facts.has_environment},
-                   {"shot.has_textures", facts.has_textures},
-                   {"shot.has_alpha_masks", facts.has_alpha_masks},
-                   {"shot.has_normal_maps", facts.has_normal_maps},
-                   {"shot.has_vertex_colors", facts.has_vertex_colors},
-                   {"shot.has_faulty_inputs", facts.has_faulty_inputs}};
+                   {"shot.frames", shot.config.frames.size()}});
     const json settings = shot_settings(shot.config);
     for (const auto& [setting, word] : settings.items()) values[shot_prefix + setting] = word;
     return values;
@@ -56,18 +41,10 @@ std::vector<PointCondition> read_conditions(ConfigObject& entry, const Parameter
     if (!entry.has("only_if") && !entry.has("skip_if")) return {};
     json samples = values_of(Shot{});
     samples.update(declared.values());
-    std::vector<std::string> known;
-    for (const auto& [name, value] : samples.items()) known.push_back(name);
     std::vector<PointCondition> conditions;
     for (const char* key : {"only_if", "skip_if"}) {
         if (!entry.has(key)) continue;
-        const JsonObject tests = entry.plain(key);
-        for (const auto& [name, test] : entry[key].items()) {
-            if (!samples.contains(name))
-                fail(tests.at(name), ": '", shortened(name), "' is no parameter and nothing of a shot",
-                     suggestion(name, known));
-            check_condition(test, samples[name], tests.at(name) + ": '" + name + "'");
-        }
+        check_conditions(entry[key], samples, entry.plain(key));
         conditions.push_back({.skips = key == std::string("skip_if"), .tests = entry[key]});
     }
     return conditions;
@@ -101,11 +78,8 @@ std::string why_skipped(const PointConfig& technique, const Shot& shot) {
     }
     if (technique.conditions.empty()) return "";
     const json values = values_of(shot);
-    for (const PointCondition& condition : technique.conditions) {
-        const bool all_hold = std::ranges::all_of(
-            condition.tests.items(), [&](const auto& test) { return holds(test.value(), values.at(test.key())); });
-        if (all_hold == condition.skips) return text_of(condition);
-    }
+    for (const PointCondition& condition : technique.conditions)
+        if (all_hold(condition.tests, values) == condition.skips) return text_of(condition);
     return "";
 }
 
