@@ -7,6 +7,7 @@
 #include "experiments/results/cells/cell_store.h"
 #include "experiments/results/cells/study_rows.h"
 #include "experiments/results/verdicts/judgement.h"
+#include "experiments/study/config/comparisons.h"
 #include "tests/experiments/study/external_fixture.h"
 
 #include <unistd.h>
@@ -51,7 +52,8 @@ public:
         const std::vector<PointConfig> techniques = {side("frames", false), side("before", true)};
         MeasuredRows chosen;
         take(point, frames, "frames", chosen), take("as_is", before, "before", chosen);
-        std::vector<EffectRow> effects = paired_effects(chosen.results, techniques, {}, chosen.reference_noise);
+        std::vector<EffectRow> effects =
+            paired_effects(chosen.results, compared_points(techniques), {}, chosen.reference_noise);
         set_verdicts(effects, {});
         return judge_effects(effects, {}, {"three_ssr", "frames"}, {"three_ssr", "before"}).verdict;
     }
