@@ -138,16 +138,9 @@ std::string named_format(std::string_view start, const std::string& file, ImageU
 
 /// The name of a format that is read and holds display codes; nullptr of others.
 const char* name_of_codes(ImageFormat format) {
-    switch (format) {
-        case ImageFormat::png:
-            return "PNG";
-        case ImageFormat::jpeg:
-            return "JPEG";
-        case ImageFormat::webp:
-            return "WebP";
-        default:
-            return nullptr;
-    }
+    if (format == ImageFormat::png) return "PNG";
+    if (format == ImageFormat::jpeg) return "JPEG";
+    return format == ImageFormat::webp ? "WebP" : nullptr;
 }
 
 }  // namespace

@@ -216,6 +216,10 @@ JsonDocument read_json_document(const std::filesystem::path& file) {
     return document;
 }
 
+std::vector<std::string> keys_of(const json& object) {
+    return names_of(object.items(), [](const auto& member) { return member.key(); });
+}
+
 std::string member_pointer(const std::string& pointer, const std::string& key) {
     std::string escaped;
     for (const char c : key) escaped += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);

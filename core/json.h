@@ -1,9 +1,12 @@
 #pragma once
+#include "core/list_text.h"
+
 #include <algorithm>
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <ranges>
 #include <set>
 #include <string>
 #include <string_view>
@@ -19,6 +22,9 @@ nlohmann::json parse_json(std::string_view text, const std::string& name, bool a
 
 /// parse_json() of a file, which may have comments.
 nlohmann::json read_json(const std::filesystem::path& file);
+
+/// Of an object; empty of anything else.
+std::vector<std::string> keys_of(const nlohmann::json& object);
 
 /// Where a value was written, line and column from 1: of a member of an object its key, of an element of an array its
 /// first character.
@@ -71,8 +77,7 @@ public:
     /// The value that stands beside the name; the first of them if the key is absent.
     template <class T>
     T value_of(const std::string& key, const std::vector<std::pair<std::string, T>>& choices) {
-        std::vector<std::string> names;
-        for (const auto& [name, value] : choices) names.push_back(name);
+        const std::vector<std::string> names = names_of(std::views::keys(choices));
         const std::string chosen = choice(key, names, names.front());
         return choices[size_t(std::ranges::find(names, chosen) - names.begin())].second;
     }

@@ -1,8 +1,17 @@
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
-// Lists of names in sentences.
+// Lists of names, also in sentences.
+
+/// Of all elements: a member of each, or what a function makes of it.
+template <class Range, class Name = std::identity>
+std::vector<std::string> names_of(const Range& all, Name name = {}) {
+    std::vector<std::string> names;
+    for (const auto& one : all) names.emplace_back(std::invoke(name, one));
+    return names;
+}
 
 /// "A, B, C".
 std::string joined(const std::vector<std::string>& names, const std::string& between = ", ");

@@ -74,7 +74,5 @@ std::string nearest_name(std::string_view name, std::span<const std::string> cho
 
 std::string suggestion(std::string_view name, std::span<const std::string> choices) {
     if (const std::string near = nearest_name(name, choices); !near.empty()) return "; did you mean '" + near + "'?";
-    std::string list = "; known are: ";
-    for (size_t i = 0; i < choices.size(); ++i) list += (i ? ", " : "") + shortened(choices[i]);
-    return list;
+    return choices.empty() ? "; there are none" : "; known are: " + joined(names_of(choices, shortened));
 }

@@ -1,4 +1,8 @@
 #pragma once
+#include "core/error.h"
+#include "core/list_text.h"
+
+#include <algorithm>
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,5 +15,15 @@ std::string shortened(const std::string& text);
 /// than 100 characters is no name that somebody misspelt, and is near none.
 std::string nearest_name(std::string_view name, std::span<const std::string> choices);
 
-/// "; did you mean 'thickness'?" where a near miss exists, else "; known are: a, b, c".
+/// "; did you mean 'thickness'?" where a near miss exists, else "; known are: a, b, c", or "; there are none".
 std::string suggestion(std::string_view name, std::span<const std::string> choices);
+
+/// The entry whose member `name` is that; fails with "<what> 'NAME'; did you mean ..." where there is none.
+template <std::ranges::borrowed_range Entries, class... What>
+auto& find_named(Entries&& entries, const std::string& name, const What&... what) {
+    const auto name_of = [](const auto& entry) -> const std::string& { return entry.name; };
+    const auto found = std::ranges::find(entries, name, name_of);
+    if (found == std::ranges::end(entries))
+        fail(what..., " '", shortened(name), "'", suggestion(name, names_of(entries, name_of)));
+    return *found;
+}

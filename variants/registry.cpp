@@ -89,17 +89,6 @@ void add_tuned_presets(TechniqueEntry& entry, const std::filesystem::path& file)
 
 namespace {
 
-template <class Entries>
-const auto& find_named(const Entries& entries, const std::string& name, const std::string& what) {
-    std::vector<std::string> names;
-    for (const auto& entry : entries) {
-        if (entry.name == name) return entry;
-        names.push_back(entry.name);
-    }
-    if (names.empty()) fail("unknown ", what, " '", name, "'; there are none");
-    fail("unknown ", what, " '", name, "'", suggestion(name, names));
-}
-
 bool are_lifted(const TechniqueLimits& limits, const nlohmann::json& parameters) {
     for (const auto& [name, value] : limits.lifted_by.items())
         if (parameters.at(name) == value) return true;
@@ -109,7 +98,7 @@ bool are_lifted(const TechniqueLimits& limits, const nlohmann::json& parameters)
 }  // namespace
 
 const TechniqueEntry& find_technique(const std::string& name) {
-    return find_named(technique_table(), name, "technique");
+    return find_named(technique_table(), name, "unknown technique");
 }
 
 bool is_read(const ParameterSet& params, const std::string& name) {
@@ -129,7 +118,7 @@ std::unique_ptr<Technique> make_technique(const std::string& name, const nlohman
     const TechniqueEntry& entry = find_technique(name);
     std::unique_ptr<Technique> technique = entry.create();
     if (!preset.empty()) {
-        const std::string what = "preset of technique '" + name + "':";
+        const std::string what = "unknown preset of technique '" + name + "':";
         technique->params.assign(find_named(entry.presets, present_preset(name, preset), what).parameters);
     }
     try {

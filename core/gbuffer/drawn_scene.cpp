@@ -22,20 +22,11 @@ std::span<const std::byte> bytes_of(const std::vector<T>& values) {
 }
 
 const TextureSlot& slot_of(const Material& material, unsigned slot) {
-    switch (slot) {
-        case slot_base_color:
-            return material.base_color_texture;
-        case slot_metalness_roughness:
-            return material.metalness_roughness_texture;
-        case slot_normal:
-            return material.normal_texture;
-        case slot_emission:
-            return material.emission_texture;
-        case slot_specular:
-            return material.specular_texture;
-        default:
-            return material.specular_color_texture;
-    }
+    using M = Material;  // in the order of slot_base_color ... slot_specular_color
+    constexpr TextureSlot Material::*slots[] = {&M::base_color_texture, &M::metalness_roughness_texture,
+                                                &M::normal_texture,     &M::emission_texture,
+                                                &M::specular_texture,   &M::specular_color_texture};
+    return material.*slots[slot];
 }
 
 const char* const slot_names[] = {"base_color_texture", "metalness_roughness_texture",

@@ -31,11 +31,7 @@ const GBufferLayer all_layers[] = {
     {"fallback", "RGB", &G::fallback, 0, 4},
 };
 
-std::vector<std::string> layer_names() {
-    std::vector<std::string> names;
-    for (const GBufferLayer& layer : all_layers) names.push_back(layer.name);
-    return names;
-}
+std::vector<std::string> layer_names() { return names_of(all_layers, &GBufferLayer::name); }
 
 std::string list(const std::vector<std::string>& names) {
     std::string text;

@@ -157,9 +157,3 @@ glm::vec3 mean_over_lobe(const Environment& environment, const PrefilteredEnviro
         blend.level == 0 ? environment.radiance(direction) : sample_level(prefiltered.atlas, blend.level, direction);
     return mix(sharp, sample_level(prefiltered.atlas, blend.level + 1, direction), blend.fraction);
 }
-
-glm::vec3 environment_irradiance(const Environment& environment, const PrefilteredEnvironment& prefiltered,
-                                 glm::vec3 normal) {
-    if (prefiltered.atlas.values.empty()) return pi * environment.radiance(normal);
-    return pi * sample_level(prefiltered.atlas, prefilter_irradiance_level, normal);
-}

@@ -16,7 +16,3 @@ PrefilteredEnvironment prefilter_environment(const Environment& environment);
 /// `direction` (unit, world space), which is the mirror direction. `roughness` is perceptual, in [0, 1].
 glm::vec3 mean_over_lobe(const Environment& environment, const PrefilteredEnvironment& prefiltered, glm::vec3 direction,
                          float roughness);
-
-/// Irradiance (W m^-2) from the environment on a surface with the unit normal `normal`, unoccluded.
-glm::vec3 environment_irradiance(const Environment& environment, const PrefilteredEnvironment& prefiltered,
-                                 glm::vec3 normal);

@@ -98,7 +98,7 @@ void add_motion(SceneFacts& facts, const Scene& scene, const SceneCamera& camera
     }
 }
 
-std::string names_of(const Scene& scene, const std::function<bool(const Material&)>& has) {
+std::string by_material(const Scene& scene, const std::function<bool(const Material&)>& has) {
     std::string names;
     unsigned count = 0;
     for (unsigned material : drawn_materials(scene)) {
@@ -136,7 +136,7 @@ std::vector<SceneFact> list_facts(const Scene& scene, const SceneFacts& f) {
     return {
         {"has_geometry", yes(f.has_geometry), std::to_string(scene.triangle_count()) + " triangles"},
         {"has_reflective", yes(f.has_reflective), roughness},
-        {"has_matte", yes(f.has_matte), names_of(scene, [&](const Material& m) { return is_matte(scene, m); })},
+        {"has_matte", yes(f.has_matte), by_material(scene, [&](const Material& m) { return is_matte(scene, m); })},
         {"min_roughness", number_text(f.min_roughness, 3), roughness},
         {"max_roughness", number_text(f.max_roughness, 3), roughness},
         {"camera_moves", yes(f.camera_moves), "camera poses of successive frames of the shot"},
@@ -145,14 +145,14 @@ std::vector<SceneFact> list_facts(const Scene& scene, const SceneFacts& f) {
          "values of a G-buffer from files that are not finite, or normals that are not unit"},
         {"has_environment", yes(f.has_environment),
          f.has_environment ? "the environment is not black" : "the environment is black"},
-        {"has_textures", yes(f.has_textures), names_of(scene, has_texture)},
+        {"has_textures", yes(f.has_textures), by_material(scene, has_texture)},
         {"has_alpha_masks", yes(f.has_alpha_masks),
-         names_of(scene, [](const Material& m) { return m.alpha_mode == AlphaMode::mask; })},
+         by_material(scene, [](const Material& m) { return m.alpha_mode == AlphaMode::mask; })},
         {"hides_backs", yes(f.hides_backs),
          scene.draws_backs ? "single-sided surfaces are seen from behind, too"
-                           : names_of(scene, [&](const Material& m) { return scene.hides_backs_of(m); })},
+                           : by_material(scene, [&](const Material& m) { return scene.hides_backs_of(m); })},
         {"has_normal_maps", yes(f.has_normal_maps),
-         names_of(scene, [](const Material& m) { return m.normal_texture.texture >= 0; })},
+         by_material(scene, [](const Material& m) { return m.normal_texture.texture >= 0; })},
         {"has_vertex_colors", yes(f.has_vertex_colors), "vertex colours other than white"},
     };
 }

@@ -70,17 +70,9 @@ json error_table(const std::vector<MetricSummary>& errors, Texts& code) {
 }
 
 const char* direction_text(Better better) {
-    switch (better) {
-        case Better::lower:
-            return "Less is better.";
-        case Better::higher:
-            return "More is better.";
-        case Better::near_zero:
-            return "Nearer to 0 is better.";
-        case Better::near_one:
-            return "Nearer to 1 is better.";
-    }
-    return "";
+    constexpr const char* texts[] = {"Less is better.", "More is better.", "Nearer to 0 is better.",
+                                     "Nearer to 1 is better."};
+    return texts[size_t(better)];  // in the order of Better
 }
 
 json described_metrics() {

@@ -1,5 +1,6 @@
 #include "experiments/report/report_warnings.h"
 
+#include "core/list_text.h"
 #include "core/number_text.h"
 #include "experiments/results/answers/answer_text.h"
 
@@ -11,6 +12,7 @@
 namespace {
 
 using nlohmann::json;
+using Names = std::vector<std::string>;
 
 /// The member, or null where `object` is no object or lacks it: a manifest of another version is still worth a report.
 const json& member(const json& object, const char* key) {
@@ -53,29 +55,29 @@ bool differ(const json& provenance, const char* part, std::initializer_list<cons
 }
 
 /// The shots that each machine timed, by its name and processor.
-std::map<std::string, std::string> shots_by_host(const json& clock) {
-    std::map<std::string, std::string> shots;
+std::map<std::string, Names> shots_by_host(const json& clock) {
+    std::map<std::string, Names> shots;
     for (const json& load : member(clock, "load")) {
         const json& host = member(load, "host");
-        std::string& names = shots[text(member(host, "name")) + " (" + text(member(host, "cpu")) + ")"];
-        names += (names.empty() ? "" : ", ") + text(member(load, "shot"));
+        shots[text(member(host, "name")) + " (" + text(member(host, "cpu")) + ")"].push_back(
+            text(member(load, "shot")));
     }
     return shots;
 }
 
 void warn_of_hosts(std::vector<std::string>& warnings, const json& clock) {
-    const std::map<std::string, std::string> shots = shots_by_host(clock);
+    const std::map<std::string, Names> shots = shots_by_host(clock);
     if (shots.size() < 2) return;
-    std::string list;
-    for (const auto& [host, names] : shots) list += (list.empty() ? "" : "; ") + names + " on " + host;
-    warnings.push_back("Times were taken on different machines, so compare them within one shot only: " + list + ".");
+    const Names list = names_of(shots, [](const auto& of) { return joined(of.second) + " on " + of.first; });
+    warnings.push_back(
+        "Times were taken on different machines, so compare them within one shot only: " + joined(list, "; ") + ".");
 }
 
 void warn_of_provenance(std::vector<std::string>& warnings, const json& provenance, const json& clock) {
     if (!provenance.is_array()) return;
-    std::string different;
+    Names different;
     const auto add = [&](bool is_different, const char* what) {
-        if (is_different) different += (different.empty() ? "" : ", ") + std::string(what);
+        if (is_different) different.push_back(what);
     };
     add(differ(provenance, "host", {"name", "cpu", "cores", "memory_gib"}), "hosts");
     add(differ(provenance, "host", {"kernel"}), "kernels");
@@ -86,11 +88,11 @@ void warn_of_provenance(std::vector<std::string>& warnings, const json& provenan
         std::ranges::all_of(member(clock, "load"), [](const json& load) { return member(load, "host").is_object(); });
     // Other machines that only rendered do nothing to the times of one; of several, warn_of_hosts() says more.
     const char* const of_times = machines > 1 ? "."
-                                 : machines == 1 && are_known && different == "hosts"
+                                 : machines == 1 && are_known && different == Names{"hosts"}
                                      ? "; all times were taken on one machine."
                                      : "; compare times within one shot only.";
     if (!different.empty())
-        warnings.push_back("Parts of this study were made by different " + different +
+        warnings.push_back("Parts of this study were made by different " + joined(different) +
                            ": `provenance` in manifest.json says which" + of_times);
     if (std::ranges::any_of(provenance,
                             [](const json& maker) { return is_true(member(member(maker, "ssrlab"), "dirty")); }))
@@ -102,24 +104,19 @@ void warn_of_provenance(std::vector<std::string>& warnings, const json& provenan
 
 /// One warning for each reason, with all points that have it.
 void warn_of_variation(std::vector<std::string>& warnings, const json& techniques) {
-    std::map<std::pair<std::string, std::string>, std::string> points;  // by technique and reason
+    std::map<std::pair<std::string, std::string>, Names> points;  // by technique and reason
     for (const json& v : techniques) {
         const json& why = member(v, "not_repeatable");
         if (!why.is_string()) continue;
-        std::string& names = points[{text(member(v, "technique")), why.get<std::string>()}];
-        names += (names.empty() ? "" : ", ") + text(member(v, "point"));
+        points[{text(member(v, "technique")), why.get<std::string>()}].push_back(text(member(v, "point")));
     }
     for (const auto& [what, names] : points)
-        warnings.push_back(what.first + " (" + names +
+        warnings.push_back(what.first + " (" + joined(names) +
                            "): results differ from run to run, and their intervals do not " +
                            "hold the scatter between runs. The reason: " + ended(what.second));
 }
 
-std::string shots_of(const json& proof) {
-    std::string list;
-    for (const json& shot : member(proof, "shots")) list += (list.empty() ? "" : ", ") + text(shot);
-    return list;
-}
+std::string shots_of(const json& proof) { return joined(names_of(member(proof, "shots"), text)); }
 
 void warn_of_clock(std::vector<std::string>& warnings, const json& clock, bool has_times) {
     if (!has_times) return;

@@ -1,6 +1,7 @@
 #include "experiments/study/table_columns.h"
 
 #include "core/error.h"
+#include "core/list_text.h"
 #include "core/near_miss.h"
 #include "experiments/results/cells/cell.h"
 #include "experiments/results/tradeoff/tradeoff.h"
@@ -66,11 +67,12 @@ Names texts_of(const nlohmann::json& value) {
 
 /// What a column can hold, where the study decides that.
 std::map<std::string, Names> values_of(const Config& config) {
-    std::map<std::string, Names> values = {{"mask", config.masks}, {"target", config.targets}};
-    for (const Metric& metric : all_metrics()) values["metric"].push_back(metric.name);
+    std::map<std::string, Names> values = {{"mask", config.masks},
+                                           {"target", config.targets},
+                                           {"metric", metric_names()},
+                                           {"technique", names_of(config.techniques, &PointConfig::technique)}};
     for (const TemporalMetric& metric : temporal_metrics()) values["metric"].push_back(metric.name);
     for (const char* of_splits : {"bias_squared", "variance"}) values["metric"].push_back(of_splits);
-    for (const PointConfig& v : config.techniques) values["technique"].push_back(v.technique);
     values["mask"].push_back("all");  // of sequences, whatever the study's masks are
     return values;
 }

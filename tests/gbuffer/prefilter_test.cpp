@@ -36,6 +36,16 @@ const Sky& sunny_sky() {
     return result;
 }
 
+/// The red irradiance / pi that the shader environment.glsl reads of the last map.
+float irradiance_over_pi(const PrefilteredEnvironment& prefiltered, glm::vec3 normal) {
+    const PrefilterTap tap = prefilter_tap(prefilter_irradiance_level, environment_uv(normal, 0));
+    const auto row = [&](unsigned y) {
+        const HostImage& atlas = prefiltered.atlas;
+        return glm::mix(atlas.pixel(tap.columns.x, y)[0], atlas.pixel(tap.columns.y, y)[0], tap.fraction.x);
+    };
+    return glm::mix(row(tap.rows.x), row(tap.rows.y), tap.fraction.y);
+}
+
 /// Mean of the texels' radiance over the lobe above the horizon, seen at the cosine mu_o, by direct integration with
 /// `split`^2 points per texel.
 glm::dvec3 integrate(const Environment& environment, glm::vec3 mirror_direction, float mu_o, float roughness,
@@ -151,8 +161,7 @@ TEST(prefiltered_environment, follows_the_rotation_and_gradient) {
     const PrefilteredEnvironment prefiltered = prefilter_environment(gradient);
     for (const glm::vec3 n : directions()) {
         // Irradiance of a + b w.d is pi (a + 2/3 b n.d); 256 x 128 samples and bilinear 128 x 64 texels.
-        EXPECT_NEAR(environment_irradiance(gradient, prefiltered, n).x,
-                    pi * (1 + 0.8f * 2 / 3 * glm::dot(n, gradient.axis)), 2e-3f * pi);
+        EXPECT_NEAR(irradiance_over_pi(prefiltered, n), 1 + 0.8f * 2 / 3 * glm::dot(n, gradient.axis), 2e-3f);
     }
     Environment turned = sky(0.5f);
     turned.rotation = 1;
@@ -179,6 +188,6 @@ TEST(prefiltered_environment, irradiance_agrees_with_direct_integration) {
             }
         // Where the sun is at the horizon, the kink of max(0, cos) is blurred by a texel of 3 degrees: below 1 % of the
         // irradiance that it gives from the zenith.
-        EXPECT_NEAR(environment_irradiance(environment, prefiltered, n).x, sum, 0.01 * sum + 0.004 * all);
+        EXPECT_NEAR(pi * irradiance_over_pi(prefiltered, n), sum, 0.01 * sum + 0.004 * all);
     }
 }

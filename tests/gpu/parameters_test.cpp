@@ -1,5 +1,6 @@
 #include "core/parameters.h"
 #include "core/error.h"
+#include "tests/declared_parameter.h"
 #include "tests/error_message.h"
 
 #include <gtest/gtest.h>
@@ -10,15 +11,17 @@ namespace {
 
 struct Demo {
     ParameterSet params;
-    // clang-format off
-    Param<float> thickness{params, "thickness", 0.05f, {0.0f, 1.0f},
-        {"m", "depth assumed behind each sample", "a paper"}};
-    Param<unsigned> max_steps{params, "max_steps", 64, {1, 512},
-        {"", "steps before a ray is given up", "a paper"}, Use::constant};
-    Param<int> offset{params, "offset", -1, {-4, 4}, {"pixels", "where to begin", "ssrlab"}};
-    Switch refine{params, "refine", false, {"", "bisects", "ssrlab"}};
-    Choice filter{params, "filter", "bilinear", {"nearest", "bilinear"}, {"", "how colours are read", "ssrlab"}};
-    // clang-format on
+
+    Demo() {
+        params.add(
+            declared_number("thickness", "float", 0.05, 0, 1, {"m", "depth assumed behind each sample", "a paper"}));
+        params.add(declared_number("max_steps", "uint", 64, 1, 512, {"", "steps before a ray is given up", "a paper"},
+                                   Use::constant));
+        params.add(declared_number("offset", "int", -1, -4, 4, {"pixels", "where to begin", "ssrlab"}));
+        params.add(declared_switch("refine"));
+        params.add(choice_of("filter", "bilinear", {"nearest", "bilinear"}, "how colours are read", "ssrlab"));
+    }
+    nlohmann::json operator[](const char* name) const { return params.values().at(name); }
 };
 
 const Parameter& named(const ParameterSet& params, const std::string& name) {
@@ -27,14 +30,14 @@ const Parameter& named(const ParameterSet& params, const std::string& name) {
 
 }  // namespace
 
-TEST(Parameters, ReadLikePlainValues) {
+TEST(Parameters, HoldTheValuesThatAreAssigned) {
     Demo demo;
     demo.params.assign({{"thickness", 0.25}, {"refine", true}, {"filter", "nearest"}});
-    EXPECT_EQ(demo.thickness, 0.25f);
-    EXPECT_EQ(demo.max_steps, 64u);
-    EXPECT_EQ(demo.offset, -1);
-    EXPECT_TRUE(demo.refine);
-    EXPECT_TRUE(demo.filter.is("nearest"));
+    EXPECT_EQ(demo["thickness"], 0.25);
+    EXPECT_EQ(demo["max_steps"], 64);
+    EXPECT_EQ(demo["offset"], -1);
+    EXPECT_EQ(demo["refine"], true);
+    EXPECT_EQ(demo["filter"], "nearest");
     EXPECT_EQ(demo.params.values().dump(),
               R"({"filter":"nearest","max_steps":64,"offset":-1,"refine":true,"thickness":0.25})");
 }
@@ -42,7 +45,7 @@ TEST(Parameters, ReadLikePlainValues) {
 TEST(Parameters, HoldWholeNumbersWrittenWithAPoint) {
     Demo demo;
     demo.params.assign({{"max_steps", 8.0}, {"offset", -2.0}});
-    EXPECT_EQ(demo.max_steps, 8u);
+    EXPECT_EQ(demo["max_steps"], 8);
     EXPECT_EQ(demo.params.values().at("max_steps").dump(), "8");
     EXPECT_EQ(demo.params.values().at("offset").dump(), "-2");
 }
@@ -69,7 +72,7 @@ TEST(Parameters, RejectMistakesBySayingWhatIsAllowed) {
 TEST(Parameters, AreUnchangedByARejectedAssignment) {
     Demo demo;
     EXPECT_THROW(demo.params.assign({{"refine", true}, {"thickness", 5}}), Error);
-    EXPECT_FALSE(demo.refine);
+    EXPECT_EQ(demo["refine"], false);
 }
 
 TEST(Parameters, DeclareThemselvesInGlsl) {
@@ -95,12 +98,10 @@ TEST(Parameters, DeclareVariablesThatAreCopiesOfTheirBlock) {
 /// Of parts that techniques share: GLSL's names have no dots.
 TEST(Parameters, OfAPartBeginWithItsName) {
     ParameterSet params;
-    const Param<float> thickness(params, "dda.thickness", 0.5f, {0.0f, 1.0f},
-                                 {"m", "depth behind a surface", "ssrlab"});
-    const Switch refine(params, "dda.refine", false, {"", "bisects", "ssrlab"});
+    params.add(declared_number("dda.thickness", "float", 0.5, 0, 1));
+    params.add(declared_switch("dda.refine"));
     params.assign({{"dda.thickness", 0.25}, {"dda.refine", true}});
-    EXPECT_EQ(thickness, 0.25f);
-    EXPECT_TRUE(refine);
+    EXPECT_EQ(params.values().dump(), R"({"dda.refine":true,"dda.thickness":0.25})");
     EXPECT_EQ(params.glsl(),
               "layout(constant_id = 0) const bool dda_refine = bool(false);\n"
               "layout(std140) uniform Params {\n    float dda_thickness;\n};\n");
@@ -120,10 +121,10 @@ TEST(Parameters, OfAPartBeginWithItsName) {
 TEST(Parameters, HaveDefaultsThatATechniqueChanges) {
     Demo demo;
     demo.params.change_defaults({{"thickness", 0.25}, {"max_steps", 128}, {"filter", "nearest"}});
-    EXPECT_EQ(demo.thickness, 0.25f);
-    EXPECT_EQ(demo.max_steps, 128u);
-    EXPECT_TRUE(demo.filter.is("nearest"));
-    EXPECT_FALSE(demo.refine);
+    EXPECT_EQ(demo["thickness"], 0.25);
+    EXPECT_EQ(demo["max_steps"], 128);
+    EXPECT_EQ(demo["filter"], "nearest");
+    EXPECT_EQ(demo["refine"], false);
     const nlohmann::json members = demo.params.schema().at("properties");
     EXPECT_EQ(members.at("thickness").at("default"), 0.25);
     EXPECT_EQ(members.at("offset").at("default"), -1);
@@ -132,7 +133,7 @@ TEST(Parameters, HaveDefaultsThatATechniqueChanges) {
     EXPECT_EQ(demo.params.schema().at("properties").at("thickness").at("default"), 0.25) << "of values alone";
 
     EXPECT_THROW(demo.params.change_defaults({{"offset", 2}, {"thickness", 5}}), Error);
-    EXPECT_EQ(demo.offset, -1);
+    EXPECT_EQ(demo["offset"], -1);
     EXPECT_EQ(error_message([&] {
                   demo.params.change_defaults({{"thicknes", 0.1}});
               }),

@@ -2,6 +2,7 @@
 #include "core/error.h"
 #include "core/gpu/device.h"
 #include "core/gpu/pipelines/shader.h"
+#include "tests/declared_parameter.h"
 #include "tests/error_message.h"
 
 #include <gtest/gtest.h>
@@ -90,31 +91,26 @@ TEST_P(GraphOnBothClocks, CompactsWithSubgroupsAndDispatchesIndirectly) {
 
 /// Passes of one frame, which a GPU runs together at its end, with sets of their own.
 TEST_P(GraphOnBothClocks, GivesPassesTheParametersThatAreSet) {
-    struct Two {
+    const auto set_of = [](const std::vector<std::pair<const char*, float>>& values) {
         ParameterSet params;
-        Param<float> scale, offset;
-        Two(float s, float o)
-            : scale(params, "scale", s, {0.0f, 9.0f}, {"", "", ""}),
-              offset(params, "offset", o, {0.0f, 9.0f}, {"", "", ""}) {}
+        for (const auto& [name, value] : values) params.add(declared_number(name, "float", value, 0.0, 9.0));
+        return params;
     };
-    struct Swapped {  // the same names at other places
-        ParameterSet params;
-        Param<float> offset{params, "offset", 5.0f, {0.0f, 9.0f}, {"", "", ""}},
-            scale{params, "scale", 6.0f, {0.0f, 9.0f}, {"", "", ""}};
-    } other;
-    const Two first(1.0f, 2.0f), second(3.0f, 4.0f);
-    pass_list.begin_frame(camera, first.params, {});
+    const ParameterSet first = set_of({{"scale", 1.0f}, {"offset", 2.0f}}),
+                       second = set_of({{"scale", 3.0f}, {"offset", 4.0f}}),
+                       other = set_of({{"offset", 5.0f}, {"scale", 6.0f}});  // the same names at other places
+    pass_list.begin_frame(camera, first, {});
     const auto show = [&](const char* name) {
         const Image image = pass_list.image(name, Format::rgba32f);
         pass_list.compute("show_parameter.comp").write(image.as("shown")).run();
         return image;
     };
     const Image before = show("before");
-    pass_list.set_params(second.params);
+    pass_list.set_params(second);
     const Image between = show("between");
-    pass_list.set_params(other.params);
+    pass_list.set_params(other);
     const Image swapped = show("swapped");
-    pass_list.set_params(first.params);
+    pass_list.set_params(first);
     const Image after = show("after");
     const auto values = [&](const Image& image) {
         const HostImage pixels = pass_list.download(image);
@@ -124,12 +120,11 @@ TEST_P(GraphOnBothClocks, GivesPassesTheParametersThatAreSet) {
     EXPECT_EQ(values(between), std::pair(3.0f, 4.0f));
     EXPECT_EQ(values(swapped), std::pair(6.0f, 5.0f));
     EXPECT_EQ(values(after), std::pair(1.0f, 2.0f));
-    EXPECT_EQ(&pass_list.params(), &first.params);
+    EXPECT_EQ(&pass_list.params(), &first);
 
-    const Two third(0.0f, 0.0f), fourth(0.0f, 0.0f);
-    pass_list.set_params(third.params);
-    EXPECT_EQ(error_message([&] { pass_list.set_params(fourth.params); }),
-              "more than 4 sets of parameters in one frame");
+    const ParameterSet third = set_of({}), fourth = set_of({});
+    pass_list.set_params(third);
+    EXPECT_EQ(error_message([&] { pass_list.set_params(fourth); }), "more than 4 sets of parameters in one frame");
 }
 
 TEST_P(GraphOnBothClocks, StencilKeepsPassesToMarkedPixels) {

@@ -3,14 +3,6 @@
 
 #include <initializer_list>
 
-/// Of all elements, for lists of what there is.
-template <class Range, class Member>
-std::vector<std::string> names_of(const Range& all, Member name) {
-    std::vector<std::string> names;
-    for (const auto& one : all) names.push_back(one.*name);
-    return names;
-}
-
 /// Makes the keys of an object known before it is read, so that a message about a missing one does not take the others
 /// for misspelt.
 void know_keys(JsonObject& object, std::initializer_list<const char*> keys);

@@ -25,9 +25,7 @@ std::vector<std::string> denoiser_names() { return names_of(denoiser_table(), &D
 }  // namespace
 
 const DenoiserEntry& find_denoiser(const std::string& name) {
-    for (const DenoiserEntry& entry : denoiser_table())
-        if (entry.name == name) return entry;
-    fail("unknown denoiser '", name, "'", suggestion(name, denoiser_names()));
+    return find_named(denoiser_table(), name, "unknown denoiser");
 }
 
 bool is_of_chosen_denoiser(const ParameterSet& params, const std::string& name) {
@@ -37,7 +35,7 @@ bool is_of_chosen_denoiser(const ParameterSet& params, const std::string& name) 
 }
 
 Denoisers::Denoisers(ParameterSet& params, const std::string& initial) : params_(params) {
-    Choice(params, "denoiser", initial, denoiser_names(), {"", "what makes a picture of the rays", "ssrlab"});
+    params.add(choice_of("denoiser", initial, denoiser_names(), "what makes a picture of the rays", "ssrlab"));
     for (const DenoiserEntry& entry : denoiser_table())
         for (Parameter p : entry.passes->parameters) {
             p.name = entry.name + "." + p.name;

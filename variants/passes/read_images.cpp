@@ -36,8 +36,7 @@ ScreenShare read_share(JsonObject& object) {
 namespace {
 
 Format read_format(JsonObject& object) {
-    std::vector<std::string> names;
-    for (const FormatFacts& facts : all_formats()) names.push_back(facts.name);
+    const std::vector<std::string> names = names_of(all_formats(), &FormatFacts::name);
     object.any("format");
     const std::string name = object.choice("format", names, "");
     return all_formats()[size_t(std::ranges::find(names, name) - names.begin())].format;

@@ -213,7 +213,7 @@ void check_buffers(JsonObject& object, const std::string& key, const std::vector
     std::vector<std::string> names;
     if (declaration.denoiser || declaration.is_denoiser) names = ray_buffers;
     if (declaration.is_denoiser) names.push_back(seen_rays_buffer);
-    for (const DeclaredBuffer& known_buffer : declaration.buffers) names.push_back(known_buffer.name);
+    std::ranges::move(names_of(declaration.buffers, &DeclaredBuffer::name), std::back_inserter(names));
     for (const std::string& buffer : named)
         if (!std::ranges::count(names, buffer))
             fail(object.at(key), ": there is no buffer '", shortened(buffer), "'", suggestion(buffer, names));

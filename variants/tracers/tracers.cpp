@@ -83,11 +83,7 @@ std::vector<RayRecord> download_records(PassList& pass_list, const Buffer& buffe
 
 }  // namespace
 
-const TracerEntry& find_tracer(const std::string& name) {
-    for (const TracerEntry& entry : tracer_table())
-        if (entry.name == name) return entry;
-    fail("unknown tracer '", name, "'", suggestion(name, tracer_names()));
-}
+const TracerEntry& find_tracer(const std::string& name) { return find_named(tracer_table(), name, "unknown tracer"); }
 
 bool is_of_chosen_tracer(const ParameterSet& params, const std::string& name) {
     if (name == "exact_share") return params.values().at("exact_rays") != "none";
@@ -103,7 +99,7 @@ Tracers::Tracers(ParameterSet& params, std::vector<TracerSlot> slots, const std:
     : params_(params), slots_(std::move(slots)) {
     if (slots_.empty()) return;
     for (const TracerSlot& slot : slots_)
-        Choice(params, slot.name, slot.initial, tracer_names(), {"", slot.doc, source});
+        params.add(choice_of(slot.name, slot.initial, tracer_names(), slot.doc, source));
     for (const TracerEntry& entry : tracer_table())
         for (const Parameter& parameter : entry.parameters) params.add(parameter);
     add_block(params, "tracers/asked_rays.json");

@@ -6,15 +6,9 @@
 namespace {
 
 vk::SamplerAddressMode address_mode(Wrap wrap) {
-    switch (wrap) {
-        case Wrap::clamp:
-            return vk::SamplerAddressMode::eClampToEdge;
-        case Wrap::repeat:
-            return vk::SamplerAddressMode::eRepeat;
-        case Wrap::mirrored_repeat:
-            return vk::SamplerAddressMode::eMirroredRepeat;
-    }
-    fail("no address mode for Wrap ", int(wrap));
+    using enum vk::SamplerAddressMode;
+    constexpr vk::SamplerAddressMode modes[] = {eClampToEdge, eRepeat, eMirroredRepeat};  // in the order of Wrap
+    return modes[size_t(wrap)];
 }
 
 }  // namespace
@@ -65,9 +59,7 @@ void PassList::Impl::fail_missing(const Pass& pass, const std::string& name) {
     for (const Buffer& buffer : pass.buffers_) provided.push_back(buffer.name);
     for (const auto& [input, _] : inputs) provided.push_back(input);
     std::ranges::sort(provided);
-    std::string list;
-    for (const std::string& p : provided) list += " " + p;
-    fail(pass.shader_, " uses '", name, "', which the pass does not provide; it provides:", list);
+    fail(pass.shader_, " uses '", name, "', which the pass does not provide; it provides: ", joined(provided, " "));
 }
 
 /// Fails where a pass names something that its shader ignores, or reads something that is not written.

@@ -6,35 +6,15 @@
 namespace {
 
 vk::DescriptorType descriptor_type(ShaderInterface::Kind kind) {
-    switch (kind) {
-        case ShaderInterface::Kind::sampler:
-            return vk::DescriptorType::eCombinedImageSampler;
-        case ShaderInterface::Kind::image:
-            return vk::DescriptorType::eStorageImage;
-        case ShaderInterface::Kind::uniforms:
-            return vk::DescriptorType::eUniformBuffer;
-        case ShaderInterface::Kind::storage:
-            return vk::DescriptorType::eStorageBuffer;
-    }
-    fail("no descriptor type for kind ", int(kind));
+    using enum vk::DescriptorType;
+    constexpr vk::DescriptorType types[] = {eCombinedImageSampler, eStorageImage, eUniformBuffer, eStorageBuffer};
+    return types[size_t(kind)];  // in the order of Kind
 }
 
 vk::CompareOp compare_op(DepthTest::Compare compare) {
-    switch (compare) {
-        case DepthTest::Compare::less:
-            return vk::CompareOp::eLess;
-        case DepthTest::Compare::greater:
-            return vk::CompareOp::eGreater;
-        case DepthTest::Compare::less_or_equal:
-            return vk::CompareOp::eLessOrEqual;
-        case DepthTest::Compare::greater_or_equal:
-            return vk::CompareOp::eGreaterOrEqual;
-        case DepthTest::Compare::equal:
-            return vk::CompareOp::eEqual;
-        case DepthTest::Compare::always:
-            return vk::CompareOp::eAlways;
-    }
-    fail("no compare operation ", int(compare));
+    using enum vk::CompareOp;
+    constexpr vk::CompareOp operations[] = {eLess, eGreater, eLessOrEqual, eGreaterOrEqual, eEqual, eAlways};
+    return operations[size_t(compare)];  // in the order of Compare
 }
 
 struct Stages {

@@ -43,11 +43,5 @@ Scene load_gltf(const std::filesystem::path& path, const GltfChoices& choices) {
 
 void check_animation(const Scene& scene, const std::string& animation) {
     if (animation.empty() || animation == "all" || animation == "none") return;
-    std::vector<std::string> names;
-    for (const AnimationClip& clip : scene.clips) names.push_back(clip.name);
-    if (names.empty())
-        fail("scene '", shortened(scene.name), "' has no animation '", shortened(animation), "': it has none at all");
-    if (std::ranges::find(names, animation) == names.end())
-        fail("scene '", shortened(scene.name), "' has no animation '", shortened(animation), "'",
-             suggestion(animation, names));
+    find_named(scene.clips, animation, "scene '", shortened(scene.name), "' has no animation");
 }

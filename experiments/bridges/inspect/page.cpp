@@ -21,9 +21,7 @@ std::string text_of(const Description& value) {
     if (value.is_string()) return shown_text(value.get<std::string>());
     if (value.is_number_float()) return number_text(value.get<double>(), 6);
     if (!value.is_array()) return value.dump();
-    std::string text;
-    for (const Description& part : value) text += (text.empty() ? "" : ", ") + text_of(part);
-    return "(" + text + ")";
+    return "(" + joined(names_of(value, text_of)) + ")";
 }
 
 /// A grey is one number.
@@ -254,11 +252,7 @@ void add_first_view(Page& page, const Description& v) {
         "            columns: rasteriser, path tracer, difference; rows: base colour and emission, normal, depth");
 }
 
-std::string list_text(const Description& texts) {
-    std::string text;
-    for (const Description& one : texts) text += (text.empty() ? "" : ", ") + text_of(one);
-    return text;
-}
+std::string list_text(const Description& texts) { return joined(names_of(texts, text_of)); }
 
 /// What a glTF says of itself.
 void add_document(Page& page, const Description& d) {

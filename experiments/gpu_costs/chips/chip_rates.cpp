@@ -1,6 +1,8 @@
 #include "experiments/gpu_costs/chips/chip_rates.h"
+#include "core/list_text.h"
 
 #include <map>
+#include <ranges>
 
 namespace {
 
@@ -52,8 +54,4 @@ std::optional<ChipRates> chip_rates(const std::string& chip) {
     return found == all_rates().end() ? std::nullopt : std::optional(found->second);
 }
 
-std::vector<std::string> chips_with_rates() {
-    std::vector<std::string> names;
-    for (const auto& [name, rates] : all_rates()) names.push_back(name);
-    return names;
-}
+std::vector<std::string> chips_with_rates() { return names_of(std::views::keys(all_rates())); }

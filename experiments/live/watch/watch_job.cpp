@@ -12,21 +12,9 @@ namespace fs = std::filesystem;
 namespace {
 
 std::string name_of(JobKind kind) {
-    switch (kind) {
-        case JobKind::truth:
-            return watch_folder::truth;
-        case JobKind::coarse:
-            return watch_folder::coarse;
-        case JobKind::now:
-            return watch_folder::now;
-        case JobKind::why:
-            return watch_folder::why;
-        case JobKind::times:
-            return watch_folder::times;
-        case JobKind::kept:
-            return watch_folder::kept;
-    }
-    return {};
+    using namespace watch_folder;
+    const char* const names[] = {truth, coarse, now, why, times, kept};  // in the order of JobKind
+    return names[size_t(kind)];
 }
 
 /// With its config written.

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/list_text.h"
 #include "core/shown_text.h"
 #include "experiments/live/watch/error_places.h"
 #include "experiments/live/watch/fresh_images.h"
@@ -38,11 +39,10 @@ std::chrono::system_clock::time_point saved_at(const fs::path& folder) {
 }
 
 std::string names_of_shaders(const fs::path& folder) {
-    std::string names;
+    std::vector<std::string> names;
     for (const fs::path& file : technique_files(folder))
-        if (file.extension() == ".comp" || file.extension() == ".frag")
-            names += (names.empty() ? "" : ", ") + file.string();
-    return names;
+        if (file.extension() == ".comp" || file.extension() == ".frag") names.push_back(file.string());
+    return joined(names);
 }
 
 WatchSettings with_absolute_paths(WatchSettings settings) {
@@ -340,21 +340,13 @@ void WatchSession::publish() { server_.publish(news()); }
 json WatchSession::news() const {
     const auto doing = [&]() -> std::string {
         if (!job_) return is_valid_ && !has_truth() ? "waiting for the truth" : "";
-        switch (job_->kind) {
-            case JobKind::coarse:
-                return "rendering, beside a coarse truth";
-            case JobKind::now:
-                return "rendering " + settings_.scenes[std::min(scenes_, settings_.scenes.size() - 1)];
-            case JobKind::why:
-                return "finding out why pixels are off";
-            case JobKind::times:
-                return "timing, and estimating a GPU's time";
-            case JobKind::kept:
-                return "measuring kept versions";
-            case JobKind::truth:
-                break;
-        }
-        return "";
+        const std::string texts[] = {"",  // in the order of JobKind
+                                     "rendering, beside a coarse truth",
+                                     "rendering " + settings_.scenes[std::min(scenes_, settings_.scenes.size() - 1)],
+                                     "finding out why pixels are off",
+                                     "timing, and estimating a GPU's time",
+                                     "measuring kept versions"};
+        return texts[size_t(job_->kind)];
     };
     json kept = json::array();
     for (const KeptVersion& v : versions_.all())

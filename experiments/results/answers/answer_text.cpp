@@ -1,5 +1,6 @@
 #include "experiments/results/answers/answer_text.h"
 
+#include "core/list_text.h"
 #include "core/number_text.h"
 
 #include <algorithm>
@@ -19,9 +20,7 @@ std::string interval_text(const std::optional<double>& low, const std::optional<
 std::string name_of(const AnswerPoint& p) { return point_text({p.technique, p.point}, p.label); }
 
 std::string listed(const std::vector<AnswerPoint>& points, size_t most) {
-    std::vector<std::string> names;
-    for (const AnswerPoint& p : points) names.push_back(name_of(p));
-    return listed(names, most);
+    return listed(names_of(points, [](const AnswerPoint& p) { return name_of(p); }), most);
 }
 
 std::string shown(const Ratio& r) {

@@ -1,5 +1,6 @@
 #include "experiments/results/answers/cause_and_cure.h"
 
+#include "core/list_text.h"
 #include "core/number_text.h"
 #include "experiments/results/answers/answer_text.h"
 #include "experiments/results/verdicts/interval.h"
@@ -33,9 +34,7 @@ std::string point_name(const MetricSummary& e, const PointLabels& labels) {
 }
 
 std::string listed_points(const std::vector<const MetricSummary*>& points, const PointLabels& labels) {
-    std::vector<std::string> names;
-    for (const MetricSummary* e : points) names.push_back(point_name(*e, labels));
-    return listed(names, 2);
+    return listed(names_of(points, [&](const MetricSummary* e) { return point_name(*e, labels); }), 2);
 }
 
 /// Two significant digits, and whole numbers from 10 on.

@@ -3,10 +3,12 @@
 #include "core/digits.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/list_text.h"
 #include "core/near_miss.h"
 
 #include <charconv>
 #include <cmath>
+#include <ranges>
 
 namespace {
 
@@ -83,11 +85,8 @@ void CsvReader::fail_at(const std::string& column, const char* allowed) const {
 
 const std::string& CsvReader::text(const std::string& column) const {
     const auto found = columns_.find(column);
-    if (found == columns_.end()) {
-        std::vector<std::string> names;
-        for (const auto& [name, index] : columns_) names.push_back(name);
-        fail(file_.string(), " has no column '", column, "'", suggestion(column, names));
-    }
+    if (found == columns_.end())
+        fail(file_.string(), " has no column '", column, "'", suggestion(column, names_of(std::views::keys(columns_))));
     return fields_[found->second];
 }
 

@@ -7,17 +7,8 @@
 namespace {
 
 const char* name_of(Better better) {
-    switch (better) {
-        case Better::lower:
-            return "lower";
-        case Better::higher:
-            return "higher";
-        case Better::near_zero:
-            return "near_zero";
-        case Better::near_one:
-            return "near_one";
-    }
-    return "";
+    constexpr const char* names[] = {"lower", "higher", "near_zero", "near_one"};  // in the order of Better
+    return names[size_t(better)];
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 const std::string total = "total";
 
 template <class Row>
-std::vector<std::string> names_of(const std::vector<Row>& rows, std::string Row::*name) {
+std::vector<std::string> distinct_names(const std::vector<Row>& rows, std::string Row::*name) {
     std::set<std::string> names;
     for (const Row& row : rows) names.insert(row.*name);
     return {names.begin(), names.end()};
@@ -22,9 +22,9 @@ std::vector<std::string> names_of(const std::vector<Row>& rows, std::string Row:
 
 CostKind cost_kind(const StudyResults& tables, const std::string& cost) {
     if (cost.empty()) return CostKind::timed;
-    std::vector<std::string> known = names_of(tables.costs, &CostRow::quantity);
+    std::vector<std::string> known = distinct_names(tables.costs, &CostRow::quantity);
     if (std::ranges::count(known, cost)) return CostKind::counted;
-    const std::vector<std::string> chips = names_of(tables.estimates, &EstimateRow::chip);
+    const std::vector<std::string> chips = distinct_names(tables.estimates, &EstimateRow::chip);
     if (std::ranges::count(chips, cost)) return CostKind::estimated;
     known.insert(known.end(), chips.begin(), chips.end());
     fail("costs.csv has no '", shortened(cost), "', and estimates.csv no such chip",

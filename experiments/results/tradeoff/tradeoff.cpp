@@ -1,6 +1,7 @@
 #include "experiments/results/tradeoff/tradeoff.h"
 
 #include "core/error.h"
+#include "core/list_text.h"
 #include "core/number_text.h"
 #include "experiments/results/files/manifest.h"
 #include "experiments/results/tradeoff/tradeoff_shots.h"
@@ -66,11 +67,9 @@ void leave_out(std::vector<TradeoffShot>& shots, const std::vector<std::string>&
     const auto has_name = [](const std::string& name) {
         return [&name](const TradeoffShot& shot) { return shot.name == name || shot.scene == name; };
     };
-    std::string known;
-    for (const TradeoffShot& shot : shots) known += (known.empty() ? "" : ", ") + shot.name;
     for (const std::string& name : names)
         if (std::ranges::none_of(shots, has_name(name)))
-            fail("the study has no shot or scene '", name, "'; it has ", known);
+            fail("the study has no shot or scene '", name, "'; it has ", joined(names_of(shots, &TradeoffShot::name)));
     for (const std::string& name : names) std::erase_if(shots, has_name(name));
 }
 
@@ -278,10 +277,8 @@ Tradeoff tradeoff_of(const StudyResults& tables, const TradeoffQuestion& questio
         std::set<std::string> known;
         for (const MetricSummary& e : tables.summary)
             if (e.represents_shot) known.insert(e.target + " " + e.metric + " " + e.mask);
-        std::string list;
-        for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
         fail("the study has no errors of ", question.error.target, " ", question.error.metric, " ", question.error.mask,
-             "; it has: ", list.empty() ? "none" : list);
+             "; it has: ", known.empty() ? "none" : joined(names_of(known)));
     }
     add_costs(shots, tables, question.cost);
     Tradeoff found{.baseline = baseline_named(question.baseline, tables.manifest)};

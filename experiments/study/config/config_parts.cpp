@@ -1,6 +1,7 @@
 #include "experiments/study/config/config_parts.h"
 
 #include "core/error.h"
+#include "core/list_text.h"
 #include "core/near_miss.h"
 #include "experiments/gpu_costs/chips/chip_rates.h"
 #include "experiments/gpu_costs/pass_cost.h"
@@ -195,9 +196,9 @@ void check_frozen(ConfigObject& study, const Config& config) {
 }
 
 Keys tune_keys() {
-    std::vector<std::string> times = {milliseconds};
-    for (const CostQuantity& quantity : cost_quantities) times.push_back(quantity.name);
-    for (const std::string& chip : chips_with_rates()) times.push_back(chip);
+    std::vector<std::string> times = names_of(cost_quantities, &CostQuantity::name);
+    times.insert(times.begin(), milliseconds);
+    std::ranges::move(chips_with_rates(), std::back_inserter(times));
     const Values values = array_of({json::object(), "a value", {}});
     const Values axis = either(values, object_of(axis_keys()));
     Values budget = {{{"type", "number"}, {"exclusiveMinimum", 0}}, "a number above 0", {}};

@@ -80,7 +80,7 @@ std::string rows_of(const Keys& keys, const std::string& outer) {
     return rows;
 }
 
-std::string listed(const std::vector<std::string>& names) {
+std::string alternatives(const std::vector<std::string>& names) {
     std::string list;
     for (size_t i = 0; i < names.size(); ++i)
         list += (i == 0 ? "`" : i + 1 == names.size() ? " or `" : ", `") + names[i] + "`";
@@ -106,7 +106,7 @@ Values number(double min, double max) {
             "a number in [" + shortest_digits(float(min)) + ", " + shortest_digits(float(max)) + "]",
             {}};
 }
-Values one_of(const std::vector<std::string>& names) { return {{{"enum", names}}, listed(names), {}}; }
+Values one_of(const std::vector<std::string>& names) { return {{{"enum", names}}, alternatives(names), {}}; }
 Values array_of(const Values& item, int least) {
     return {{{"type", "array"}, {"items", item.schema}, {"minItems", least}}, "an array of: " + item.text, {}};
 }

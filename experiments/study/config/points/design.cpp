@@ -15,13 +15,7 @@ namespace {
 using nlohmann::json;
 
 const Parameter& find_parameter(const ParameterSet& declared, const std::string& name, const std::string& where) {
-    std::vector<std::string> names;
-    for (const Parameter& p : declared) {
-        if (p.name == name) return p;
-        names.push_back(p.name);
-    }
-    fail(where, ": unknown parameter '", shortened(name), "'",
-         names.empty() ? "; this technique has none" : suggestion(name, names));
+    return find_named(declared, name, where, ": unknown parameter");
 }
 
 /// The number as the parameter holds it: in whole steps, or as a float32.
@@ -242,8 +236,7 @@ std::vector<json> read_design(ConfigObject& entry, const ParameterSet& declared)
     if (design.empty()) return {json::object()};
     if (sample_kinds.contains(design)) return sampled(entry.object(design), design, declared);
     JsonObject object = entry.plain(design);
-    std::vector<std::string> names;
-    for (const auto& [name, values] : entry[design].items()) names.push_back(name);
+    const std::vector<std::string> names = keys_of(entry[design]);
     if (names.empty() && design == "sweep") return {json::object()};
     if (names.empty()) fail(entry.at(design), ": '", design, "' is empty; name parameters with the values to try");
     const Axes axes = read_axes(object, names, declared);

@@ -35,11 +35,8 @@ std::string fill_in(const std::string& text, const nlohmann::json& values, const
             break;
         }
         const std::string name = text.substr(open + 1, close - open - 1);
-        if (!values.contains(name)) {
-            std::vector<std::string> known;
-            for (const auto& [key, value] : values.items()) known.push_back(key);
-            fail(where, " names {", shortened(name), "}, which is not known", suggestion(name, known));
-        }
+        if (!values.contains(name))
+            fail(where, " names {", shortened(name), "}, which is not known", suggestion(name, keys_of(values)));
         const nlohmann::json& value = values[name];
         filled += text.substr(at, open - at);  // a sampled number has eight digits, which nobody reads
         filled += value.is_number_float() ? number_text(value.get<double>()) : plain_text(value);

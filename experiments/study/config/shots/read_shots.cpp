@@ -1,12 +1,14 @@
 #include "experiments/study/config/shots/read_shots.h"
 
 #include "core/error.h"
+#include "core/list_text.h"
 #include "core/scene/scene_family.h"
 #include "experiments/study/config/points/point_name.h"
 #include "experiments/study/config/shots/capture_folder.h"
 #include "metrics/ghost.h"
 
 #include <algorithm>
+#include <ranges>
 #include <set>
 
 namespace {
@@ -21,11 +23,7 @@ struct Words {
     std::vector<std::pair<std::string, T>> values;  ///< the first is the default
     T ShotConfig::*member;
 
-    std::vector<std::string> names() const {
-        std::vector<std::string> names;
-        for (const auto& [word, value] : values) names.push_back(word);
-        return names;
-    }
+    std::vector<std::string> names() const { return names_of(std::views::keys(values)); }
 };
 
 /// Calls `use` for each of them, in the order in which names of shots have them.

@@ -7,6 +7,7 @@
 #include "core/gbuffer/gbuffer_checks.h"
 #include "core/gbuffer/pixel_position.h"
 #include "core/json.h"
+#include "core/list_text.h"
 
 #include <gtest/gtest.h>
 #include <filesystem>
@@ -107,12 +108,6 @@ HostGBuffer with_motion(HostGBuffer g, glm::vec2 factor) {
 HostGBuffer with_normals(HostGBuffer g, const std::function<glm::vec3(glm::vec3)>& change) {
     for (size_t i = 0; i < g.normal.pixel_count(); ++i) g.normal.set_rgb(i, change(g.normal.rgb(i)));
     return g;
-}
-
-std::string joined(const std::vector<std::string>& sentences) {
-    std::string all;
-    for (const std::string& sentence : sentences) all += sentence;
-    return all;
 }
 
 }  // namespace
