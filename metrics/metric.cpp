@@ -8,6 +8,7 @@
 #include "metrics/ssim.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace {
@@ -36,14 +37,42 @@ std::vector<Metric> make_table() {
     std::vector<Metric> table = pixel_metrics();
     const size_t first_of_most_one = table.size();  // a similarity, or an error that an eye can see
     for (Metric& metric : ssim_metrics()) table.push_back(std::move(metric));
-    table.push_back({"flip", "flip_ldr", "1", Better::lower, Domain::display,
-                     "mean LDR-FLIP of the codes (Andersson et al. 2020)", flip_layers, pooled_mean});
+    table.push_back({"flip", "flip_ldr", "1", Better::lower, "mean LDR-FLIP of the codes (Andersson et al. 2020)",
+                     flip_layers, pooled_mean});
     table.push_back(
-        {"hdr_flip", "flip_hdr", "1", Better::lower, Domain::linear,
+        {"hdr_flip", "flip_hdr", "1", Better::lower,
          "mean of the greatest LDR-FLIP over a range of exposures that is fixed per scene (Andersson et al. 2021)",
          hdr_flip_layers, pooled_mean});
     for (Metric& metric : std::span(table).subspan(first_of_most_one)) metric.greatest = 1;
     return table;
+}
+
+bool is_finite(glm::vec3 c) { return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z); }
+
+void check(const HostImage& reference, const HostImage& test) {
+    if (reference.extent != test.extent)
+        fail("the reference has ", reference.extent.x, "x", reference.extent.y, " pixels, but the test image has ",
+             test.extent.x, "x", test.extent.y, ": both must be of one size");
+    if (reference.pixel_count() == 0) fail("cannot measure images of zero size");
+    for (const HostImage* image : {&reference, &test})
+        if (image->channels != 3)
+            fail("cannot measure an image of ", image->channels, " channels: metrics need the three of a colour");
+}
+
+/// Without codes: all but reference_codes and test_codes.
+ImagePair linear_pair(const HostImage& reference, const HostImage& test, const MetricSettings& settings) {
+    check(reference, test);
+    ImagePair pair{.reference = reference, .test = test, .settings = settings};
+    pair.reference_counts = count_bad_pixels(reference);
+    pair.test_counts = count_bad_pixels(test);
+    pair.finite = full_mask(reference.extent);
+    for (size_t i = 0; i < reference.pixel_count(); ++i)
+        if (!is_finite(reference.rgb(i)) || !is_finite(test.rgb(i))) {
+            pair.finite.inside[i] = 0;
+            pair.reference.set_rgb(i, glm::vec3(0));
+            pair.test.set_rgb(i, glm::vec3(0));
+        }
+    return pair;
 }
 
 }  // namespace
@@ -53,11 +82,7 @@ const std::vector<Metric>& all_metrics() {
     return table;
 }
 
-std::vector<std::string> metric_names() {
-    std::vector<std::string> names;
-    for (const Metric& metric : all_metrics()) names.push_back(metric.name);
-    return names;
-}
+std::vector<std::string> metric_names() { return names_of(all_metrics(), &Metric::name); }
 
 /// Metrics that configs may name and that are gone, with what tells the same.
 static const std::map<std::string, std::string>& replaced_metrics() {
@@ -77,4 +102,53 @@ const Metric& metric_named(const std::string& name) {
 double measure(const Metric& metric, const ImagePair& pair, const Mask* mask) {
     const std::vector<Plane> layers = metric.layers(pair);
     return metric.pool(layers, mask ? intersection(*mask, pair.finite) : pair.finite);
+}
+
+PixelCounts count_bad_pixels(const HostImage& rgb) {
+    PixelCounts counts;
+    for (size_t i = 0; i < rgb.pixel_count(); ++i) {
+        const glm::vec3 c = rgb.rgb(i);
+        if (std::isnan(c.x) || std::isnan(c.y) || std::isnan(c.z))
+            ++counts.nan;
+        else if (!is_finite(c))
+            ++counts.infinite;
+        else if (std::min({c.x, c.y, c.z}) < 0)
+            ++counts.negative;
+    }
+    return counts;
+}
+
+ImagePair image_pair(const HostImage& reference, const HostImage& test, const MetricSettings& settings) {
+    ImagePair pair = linear_pair(reference, test, settings);
+    pair.reference_codes = display_codes(pair.reference, settings.exposure_ev, settings.tone_map);
+    pair.test_codes = display_codes(pair.test, settings.exposure_ev, settings.tone_map);
+    return pair;
+}
+
+ImagePair image_pair(const HostImage& reference, const HostImage& test, const HostImage& reference_codes,
+                     const HostImage& test_codes, const MetricSettings& settings) {
+    ImagePair pair = linear_pair(reference, test, settings);
+    check(reference, reference_codes);
+    check(test, test_codes);
+    pair.reference_codes = reference_codes;
+    pair.test_codes = test_codes;
+    for (size_t i = 0; i < reference.pixel_count(); ++i)
+        if (!pair.finite.inside[i]) {
+            pair.reference_codes.set_rgb(i, glm::vec3(0));
+            pair.test_codes.set_rgb(i, glm::vec3(0));
+        }
+    return pair;
+}
+
+Mask full_mask(glm::uvec2 extent) {
+    return {.name = "all", .extent = extent, .inside = std::vector<uint8_t>(size_t(extent.x) * extent.y, 1)};
+}
+
+Mask intersection(const Mask& a, const Mask& b) {
+    if (a.extent != b.extent)
+        fail("the mask '", a.name, "' has ", a.extent.x, "x", a.extent.y, " pixels, but '", b.name, "' has ",
+             b.extent.x, "x", b.extent.y);
+    Mask both = a;
+    for (size_t i = 0; i < both.inside.size(); ++i) both.inside[i] = a.inside[i] && b.inside[i];
+    return both;
 }

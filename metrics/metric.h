@@ -45,7 +45,6 @@ ImagePair image_pair(const HostImage& reference, const HostImage& test, const Ho
                      const HostImage& test_codes, const MetricSettings& settings);
 
 enum class Better { lower, higher, near_zero, near_one };
-enum class Domain { linear, display };  ///< linear HDR radiance, or sRGB codes
 
 /// One measure of the difference between a test image and its reference. `layers` computes all that is per pixel, once;
 /// `pool` makes one number of it for each mask: NaN if no pixel is inside. Windowed metrics (ssim, flip) are pooled by
@@ -55,7 +54,6 @@ struct Metric {
     std::string formula;  ///< id of the exact formula: tools disagree on what a name means
     std::string unit;     ///< "1" if none
     Better better;
-    Domain domain;
     std::string doc;                                 ///< formula and source
     std::vector<Plane> (*layers)(const ImagePair&);  ///< the first one is the error map
     double (*pool)(std::span<const Plane> layers, const Mask& mask);

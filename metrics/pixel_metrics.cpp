@@ -125,14 +125,13 @@ Plane winsorised(std::span<const Plane> layers, const Mask& mask) {
 
 std::vector<Metric> pixel_metrics() {
     using enum Better;
-    using enum Domain;
     // d = x - r: test minus reference, each channel by itself. Why so many relative errors: tools that print the same
     // name differ in the denominator, and the values by factors. Where r is path-traced its guide g is in the
     // denominator of those that are corrected, and the formula shows it: mean d^2 / (g^2 + 0.01).
     return {
-        {"mse", "mse", "radiance^2", lower, linear, "mean d^2", weighted_squares<one>, pooled_mean, one},
-        {"mae", "mae", "radiance", lower, linear, "mean |d|", absolutes, pooled_mean},
-        {"relmse", "relmse_a", "1", lower, linear,
+        {"mse", "mse", "radiance^2", lower, "mean d^2", weighted_squares<one>, pooled_mean, one},
+        {"mae", "mae", "radiance", lower, "mean |d|", absolutes, pooled_mean},
+        {"relmse", "relmse_a", "1", lower,
          "mean d^2 / (r^2 + 0.01) (Rousselle et al. 2011; tev, SimpleImageIO); relmse_a_guided: with the guide of a "
          "path-traced reference in the denominator",
          weighted_squares<weight_a>, pooled_mean, weight_a, "relmse_a_guided"},
@@ -140,7 +139,6 @@ std::vector<Metric> pixel_metrics() {
          "relmse_a_trimmed_0.1%",
          "1",
          lower,
-         linear,
          "relmse of each pixel, without the 0.1 % largest: hides fireflies, so read it beside relmse and outliers",
          weighted_squares<weight_a>,
          trimmed_mean,
@@ -151,22 +149,20 @@ std::vector<Metric> pixel_metrics() {
          "relative_error_above_10",
          "pixels",
          lower,
-         linear,
          "pixels with |d| / (|r| + 0.01) > 10 in any channel",
          outlier_flags,
          sum,
          nullptr,
          {},
          times_pixels},
-        {"smape", "smape_0_1", "1", lower, linear, "mean |d| / (|x| + |r|), 0 where both are 0 (figure-gen)",
-         symmetric_ratios, pooled_mean},
-        {"bias", "bias", "radiance", near_zero, linear, "mean d", differences, pooled_mean},
-        {"energy_ratio", "energy_ratio", "1", near_one, linear, "mean x / mean r", both_means, ratio_of_means},
+        {"smape", "smape_0_1", "1", lower, "mean |d| / (|x| + |r|), 0 where both are 0 (figure-gen)", symmetric_ratios,
+         pooled_mean},
+        {"bias", "bias", "radiance", near_zero, "mean d", differences, pooled_mean},
+        {"energy_ratio", "energy_ratio", "1", near_one, "mean x / mean r", both_means, ratio_of_means},
         {"psnr",
          "psnr_code",
          "dB",
          higher,
-         display,
          "-10 log10(mean d^2) of sRGB codes in [0, 1]; inf for equal images",
          code_squares,
          decibels_of_mean,

@@ -30,11 +30,7 @@ const std::vector<TemporalMetric>& temporal_metrics() {
 }
 
 const TemporalMetric& temporal_metric_named(const std::string& name) {
-    const auto found = std::ranges::find(temporal_metrics(), name, &TemporalMetric::name);
-    if (found != temporal_metrics().end()) return *found;
-    std::vector<std::string> names;
-    for (const TemporalMetric& metric : temporal_metrics()) names.push_back(metric.name);
-    fail("no temporal metric named '", name, "'", suggestion(name, names));
+    return find_named(temporal_metrics(), name, "no temporal metric named");
 }
 
 TemporalScore empty_score(const std::string& metric, const Mask& mask, const Mask& finite) {

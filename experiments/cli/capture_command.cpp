@@ -36,13 +36,10 @@ static void capture_command(const CaptureCommandOptions& options) {
 
 void add_capture(Commands& line) {
     CaptureCommandOptions& capture = line.keep<CaptureCommandOptions>();
-    CLI::App& command =
-        *line.app.add_subcommand("capture", "Check a capture of an engine's G-buffers, and list its layers");
-    command
-        .add_option("folder", capture.folder,
-                    "With gbuffer.exr and camera.json, or with folders frame_<number> of them")
-        ->required()
-        ->type_name("DIR");
+    CLI::App& command = line.add("capture", "Check a capture of an engine's G-buffers, and list its layers");
+    option(command, "folder DIR", capture.folder,
+           "With gbuffer.exr and camera.json, or with folders frame_<number> of them")
+        ->required();
     add_reading(command);
     command.callback([&] { capture_command(capture); });
 }

@@ -39,10 +39,8 @@ CLI::Validator positive() {
 }
 
 void add_margin(CLI::App& command, double& margin, const std::string& otherwise) {
-    command
-        .add_option("--margin", margin,
-                    "Errors that differ by a smaller share than this for certain are equivalent; default: " + otherwise)
-        ->type_name("SHARE")
+    option(command, "--margin SHARE", margin,
+           "Errors that differ by a smaller share than this for certain are equivalent; default: " + otherwise)
         ->check(CLI::Range(0.001, 1.0));
 }
 
@@ -51,8 +49,7 @@ void add_reading(CLI::App& command) {
         .add_option_function<uint64_t>(
             "--max-memory", [](const uint64_t& bytes) { reading_limits().memory = bytes; },
             "What files may take at one time, e.g. 8GB; more is refused before it is taken; default: "
-            "SSRLAB_MAX_MEMORY, "
-            "else half of this machine's")
+            "SSRLAB_MAX_MEMORY, else half of this machine's")
         ->transform(CLI::AsSizeValue(true))
         ->transform(CLI::Validator(  // the last one comes first: CLI11 would take -1 for 2^64 - 1
             [](std::string& text) { return text.starts_with('-') ? "'" + text + "' must be a size" : std::string(); },
@@ -64,63 +61,51 @@ void add_reading(CLI::App& command) {
 }
 
 void add_scene_path(CLI::App& command, CommonOptions& common) {
-    command
-        .add_option("--scene-path", common.scene_path,
-                    "Folder with scenes, searched before SSRLAB_SCENE_PATH and ssrlab's own; may be repeated")
-        ->type_name("DIR");
+    option(command, "--scene-path DIR", common.scene_path,
+           "Folder with scenes, searched before SSRLAB_SCENE_PATH and ssrlab's own; may be repeated");
 }
 
 void add_device(CLI::App& command, CommonOptions& common) {
-    command
-        .add_option("--device", common.device,
-                    "Vulkan device: its index or a part of its name (see: ssrlab list devices); default: a discrete "
-                    "GPU, else lavapipe")
-        ->type_name("NAME");
+    option(command, "--device NAME", common.device,
+           "Vulkan device: its index or a part of its name (see: ssrlab list devices); default: a discrete GPU, else "
+           "lavapipe");
 }
 
 void add_cache(CLI::App& command, CommonOptions& common) {
-    command
-        .add_option("--cache", common.cache,
-                    "Folder of cached references; default: SSRLAB_CACHE, else ssrlab in the user's cache folder")
-        ->type_name("DIR");
+    option(command, "--cache DIR", common.cache,
+           "Folder of cached references; default: SSRLAB_CACHE, else ssrlab in the user's cache folder");
 }
 
 void add_scene(CLI::App& command, std::string& scene) {
-    command.add_option("scene", scene, "A scene's name (see: ssrlab list scenes), or a path to a .json, .gltf or .glb")
-        ->required()
-        ->type_name("SCENE");
+    option(command, "scene SCENE", scene,
+           "A scene's name (see: ssrlab list scenes), or a path to a .json, .gltf or .glb")
+        ->required();
 }
 
 void add_size(CLI::App& command, std::vector<unsigned>& size, const std::string& otherwise) {
-    command.add_option("--size", size, "Width and height in pixels; default: " + otherwise)
+    option(command, "--size W H", size, "Width and height in pixels; default: " + otherwise)
         ->expected(2)
-        ->type_name("W H")
         ->check(CLI::Range(1, 16384));
 }
 
 void add_planes(CLI::App& command, ShotOptions& shot) {
-    command
-        .add_option("--planes", shot.planes,
-                    "Near and far planes: camera, its own (default), or scene, derived so that they cut nothing")
-        ->check(CLI::IsMember({"camera", "scene"}))
-        ->type_name("WHOSE");
+    option(command, "--planes WHOSE", shot.planes,
+           "Near and far planes: camera, its own (default), or scene, derived so that they cut nothing")
+        ->check(CLI::IsMember({"camera", "scene"}));
 }
 
 void add_animation(CLI::App& command, std::string& animation) {
-    command
-        .add_option("--animation", animation,
-                    "Which of the glTF's animations is played; or all, or none; default: as its scene.json says, else "
-                    "the first")
-        ->type_name("NAME");
+    option(
+        command, "--animation NAME", animation,
+        "Which of the glTF's animations is played; or all, or none; default: as its scene.json says, else the first");
 }
 
 void add_shot(CLI::App& command, ShotOptions& shot) {
     add_scene(command, shot.scene), add_animation(command, shot.animation);
-    command.add_option("--camera", shot.camera, "Default: the scene's first")->type_name("NAME");
+    option(command, "--camera NAME", shot.camera, "Default: the scene's first");
     add_planes(command, shot);
     add_size(command, shot.size);
-    command.add_option("--frame", shot.frame, "Frame of the camera's path and of the animation; default: 0")
-        ->type_name("N");
+    option(command, "--frame N", shot.frame, "Frame of the camera's path and of the animation; default: 0");
 }
 
 std::vector<std::string> run_options(const CLI::App& command, const CommonOptions& common) {
@@ -134,7 +119,7 @@ std::vector<std::string> run_options(const CLI::App& command, const CommonOption
 }
 
 void add_values(CLI::App& command, std::string& preset, nlohmann::json& parameters) {
-    command.add_option("--preset", preset, "One of its presets; default: its defaults")->type_name("NAME");
+    option(command, "--preset NAME", preset, "One of its presets; default: its defaults");
     command
         .add_option_function<std::vector<std::string>>(
             "--set", [&parameters](const std::vector<std::string>& values) { parameters = parameters_of(values); },

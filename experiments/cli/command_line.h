@@ -21,6 +21,8 @@ struct Commands {
     int status = 0;  ///< the exit code of the command that ran, as it sets it
     CommonOptions common;
 
+    CLI::App& add(const std::string& name, const std::string& about) { return *app.add_subcommand(name, about); }
+
     /// What a command's options write into: lives until the command has run.
     template <class Options>
     Options& keep(Options options = {}) {
@@ -43,6 +45,14 @@ struct ShotOptions {
 
     bool has_planes_of_scene() const { return planes == "scene"; }
 };
+
+/// An option or a positional by its name and what its value is called: "--out DIR", "scene SCENE", "--size W H".
+template <class Value>
+CLI::Option* option(CLI::App& command, const std::string& name_and_type, Value& value, const std::string& help) {
+    const size_t space = name_and_type.find(' ');
+    CLI::Option* const added = command.add_option(name_and_type.substr(0, space), value, help);
+    return space == std::string::npos ? added : added->type_name(name_and_type.substr(space + 1));
+}
 
 // Checks of values, and options of several commands.
 

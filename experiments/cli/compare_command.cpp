@@ -36,38 +36,25 @@ static void compare_images_command(const CompareCommandOptions& options) {
 
 void add_compare(Commands& line) {
     CompareCommandOptions& compare = line.keep<CompareCommandOptions>();
-    CLI::App& command =
-        *line.app.add_subcommand("compare", "Compare two images (OpenEXR, Radiance or PNG): one number per line");
-    command.add_option("reference", compare.reference, "What is right: .exr (linear radiance) or .png (sRGB)")
-        ->required()
-        ->type_name("REFERENCE");
-    command.add_option("test", compare.test, "What is judged, of the same size and kind")
-        ->required()
-        ->type_name("TEST");
-    command
-        .add_option("--metric", compare.metrics,
-                    "May be repeated; see: ssrlab list metrics; default: mse, relmse, relmse_trimmed, outliers, mae, "
-                    "smape, bias, energy_ratio, psnr, flip, where the image is large enough ssim, "
-                    "and hdr_flip of an EXR reference")
-        ->type_name("NAME");
-    command
-        .add_option(
-            "--layer", compare.layer,
-            "Layer, part, view or channel of EXR files that have several, such as specular; default: that without "
-            "a name, else image, as of files by `ssrlab reference`, else the only one with R, G and B")
-        ->type_name("NAME");
-    command
-        .add_option("--map", compare.map,
-                    "Write the error map: .exr (a layer per metric) or .png (one metric, in false colour)")
-        ->type_name("FILE");
-    command.add_option("--map-max", compare.map_max, "The error shown in the brightest colour of a .png map")
+    CLI::App& command = line.add("compare", "Compare two images (OpenEXR, Radiance or PNG): one number per line");
+    option(command, "reference REFERENCE", compare.reference, "What is right: .exr (linear radiance) or .png (sRGB)")
+        ->required();
+    option(command, "test TEST", compare.test, "What is judged, of the same size and kind")->required();
+    option(command, "--metric NAME", compare.metrics,
+           "May be repeated; see: ssrlab list metrics; default: mse, relmse, relmse_trimmed, outliers, mae, smape, "
+           "bias, energy_ratio, psnr, flip, where the image is large enough ssim, and hdr_flip of an EXR reference");
+    option(command, "--layer NAME", compare.layer,
+           "Layer, part, view or channel of EXR files that have several, such as specular; default: that without a "
+           "name, else image, as of files by `ssrlab reference`, else the only one with R, G and B");
+    option(command, "--map FILE", compare.map,
+           "Write the error map: .exr (a layer per metric) or .png (one metric, in false colour)");
+    option(command, "--map-max", compare.map_max, "The error shown in the brightest colour of a .png map")
         ->check(positive())
         ->capture_default_str();
-    command.add_option("--exposure", compare.exposure_ev, "Display metrics use radiance times 2^EV")
-        ->type_name("EV")
+    option(command, "--exposure EV", compare.exposure_ev, "Display metrics use radiance times 2^EV")
         ->check(real_in(-100, 100, "a number from -100 to 100"))
         ->capture_default_str();
-    command.add_option("--tone-map", compare.tone_map, "Applied before display metrics (psnr, ssim, flip)")
+    option(command, "--tone-map", compare.tone_map, "Applied before display metrics (psnr, ssim, flip)")
         ->check(CLI::IsMember(tone_map_names))
         ->capture_default_str();
     command.add_flag(

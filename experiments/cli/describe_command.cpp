@@ -3,13 +3,14 @@
 #include "core/files.h"
 #include "core/gpu/device.h"
 #include "core/json.h"
+#include "core/list_text.h"
 #include "core/near_miss.h"
 #include "core/scene/load_scene.h"
 #include "core/scene/scene_family.h"
 #include "core/shown_text.h"
 #include "experiments/cli/commands.h"
 #include "experiments/gpu_costs/chips/chip_compiler.h"
-#include "experiments/study/config/config_schema.h"
+#include "experiments/study/config/config.h"
 #include "metrics/metric.h"
 #include "metrics/temporal.h"
 #include "variants/denoisers/denoisers.h"
@@ -91,10 +92,9 @@ static void describe_command(const DescribeOptions& asked) {
     if (is_denoiser(options.technique)) return describe_denoiser(find_denoiser(options.technique));
     if (!options.technique.empty() &&
         !std::ranges::count(technique_table(), options.technique, &TechniqueEntry::name)) {
-        std::vector<std::string> names;
-        for (const TechniqueEntry& entry : technique_table()) names.push_back(entry.name);
-        for (const TracerEntry& tracer : tracer_table()) names.push_back(tracer.name);
-        for (const DenoiserEntry& denoiser : denoiser_table()) names.push_back(denoiser.name);
+        std::vector<std::string> names = names_of(technique_table(), &TechniqueEntry::name);
+        std::ranges::move(names_of(tracer_table(), &TracerEntry::name), std::back_inserter(names));
+        std::ranges::move(names_of(denoiser_table(), &DenoiserEntry::name), std::back_inserter(names));
         fail("unknown technique, tracer or denoiser '", shortened(options.technique), "'",
              suggestion(options.technique, names));
     }
@@ -118,16 +118,11 @@ static void describe_command(const DescribeOptions& asked) {
 
 void add_describe(Commands& line) {
     DescribeOptions& describe = line.keep<DescribeOptions>();
-    CLI::App& command =
-        *line.app.add_subcommand("describe", "Print every parameter: default, range, unit, meaning, source");
-    command
-        .add_option("technique", describe.technique,
-                    "A technique or its folder, a tracer or a denoiser; default: all techniques")
-        ->type_name("NAME");
+    CLI::App& command = line.add("describe", "Print every parameter: default, range, unit, meaning, source");
+    option(command, "technique NAME", describe.technique,
+           "A technique or its folder, a tracer or a denoiser; default: all techniques");
     command.add_flag("--schema", describe.as_schema, "Print a JSON Schema for configs, so that editors complete them");
-    command
-        .add_option("--fill", describe.document,
-                    "In place of printing make the tables of a config's keys in a document anew")
-        ->type_name("FILE.md");
+    option(command, "--fill FILE.md", describe.document,
+           "In place of printing make the tables of a config's keys in a document anew");
     command.callback([&] { describe_command(describe); });
 }

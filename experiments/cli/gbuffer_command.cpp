@@ -65,15 +65,13 @@ static void gbuffer_command(const GBufferCommandOptions& options, const CommonOp
 
 void add_gbuffer(Commands& line) {
     GBufferCommandOptions& gbuffer = line.keep<GBufferCommandOptions>();
-    CLI::App& command =
-        *line.app.add_subcommand("gbuffer", "Rasterise a scene's G-buffer into gbuffer.exr and camera.json");
+    CLI::App& command = line.add("gbuffer", "Rasterise a scene's G-buffer into gbuffer.exr and camera.json");
     add_shot(command, gbuffer.shot);
-    command.add_option("--frames", gbuffer.frames, "First and last, both included: a capture of frames in a row")
+    option(command, "--frames A B", gbuffer.frames, "First and last, both included: a capture of frames in a row")
         ->expected(2)
-        ->type_name("A B")
         ->excludes("--frame");
-    command.add_option("--out", gbuffer.out, "Folder; default: <scene>_gbuffer")->type_name("DIR");
-    command.add_option("--depth-format", gbuffer.depth_format)
+    option(command, "--out DIR", gbuffer.out, "Folder; default: <scene>_gbuffer");
+    option(command, "--depth-format", gbuffer.depth_format, "")
         ->check(CLI::IsMember({"d32f", "d24", "d16"}))
         ->capture_default_str();
     command.add_flag("--reversed-depth", gbuffer.is_reversed, "1 at the near plane, 0 at the far plane");

@@ -53,21 +53,16 @@ static void inspect_command(const InspectOptions& options, const CommonOptions& 
 
 void add_inspect(Commands& line) {
     InspectOptions& inspect = line.keep<InspectOptions>();
-    CLI::App& command = *line.app.add_subcommand(
+    CLI::App& command = line.add(
         "inspect", "Show what ssrlab understands of a file: a scene, an image, a capture or an engine's frames");
-    command
-        .add_option("file", inspect.file,
-                    "A .gltf, .glb or scene.json, a folder with one, a scene's name, an image, the folder of a capture "
-                    "or of an engine's frames")
-        ->required()
-        ->type_name("FILE");
+    option(command, "file FILE", inspect.file,
+           "A .gltf, .glb or scene.json, a folder with one, a scene's name, an image, the folder of a capture or of an "
+           "engine's frames")
+        ->required();
     command.add_flag("--all", inspect.has_all, "Lists in full; default: the first eight entries of each");
-    command.add_option("--json", inspect.json, "Also write all of it as JSON; -: print that alone")
-        ->type_name("FILE.json");
-    command
-        .add_option("--picture", inspect.picture,
-                    "Also draw a scene's first view by both renderers, and where they differ")
-        ->type_name("FILE.png");
+    option(command, "--json FILE.json", inspect.json, "Also write all of it as JSON; -: print that alone");
+    option(command, "--picture FILE.png", inspect.picture,
+           "Also draw a scene's first view by both renderers, and where they differ");
     add_device(command, line.common), add_scene_path(command, line.common);
     add_reading(command);
     command.callback([&] { inspect_command(inspect, line.common); });

@@ -67,29 +67,24 @@ static int judge_command(const JudgeOptions& options, const CommonOptions& commo
 
 void add_judge(Commands& line) {
     JudgeOptions& judge = line.keep<JudgeOptions>();
-    CLI::App& command = *line.app.add_subcommand(
-        "judge",
-        "Judge the frames of another renderer by the truth, and against those that it rendered before: better, worse, "
-        "equivalent, undecided or identical (at most 1 % false alarms)");
-    command
-        .add_option("frames", judge.frames,
-                    "Folder with external.json and SCENE.CAMERA.WIDTHxHEIGHT/fFRAME.sSEED.exr (experiments/README.md, "
-                    "\"Images of other programs\")")
-        ->required()
-        ->type_name("FRAMES");
-    command
-        .add_option("--scene", judge.scene,
-                    "The scene of the views, by name or path; default: found by the names of the views' folders")
-        ->type_name("SCENE");
-    command.add_option("--capture", judge.capture, "A captured G-buffer in place of a scene")->type_name("DIR");
-    command.add_option("--reference", judge.reference, "With --capture: the truth of its frame")->type_name("FILE.exr");
-    command.add_option("--against", judge.against, "Such a folder of earlier frames of the same renderer and views")
-        ->type_name("FOLDER");
+    CLI::App& command =
+        line.add("judge",
+                 "Judge the frames of another renderer by the truth, and against those that it rendered before: "
+                 "better, worse, equivalent, undecided or identical (at most 1 % false alarms)");
+    option(command, "frames FRAMES", judge.frames,
+           "Folder with external.json and SCENE.CAMERA.WIDTHxHEIGHT/fFRAME.sSEED.exr (experiments/README.md, \"Images "
+           "of other programs\")")
+        ->required();
+    option(command, "--scene SCENE", judge.scene,
+           "The scene of the views, by name or path; default: found by the names of the views' folders");
+    option(command, "--capture DIR", judge.capture, "A captured G-buffer in place of a scene");
+    option(command, "--reference FILE.exr", judge.reference, "With --capture: the truth of its frame");
+    option(command, "--against FOLDER", judge.against,
+           "Such a folder of earlier frames of the same renderer and views");
     command.add_flag("--fail-if-worse", judge.fails_if_worse, "Exit code 1 if the verdict is \"worse\"");
-    command.add_option("--samples", judge.samples, "Of the truth, per pixel; default: 256")
-        ->type_name("N")
+    option(command, "--samples N", judge.samples, "Of the truth, per pixel; default: 256")
         ->check(CLI::Range(32, 1 << 20));
-    command.add_option("--out", judge.out, "Results folder with the page; default: results/judge")->type_name("DIR");
+    option(command, "--out DIR", judge.out, "Results folder with the page; default: results/judge");
     add_margin(command, judge.margin, "0.05");
     add_scene_path(command, line.common), add_device(command, line.common), add_cache(command, line.common);
     add_reading(command);

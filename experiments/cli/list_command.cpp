@@ -3,13 +3,13 @@
 #include "core/files.h"
 #include "core/gpu/device.h"
 #include "core/json.h"
+#include "core/list_text.h"
 #include "core/near_miss.h"
 #include "core/scene/load_scene.h"
 #include "core/scene/scene_family.h"
 #include "core/shown_text.h"
 #include "experiments/cli/commands.h"
 #include "experiments/gpu_costs/chips/chip_compiler.h"
-#include "experiments/study/config/config_schema.h"
 #include "metrics/metric.h"
 #include "metrics/temporal.h"
 #include "variants/denoisers/denoisers.h"
@@ -57,10 +57,8 @@ std::string about_scene(const std::filesystem::path& folder) {
 /// which only loading it would tell, and of a malformed file, whose mistake loading it tells.
 std::string cameras_of_scene(const std::filesystem::path& folder) try {
     const nlohmann::json scene = read_json(folder / "scene.json");
-    std::string names;
-    for (const nlohmann::json& camera : scene.value("cameras", nlohmann::json::array()))
-        names += (names.empty() ? "" : ", ") + camera.value("name", "");
-    return names;
+    return joined(names_of(scene.value("cameras", nlohmann::json::array()),
+                           [](const nlohmann::json& camera) { return camera.value("name", ""); }));
 } catch (const std::exception&) {
     return "";
 }
@@ -129,14 +127,13 @@ static void list_command(const std::string& what, const CommonOptions& common) {
 
 void add_list(Commands& line) {
     auto& what = line.keep<std::string>();
-    CLI::App& command = *line.app.add_subcommand(
+    CLI::App& command = line.add(
         "list",
         "List scenes and what each tests, techniques, their presets, tracers, denoisers, metrics, devices or chips");
-    command.add_option("what", what, "What to list")
+    option(command, "what scenes|techniques|presets|tracers|denoisers|metrics|devices|chips", what, "What to list")
         ->required()
         ->check(
-            CLI::IsMember({"scenes", "techniques", "presets", "tracers", "denoisers", "metrics", "devices", "chips"}))
-        ->type_name("scenes|techniques|presets|tracers|denoisers|metrics|devices|chips");
+            CLI::IsMember({"scenes", "techniques", "presets", "tracers", "denoisers", "metrics", "devices", "chips"}));
     add_scene_path(command, line.common);
     add_reading(command);
     command.callback([&] { list_command(what, line.common); });

@@ -3,7 +3,7 @@
 #include "experiments/cli/commands.h"
 #include "experiments/cli/config_of_study.h"
 #include "experiments/report/report.h"
-#include "experiments/study/run.h"
+#include "experiments/study/merge.h"
 
 namespace {
 
@@ -30,20 +30,17 @@ static int merge_command(const MergeOptions& options, const CommonOptions& commo
 
 void add_merge(Commands& line) {
     MergeOptions& merge = line.keep<MergeOptions>();
-    CLI::App& command = *line.app.add_subcommand(
-        "merge", "Merge the results folders of a study's parts (`ssrlab run --cells`) into one");
-    command.add_option("config", merge.config, "The study")->required()->type_name("CONFIG.json");
-    command.add_option("results", merge.folders, "Folders of its parts; default: that of --out")
-        ->check(CLI::ExistingDirectory)
-        ->type_name("DIR...");
-    command.add_option("--out", merge.out, "Results folder; default: results/<name of the config>")->type_name("DIR");
+    CLI::App& command =
+        line.add("merge", "Merge the results folders of a study's parts (`ssrlab run --cells`) into one");
+    option(command, "config CONFIG.json", merge.config, "The study")->required();
+    option(command, "results DIR...", merge.folders, "Folders of its parts; default: that of --out")
+        ->check(CLI::ExistingDirectory);
+    option(command, "--out DIR", merge.out, "Results folder; default: results/<name of the config>");
     command.add_flag("--keep-all", merge.keep_all, "The parts were run with --keep-all");
     command.add_flag("--replace", merge.replaces, "As for `ssrlab run`");
-    command
-        .add_option("--device", line.common.device,
-                    "Whose cells are merged, where the parts hold those of several devices: a part of its name, or an "
-                    "index of `ssrlab list devices`; default: the one that made all, which need not be here")
-        ->type_name("NAME");
+    option(command, "--device NAME", line.common.device,
+           "Whose cells are merged, where the parts hold those of several devices: a part of its name, or an index of "
+           "`ssrlab list devices`; default: the one that made all, which need not be here");
     add_scene_path(command, line.common);
     add_reading(command);
     command.callback([&] { line.status = merge_command(merge, line.common); });

@@ -8,6 +8,7 @@
 #include "experiments/cli/commands.h"
 #include "experiments/cli/config_of_study.h"
 #include "experiments/results/cells/cell_store.h"
+#include "experiments/study/plan/cell_selection.h"
 #include "experiments/study/plan/estimate.h"
 #include "experiments/study/plan/ranking_warnings.h"
 #include "experiments/study/progress.h"
@@ -140,19 +141,14 @@ static void plan_command(const PlanOptions& options, const CommonOptions& common
 
 void add_plan(Commands& line) {
     PlanOptions& plan = line.keep<PlanOptions>();
-    CLI::App& command = *line.app.add_subcommand(
-        "plan", "List the cells of a study, which are done, and the estimated time and memory of the others");
-    command.add_option("config", plan.config, "The study")->required()->type_name("CONFIG.json");
-    command.add_option("--out", plan.out, "Its results folder; default: results/<name of the config>")
-        ->type_name("DIR");
-    command.add_option("--cells", plan.cells, "Only these cells, as for `ssrlab run`")
-        ->delimiter(',')
-        ->type_name("TERM");
+    CLI::App& command =
+        line.add("plan", "List the cells of a study, which are done, and the estimated time and memory of the others");
+    option(command, "config CONFIG.json", plan.config, "The study")->required();
+    option(command, "--out DIR", plan.out, "Its results folder; default: results/<name of the config>");
+    option(command, "--cells TERM", plan.cells, "Only these cells, as for `ssrlab run`")->delimiter(',');
     command.add_flag("--list", plan.has_list, "List the cells in place of estimates");
-    command
-        .add_option("--json", plan.json,
-                    "Also write all cells with their estimates, for other machines: this one's memory is then no limit")
-        ->type_name("FILE.json");
+    option(command, "--json FILE.json", plan.json,
+           "Also write all cells with their estimates, for other machines: this one's memory is then no limit");
     command.add_flag("--keep-all", plan.keep_all, "As for `ssrlab run`");
     add_device(command, line.common), add_scene_path(command, line.common);
     add_reading(command);

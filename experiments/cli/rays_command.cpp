@@ -73,20 +73,16 @@ static void rays_command(const RaysOptions& options, const CommonOptions& common
 
 void add_rays(Commands& line) {
     RaysOptions& rays = line.keep<RaysOptions>();
-    CLI::App& command =
-        *line.app.add_subcommand("rays", "Trace the mirror rays of what reflects, and print where they end as a table");
-    command
-        .add_option("scenes", rays.scenes, "Scenes, each seen by its first camera; room:* stands for several in a row")
-        ->required()
-        ->type_name("SCENE...");
-    command.add_option("--count", rays.count, "How many scenes room:* stands for")
+    CLI::App& command = line.add("rays", "Trace the mirror rays of what reflects, and print where they end as a table");
+    option(command, "scenes SCENE...", rays.scenes,
+           "Scenes, each seen by its first camera; room:* stands for several in a row")
+        ->required();
+    option(command, "--count N", rays.count, "How many scenes room:* stands for")
         ->check(CLI::Range(1u, largest_scene_number + 1))
-        ->capture_default_str()
-        ->type_name("N");
-    command.add_option("--first", rays.first, "The number of the first of them")
+        ->capture_default_str();
+    option(command, "--first N", rays.first, "The number of the first of them")
         ->check(CLI::Range(0u, largest_scene_number))
-        ->capture_default_str()
-        ->type_name("N");
+        ->capture_default_str();
     add_size(command, rays.size, "160 90");
     add_scene_path(command, line.common);
     add_reading(command);

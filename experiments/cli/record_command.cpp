@@ -59,34 +59,29 @@ static void record_command(const RecordOptions& options, const CommonOptions& co
 
 void add_record(Commands& line) {
     RecordOptions& record = line.keep<RecordOptions>();
-    CLI::App& command = *line.app.add_subcommand(
+    CLI::App& command = line.add(
         "record", "Write a page in which a browser does a technique's passes again (WebGL 2), beside the truth");
     add_scene(command, record.shot.scene);
-    command
-        .add_option(
-            "--technique", record.technique,
-            "A technique of fragment passes alone (see: ssrlab list techniques), or its folder; others are refused")
-        ->required()
-        ->type_name("NAME");
+    option(command, "--technique NAME", record.technique,
+           "A technique of fragment passes alone (see: ssrlab list techniques), or its folder; others are refused")
+        ->required();
     add_values(command, record.preset, record.parameters);
-    command.add_option("--camera", record.shot.camera, "Default: the scene's first")->type_name("NAME");
+    option(command, "--camera NAME", record.shot.camera, "Default: the scene's first");
     add_planes(command, record.shot);
     add_animation(command, record.shot.animation);
     add_size(command, record.shot.size, "192 108");
-    command.add_option("--frames", record.frames, "Frames of the camera's path and of the animation")
-        ->capture_default_str()
-        ->type_name("A-B");
-    command.add_option("--samples", record.samples, "Of the truth, per pixel")
+    option(command, "--frames A-B", record.frames, "Frames of the camera's path and of the animation")
+        ->capture_default_str();
+    option(command, "--samples N", record.samples, "Of the truth, per pixel")
         ->check(CLI::Range(1, 1 << 24))
-        ->capture_default_str()
-        ->type_name("N");
+        ->capture_default_str();
     command.add_flag("--packed", record.is_packed,
                      "G-buffer in the formats of engines, so that the page is smaller; default: float32");
     command.add_flag("--results", record.has_results,
                      "Also what this device rendered, so that the page says where a browser differs from it");
     command.add_flag("--passes", record.has_passes,
                      "Also what each pass of this device wrote, so that the page compares one by one");
-    command.add_option("--out", record.out, "The page")->required()->type_name("PAGE.html");
+    option(command, "--out PAGE.html", record.out, "The page")->required();
     add_device(command, line.common), add_scene_path(command, line.common), add_cache(command, line.common);
     add_reading(command);
     command.callback([&] { record_command(record, line.common); });

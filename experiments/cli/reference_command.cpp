@@ -113,40 +113,34 @@ static void reference_command(const ReferenceCommandOptions& options, const Comm
 
 void add_reference(Commands& line) {
     ReferenceCommandOptions& reference = line.keep<ReferenceCommandOptions>();
-    CLI::App& command = *line.app.add_subcommand("reference", "Path-trace a scene; continues a stopped render");
+    CLI::App& command = line.add("reference", "Path-trace a scene; continues a stopped render");
     add_shot(command, reference.shot);
-    command
-        .add_option("--samples", reference.settings.max_samples,
-                    "Per pixel, at most; rounded up to 16 x 2^k; default: " +
-                        std::to_string(ReferenceSettings::default_samples) + ", or no limit with --seconds or --target")
+    option(command, "--samples", reference.settings.max_samples,
+           "Per pixel, at most; rounded up to 16 x 2^k; default: " +
+               std::to_string(ReferenceSettings::default_samples) + ", or no limit with --seconds or --target")
         ->check(CLI::Range(16, 1 << 24));
-    command
-        .add_option("--lit-samples", reference.settings.lit_samples,
-                    "Of these of the diffuse light, at most: the rest is of the specular light alone; default: all")
+    option(command, "--lit-samples", reference.settings.lit_samples,
+           "Of these of the diffuse light, at most: the rest is of the specular light alone; default: all")
         ->check(CLI::Range(16, 1 << 24));
-    command
-        .add_option("--guide-samples", reference.settings.guide_samples,
-                    "Per pixel of the guide, which weighs relative errors and tells roulette what to expect")
+    option(command, "--guide-samples", reference.settings.guide_samples,
+           "Per pixel of the guide, which weighs relative errors and tells roulette what to expect")
         ->check(CLI::Range(16, 4096))
         ->capture_default_str();
-    command
-        .add_option("--seconds", reference.settings.max_seconds,
-                    "Time limit, beside the samples of the guide; default: none")
+    option(command, "--seconds", reference.settings.max_seconds,
+           "Time limit, beside the samples of the guide; default: none")
         ->check(positive());
-    command
-        .add_option("--target", reference.settings.target_relative_error,
-                    "Stop at this relative standard error of the specular light at a pixel, e.g. 0.03")
+    option(command, "--target", reference.settings.target_relative_error,
+           "Stop at this relative standard error of the specular light at a pixel, e.g. 0.03")
         ->check(real_in(1e-4, 1, "a number from 0.0001 to 1"));
-    command
-        .add_option("--max-depth", reference.settings.max_depth,
-                    "Reflections of a path at most; the camera ray does not count")
+    option(command, "--max-depth", reference.settings.max_depth,
+           "Reflections of a path at most; the camera ray does not count")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
-    command.add_option("--seed", reference.settings.seed, "Seed of the path tracer")->capture_default_str();
+    option(command, "--seed", reference.settings.seed, "Seed of the path tracer")->capture_default_str();
     command.add_flag("--ladder", reference.settings.ladder,
-                     "Also the truth ladder: lower bounds of the errors by factoring the BRDF, one view and "
-                     "bounce, and the borders of the screen; about twice the rays");
-    command.add_option("--out", reference.out, "Default: <scene>_reference.exr")->type_name("FILE.exr");
+                     "Also the truth ladder: lower bounds of the errors by factoring the BRDF, one view and bounce, "
+                     "and the borders of the screen; about twice the rays");
+    option(command, "--out FILE.exr", reference.out, "Default: <scene>_reference.exr");
     add_scene_path(command, line.common), add_cache(command, line.common);
     add_reading(command);
     command.callback([&] { reference_command(reference, line.common); });

@@ -38,14 +38,11 @@ static void run_study_command(const RunOptions& options, const CommonOptions& co
 
 void add_run(Commands& line) {
     RunOptions& run = line.keep<RunOptions>();
-    CLI::App& command = *line.app.add_subcommand("run", "Run a study: shots x techniques x parameter points x seeds");
-    command.add_option("config", run.config, "The study (experiments/README.md explains its keys)")
-        ->required()
-        ->type_name("CONFIG.json");
-    command
-        .add_option("--out", run.out,
-                    "Results folder; default: results/<name of the config>. A stopped study continues there")
-        ->type_name("DIR");
+    CLI::App& command = line.add("run", "Run a study: shots x techniques x parameter points x seeds");
+    option(command, "config CONFIG.json", run.config, "The study (experiments/README.md explains its keys)")
+        ->required();
+    option(command, "--out DIR", run.out,
+           "Results folder; default: results/<name of the config>. A stopped study continues there");
     command.add_flag("--keep-all", run.keep_all,
                      "Also do work that can be skipped (to verify that skipping it changes nothing)");
     command.add_flag("--replace", run.replaces,
@@ -57,21 +54,16 @@ void add_run(Commands& line) {
                      "Take times again that other programs disturbed; the less disturbed are kept");
     command.add_flag("--no-report", run.has_no_report,
                      "Write tables and images alone; `ssrlab report` makes the report of them later");
-    command
-        .add_option("--report-after", run.report_after,
-                    "Seconds of a running study until it writes tables and report of what is done; it goes on to do so "
-                    "for a twenty-fifth of the time, after ten minutes for half a hundredth")
+    option(command, "--report-after SECONDS", run.report_after,
+           "Seconds of a running study until it writes tables and report of what is done; it goes on to do so for a "
+           "twenty-fifth of the time, after ten minutes for half a hundredth")
         ->check(real_in(0, std::numeric_limits<double>::max(), "a number of 0 or more"))
-        ->capture_default_str()
-        ->type_name("SECONDS");
-    command
-        .add_option(
-            "--cells", run.cells,
-            "Do only these cells, of a study that several processes or machines share: references, renders, "
-            "costs, times; shot=NAME, technique=NAME (* stands for any text); shard=I/N; cell=HASH. Terms of different "
-            "kinds narrow each other. Tables are made by `ssrlab merge`")
-        ->delimiter(',')
-        ->type_name("TERM");
+        ->capture_default_str();
+    option(command, "--cells TERM", run.cells,
+           "Do only these cells, of a study that several processes or machines share: references, renders, costs, "
+           "times; shot=NAME, technique=NAME (* stands for any text); shard=I/N; cell=HASH. Terms of different kinds "
+           "narrow each other. Tables are made by `ssrlab merge`")
+        ->delimiter(',');
     add_device(command, line.common), add_scene_path(command, line.common), add_cache(command, line.common);
     add_reading(command);
     command.callback([&] { run_study_command(run, line.common); });

@@ -31,8 +31,7 @@ const SceneEngine& engine_named(const std::string& name) {
     const auto& engines = scene_engines();
     const auto found = std::ranges::find(engines, name, &SceneEngine::name);
     if (found != engines.end()) return *found;
-    std::vector<std::string> names;
-    for (const SceneEngine& engine : engines) names.push_back(engine.name);
+    const std::vector<std::string> names = names_of(engines, &SceneEngine::name);
     fail("scene-for: unknown engine '", shortened(name), "'", suggestion(name, names), "; known are: ", joined(names),
          "; 'any' writes all formats");
 }
@@ -70,38 +69,32 @@ static void scene_for_command(const SceneForOptions& options, const CommonOption
 
 void add_scene_for(Commands& line) {
     SceneForOptions& scene_for = line.keep<SceneForOptions>();
-    CLI::App& command = *line.app.add_subcommand(
-        "scene-for",
-        "Write a scene's views for another program: glTF, poses, and the light that its reflections are to be computed "
-        "from");
-    command.add_option("engine", scene_for.engine, "any, three, babylon, eevee or godot: decides the files' formats")
-        ->required()
-        ->type_name("ENGINE");
+    CLI::App& command = line.add("scene-for",
+                                 "Write a scene's views for another program: glTF, poses, and the light that its "
+                                 "reflections are to be computed from");
+    option(command, "engine ENGINE", scene_for.engine,
+           "any, three, babylon, eevee or godot: decides the files' formats")
+        ->required();
     add_scene(command, scene_for.scene);
     add_animation(command, scene_for.animation);
-    command.add_option("--camera", scene_for.cameras, "One or more; default: the scene's first")->type_name("NAME");
+    option(command, "--camera NAME", scene_for.cameras, "One or more; default: the scene's first");
     add_size(command, scene_for.size);
-    command
-        .add_option("--frames", scene_for.frames,
-                    "Frames of the cameras' paths and of the animation, as 0-63 or 0 8 16")
-        ->capture_default_str()
-        ->type_name("N");
-    command
-        .add_option(
-            "--samples", scene_for.samples,
-            "Of the truth, per pixel: those of the study that will compare the images, which then finds it cached")
+    option(command, "--frames N", scene_for.frames,
+           "Frames of the cameras' paths and of the animation, as 0-63 or 0 8 16")
+        ->capture_default_str();
+    option(command, "--samples", scene_for.samples,
+           "Of the truth, per pixel: those of the study that will compare the images, which then finds it cached")
         ->check(CLI::Range(16, 1 << 24))
         ->capture_default_str();
-    command.add_option("--lit-samples", scene_for.lit_samples, "As the study's; default: all")
+    option(command, "--lit-samples", scene_for.lit_samples, "As the study's; default: all")
         ->check(CLI::Range(16, 1 << 24));
     command.add_flag("--ladder", scene_for.has_ladder, "The study has targets of the truth ladder");
-    command
-        .add_option("--fallback", scene_for.fallback,
-                    "As the study's: what rays see that find nothing. A probe shows a room from the camera's place, "
-                    "where the environment is the sky behind its walls")
+    option(command, "--fallback", scene_for.fallback,
+           "As the study's: what rays see that find nothing. A probe shows a room from the camera's place, where the "
+           "environment is the sky behind its walls")
         ->check(CLI::IsMember({"environment", "probe"}))
         ->capture_default_str();
-    command.add_option("--out", scene_for.out, "Folder")->required()->type_name("DIR");
+    option(command, "--out DIR", scene_for.out, "Folder")->required();
     add_scene_path(command, line.common), add_cache(command, line.common);
     add_reading(command);
     command.callback([&] { scene_for_command(scene_for, line.common); });

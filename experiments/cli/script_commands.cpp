@@ -12,7 +12,6 @@
 #include "experiments/results/verdicts/study_points.h"
 #include "experiments/study/config/config.h"
 #include "experiments/study/config/config_parts.h"
-#include "experiments/study/config/config_schema.h"
 #include "metrics/estimators.h"
 #include "variants/registry.h"
 
@@ -142,58 +141,50 @@ static void hand_on(CLI::App& command, int (*call)(const std::vector<std::string
 }
 
 void add_figures(Commands& line) {
-    hand_on(*line.app.add_subcommand(
-                "figures",
-                "Draw the figures of a paper (PDF, SVG, PNG) and animations of motion (GIF) from a results folder"),
-            figures_command, line);
+    hand_on(
+        line.add("figures",
+                 "Draw the figures of a paper (PDF, SVG, PNG) and animations of motion (GIF) from a results folder"),
+        figures_command, line);
 }
 
 void add_tables(Commands& line) {
-    hand_on(*line.app.add_subcommand("tables", "Make a study's tables (Markdown, LaTeX, CSV) from a results folder"),
-            tables_command, line);
+    hand_on(line.add("tables", "Make a study's tables (Markdown, LaTeX, CSV) from a results folder"), tables_command,
+            line);
 }
 
 void add_tradeoff(Commands& line) {
     TradeoffOptions& tradeoff = line.keep<TradeoffOptions>();
-    CLI::App& command = *line.app.add_subcommand(
+    CLI::App& command = line.add(
         "tradeoff",
         "Answer error against time: fronts, the best technique for a time budget, errors that no time removes");
-    command.add_option("results", tradeoff.results, "A folder that `ssrlab run` filled")->required()->type_name("DIR");
-    command.add_option("--out", tradeoff.out, "Default: tradeoff in the results folder")->type_name("DIR");
-    command
-        .add_option("--baseline", tradeoff.baseline,
-                    "Errors are multiples of this point's; default: none, else the study's first baseline")
-        ->type_name("TECHNIQUE:POINT");
-    command.add_option("--times", tradeoff.times, "Time budgets, or budgets of what --cost counts or estimates")
+    option(command, "results DIR", tradeoff.results, "A folder that `ssrlab run` filled")->required();
+    option(command, "--out DIR", tradeoff.out, "Default: tradeoff in the results folder");
+    option(command, "--baseline TECHNIQUE:POINT", tradeoff.baseline,
+           "Errors are multiples of this point's; default: none, else the study's first baseline");
+    option(command, "--times MS", tradeoff.times, "Time budgets, or budgets of what --cost counts or estimates")
         ->check(positive())
-        ->capture_default_str()
-        ->type_name("MS");
-    command.add_option("--factors", tradeoff.factors, "Fractions of the baseline's error, for the time to reach them")
+        ->capture_default_str();
+    option(command, "--factors F", tradeoff.factors, "Fractions of the baseline's error, for the time to reach them")
         ->check(positive())
-        ->capture_default_str()
-        ->type_name("F");
-    command.add_option("--leave-out", tradeoff.left_out, "Scenes or shots to exclude")->type_name("SCENE");
+        ->capture_default_str();
+    option(command, "--leave-out SCENE", tradeoff.left_out, "Scenes or shots to exclude");
     add_margin(command, tradeoff.margin, "the study's `primary.margin`");
-    command.add_option("--metric", tradeoff.metric, "Default: that of the study's primary error");
-    command.add_option("--mask", tradeoff.mask, "Default: that of the study's primary error");
-    command.add_option("--target", tradeoff.target, "Default: that of the study's primary error");
-    command
-        .add_option("--cost", tradeoff.cost,
-                    "A counted quantity of costs.csv, or a chip of estimates.csv, in place of time")
-        ->type_name("QUANTITY|CHIP");
+    option(command, "--metric", tradeoff.metric, "Default: that of the study's primary error");
+    option(command, "--mask", tradeoff.mask, "Default: that of the study's primary error");
+    option(command, "--target", tradeoff.target, "Default: that of the study's primary error");
+    option(command, "--cost QUANTITY|CHIP", tradeoff.cost,
+           "A counted quantity of costs.csv, or a chip of estimates.csv, in place of time");
     add_reading(command);
     command.callback([&] { line.status = tradeoff_command(tradeoff); });
 }
 
 void add_tune(Commands& line) {
     TuneOptions& tune = line.keep<TuneOptions>();
-    CLI::App& command = *line.app.add_subcommand(
+    CLI::App& command = line.add(
         "tune",
         "Search a technique's parameters for the front of error against time, and evaluate them on other scenes");
-    command.add_option("config", tune.config, "A study with \"tune\" (experiments/README.md)")
-        ->required()
-        ->type_name("CONFIG.json");
-    command.add_option("--out", tune.out, "Default: results/<name of the config>")->type_name("DIR");
+    option(command, "config CONFIG.json", tune.config, "A study with \"tune\" (experiments/README.md)")->required();
+    option(command, "--out DIR", tune.out, "Default: results/<name of the config>");
     add_device(command, line.common), add_scene_path(command, line.common), add_cache(command, line.common);
     add_reading(command);
     command.callback([&] { line.status = tune_command(tune, run_options(command, line.common)); });

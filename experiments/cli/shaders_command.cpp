@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/gpu/device.h"
+#include "core/list_text.h"
 #include "core/number_text.h"
 #include "core/path_inside.h"
 #include "core/scene/load_scene.h"
@@ -67,16 +68,14 @@ std::string change_from(const CompiledRow& row, const std::vector<CompiledRow>& 
     });
     if (other == others.end()) return "only here";
     if (!row.hash.empty() && row.hash == other->hash) return "same machine code";
-    std::string changes;
-    const auto add = [&](const char* name, const std::optional<double>& before, const std::optional<double>& now) {
-        if (before != now)
-            changes +=
-                (changes.empty() ? "" : ", ") + std::string(name) + ' ' + text_of(before) + " -> " + text_of(now);
+    std::vector<std::string> changes;
+    const auto add = [&](std::string name, const std::optional<double>& before, const std::optional<double>& now) {
+        if (before != now) changes.push_back(name + ' ' + text_of(before) + " -> " + text_of(now));
     };
     add("VGPRs", other->vgprs, row.vgprs), add("spilled", other->spilled_vgprs, row.spilled_vgprs);
     add("waves", other->waves, row.waves), add("instructions", other->instructions, row.instructions);
     add("cycles", other->inverse_throughput, row.inverse_throughput);
-    return changes.empty() ? "other machine code" : changes;
+    return changes.empty() ? "other machine code" : joined(changes);
 }
 
 void print(const std::vector<CompiledRow>& rows, const std::vector<CompiledRow>& others, const std::string& against) {
@@ -178,32 +177,22 @@ void add_shaders(Commands& line) {
     ShadersOptions& shaders =
         line.keep<ShadersOptions>({.shot = {.scene = "mirror_pillars", .camera = {}, .size = {96, 54}}});
     shaders.chips.assign(default_chips.begin(), default_chips.end());
-    CLI::App& command = *line.app.add_subcommand(
+    CLI::App& command = line.add(
         "shaders", "Show what compilers of GPUs make of a technique's passes: registers, occupancy, instructions");
-    command
-        .add_option("technique", shaders.technique,
-                    "A technique (see: ssrlab list techniques), or its folder, with a /")
-        ->required()
-        ->type_name("NAME");
+    option(command, "technique NAME", shaders.technique,
+           "A technique (see: ssrlab list techniques), or its folder, with a /")
+        ->required();
     add_values(command, shaders.preset, shaders.parameters);
-    command
-        .add_option(
-            "--chip", shaders.chips,
-            "GPUs by the names that Mesa's radv has for them (see: ssrlab list chips); default: navi21, gfx1100, "
-            "vega10")
-        ->delimiter(',')
-        ->type_name("NAME");
-    command
-        .add_option("--against", shaders.against,
-                    "Also show what differs from another preset, or from a study with \"gpu_compilers\"")
-        ->type_name("PRESET|RESULTS");
-    command.add_option("--assembly", shaders.assembly, "Write the machine code of each shader into this folder")
-        ->type_name("DIR");
-    command.add_option("--csv", shaders.csv, "Also write the table")->type_name("FILE.csv");
-    CLI::Option* const scene = command.add_option(
-        "--scene", shaders.shot.scene,
-        "Leave out what this scene does not need; default: nothing is left out, and mirror_pillars is rendered");
-    scene->type_name("SCENE");
+    option(command, "--chip NAME", shaders.chips,
+           "GPUs by the names that Mesa's radv has for them (see: ssrlab list chips); default: navi21, gfx1100, vega10")
+        ->delimiter(',');
+    option(command, "--against PRESET|RESULTS", shaders.against,
+           "Also show what differs from another preset, or from a study with \"gpu_compilers\"");
+    option(command, "--assembly DIR", shaders.assembly, "Write the machine code of each shader into this folder");
+    option(command, "--csv FILE.csv", shaders.csv, "Also write the table");
+    CLI::Option* const scene =
+        option(command, "--scene SCENE", shaders.shot.scene,
+               "Leave out what this scene does not need; default: nothing is left out, and mirror_pillars is rendered");
     add_device(command, line.common), add_scene_path(command, line.common), add_cache(command, line.common);
     add_reading(command);
     command.callback([&] {

@@ -1,4 +1,4 @@
-// ssrlab stability: techniques under extreme inputs.
+// ssrlab stability: techniques under extreme inputs, and in half floats, floats and doubles.
 #include "core/cache_folder.h"
 #include "core/error.h"
 #include "core/files.h"
@@ -6,18 +6,25 @@
 #include "core/shown_text.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/script_commands.h"
-#include "experiments/cli/stability_options.h"
 #include "experiments/report/report.h"
 #include "experiments/results/stability/stability_results.h"
 #include "experiments/study/progress.h"
+#include "experiments/study/stability/precision/precision.h"
 #include "experiments/study/stability/stability.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <thread>
 
 namespace {
+
+struct StabilityOptions {
+    std::vector<std::string> techniques, cases;  ///< empty: all
+    bool has_all_stages = false, is_of_precision = false;
+    std::filesystem::path table, out, figure;  ///< table "": ssrlab's own; figure "": none
+};
 
 /// One line for what went wrong; "" for what did not.
 std::string complaint(const StabilityRow& row) {
@@ -60,7 +67,82 @@ std::vector<std::unique_ptr<Device>> open_devices(const std::string& choice) {
     return devices;
 }
 
+/// The worst of one comparison over the cases.
+struct Worst {
+    double share = 0, p999 = 0, differing = 0;
+    std::string case_name, refusal;
+    size_t non_finite = 0;
+};
+
+std::string title_of(const PrecisionRow& r) {
+    const bool is_format = r.kind == PrecisionKind::own || r.kind == PrecisionKind::half;
+    const std::string what = r.stage.empty()   ? "all"
+                             : is_format       ? r.image + ' ' + r.format
+                             : r.image.empty() ? r.stage
+                                               : r.stage + ": " + r.image;
+    char line[256];
+    std::snprintf(line, sizeof line, "%-28s %-10s %-46s", (r.technique + ' ' + r.point).c_str(), name_of(r.kind),
+                  what.c_str());
+    return line;
+}
+
+void print_table(const std::vector<PrecisionRow>& rows) {
+    std::vector<std::string> order;
+    std::map<std::string, Worst> table;
+    for (const PrecisionRow& r : rows) {
+        if (r.kind == PrecisionKind::method) continue;
+        const std::string line = title_of(r);
+        const auto [entry, is_new] = table.try_emplace(line);
+        if (is_new) order.push_back(line);
+        Worst& worst = entry->second;
+        worst.non_finite += r.non_finite;
+        if (!r.refusal.empty()) worst.refusal = r.refusal;
+        worst.p999 = std::max(worst.p999, r.value_p999.value_or(0.0));
+        worst.differing = std::max(worst.differing, r.differing.value_or(0.0));
+        if (r.share.value_or(0.0) > worst.share) worst.share = *r.share, worst.case_name = r.case_name;
+    }
+    std::printf("\n%-28s %-10s %-46s%10s %-10s%10s%10s\n", "the worst of all cases", "", "", "share", "in", "p999",
+                "differing");
+    for (const std::string& line : order) {
+        const Worst& w = table[line];
+        std::printf("%s%10.1e %-10s%10.1e%10.1e", line.c_str(), w.share, shown_text(w.case_name).c_str(), w.p999,
+                    w.differing);
+        if (w.share > negligible_share) std::printf("  counts");
+        if (w.non_finite) std::printf("  %zu pixels not finite", w.non_finite);
+        std::printf("%s%s\n", w.refusal.empty() ? "" : "  refused: ", shown_text(w.refusal).c_str());
+    }
+    std::printf(
+        "\nshare: squared change of the picture over the method's squared error; it counts above %g\n"
+        "p999: 99.9th percentile of the relative change of values, or of rays\n"
+        "differing: share of values that change at all; of a march, of rays that end in another pixel\n",
+        negligible_share);
+}
+
 }  // namespace
+
+/// `ssrlab stability --precision`: the error of half floats and floats. Returns the exit code, 0.
+static int precision_command(const StabilityOptions& options, const CommonOptions& common) {
+    if (!options.figure.empty() || options.has_all_stages)
+        fail("--figure and --all-stages do not apply to --precision");
+    Device device(common.device);
+    create_folder(options.out);
+    const std::filesystem::path csv = options.out / "stability_precision.csv";
+    Progress progress(1.0);
+    const auto done = [&](const std::vector<PrecisionRow>& rows, double share) {
+        const PrecisionRow& row = rows.back();
+        write_rows(csv, rows);
+        progress.update(share, row.case_name + ": " + row.technique + " " + row.point);
+    };
+    const StabilitySelection selection{.table = options.table.empty() ? precision_case_table() : options.table,
+                                       .cases = options.cases,
+                                       .techniques = options.techniques};
+    const StabilityFolders folders{.search_path = scene_search_path(common.scene_path),
+                                   .cache = common.cache.empty() ? default_cache_folder() : common.cache};
+    const std::vector<PrecisionRow> rows = run_precision(device, selection, folders, done);
+    print_table(rows);
+    std::printf("\nTable: %s\n", csv.string().c_str());
+    return 0;
+}
 
 static int stability_command(const StabilityOptions& options, const CommonOptions& common) {
     const std::string kind = lower_case_extension(options.figure);
@@ -104,31 +186,23 @@ static int stability_command(const StabilityOptions& options, const CommonOption
 
 void add_stability(Commands& line) {
     StabilityOptions& stability = line.keep<StabilityOptions>();
-    CLI::App& command = *line.app.add_subcommand(
-        "stability", "Test techniques with extreme inputs: non-finite values and amplification");
-    command
-        .add_option("--techniques", stability.techniques,
-                    "Techniques, or their folders, or single presets as NAME:PRESET; default: all presets of all, and "
-                    "all tracers")
-        ->delimiter(',')
-        ->type_name("NAME");
-    command.add_option("--cases", stability.cases, "Cases or groups of the table; default: all")
-        ->delimiter(',')
-        ->type_name("NAME");
-    command
-        .add_option("--table", stability.table,
-                    "A table of cases (experiments/study/stability/README.md); default: ssrlab's own")
-        ->check(CLI::ExistingFile)
-        ->type_name("FILE.json");
-    command.add_option("--out", stability.out, "Folder of stability.csv")
-        ->default_val("results/stability")
-        ->type_name("DIR");
+    CLI::App& command =
+        line.add("stability", "Test techniques with extreme inputs: non-finite values and amplification");
+    option(
+        command, "--techniques NAME", stability.techniques,
+        "Techniques, or their folders, or single presets as NAME:PRESET; default: all presets of all, and all tracers")
+        ->delimiter(',');
+    option(command, "--cases NAME", stability.cases, "Cases or groups of the table; default: all")->delimiter(',');
+    option(command, "--table FILE.json", stability.table,
+           "A table of cases (experiments/study/stability/README.md); default: ssrlab's own")
+        ->check(CLI::ExistingFile);
+    option(command, "--out DIR", stability.out, "Folder of stability.csv")->default_val("results/stability");
     command.add_flag("--all-stages", stability.has_all_stages,
                      "List every stage in stability_stages.csv, also those that are finite");
-    command.add_option("--figure", stability.figure, "Also write the figure: .pdf, .png or .svg")->type_name("FILE");
+    option(command, "--figure FILE", stability.figure, "Also write the figure: .pdf, .png or .svg");
     command.add_flag("--precision", stability.is_of_precision,
-                     "Instead: formats and arithmetic, in half, float and double, one image and "
-                     "one stage at a time (5 minutes; stability_precision.csv)");
+                     "Instead: formats and arithmetic, in half, float and double, one image and one stage at a time (5 "
+                     "minutes; stability_precision.csv)");
     add_device(command, line.common), add_scene_path(command, line.common);
     add_cache(command, line.common);
     add_reading(command);

@@ -68,48 +68,33 @@ static void watch_command(const WatchOptions& options, const std::vector<std::st
 
 void add_watch(Commands& line) {
     WatchOptions& watch = line.keep<WatchOptions>();
-    CLI::App& command = *line.app.add_subcommand(
+    CLI::App& command = line.add(
         "watch", "Render and judge a technique's folder whenever it is saved, and show it on a page of this machine");
-    command.add_option("folder", watch.folder, "With technique.json and shaders (ssrlab new makes one)")
-        ->required()
-        ->type_name("FOLDER");
-    command
-        .add_option("--scene", watch.scenes,
-                    "One or more, by name (see: ssrlab list scenes) or path; the first is shown first")
-        ->required()
-        ->type_name("SCENE...");
-    command
-        .add_option(
-            "--against", watch.against,
-            "Also compare with this technique, NAME or NAME:PRESET, or another folder; best: what errs least in "
-            "the included studies")
-        ->type_name("NAME");
-    command.add_option("--preset", watch.preset, "One of the technique's presets; default: its defaults")
-        ->type_name("NAME");
-    command.add_option("--camera", watch.camera, "Default: each scene's first")->type_name("NAME");
+    option(command, "folder FOLDER", watch.folder, "With technique.json and shaders (ssrlab new makes one)")
+        ->required();
+    option(command, "--scene SCENE...", watch.scenes,
+           "One or more, by name (see: ssrlab list scenes) or path; the first is shown first")
+        ->required();
+    option(command, "--against NAME", watch.against,
+           "Also compare with this technique, NAME or NAME:PRESET, or another folder; best: what errs least in the "
+           "included studies");
+    option(command, "--preset NAME", watch.preset, "One of the technique's presets; default: its defaults");
+    option(command, "--camera NAME", watch.camera, "Default: each scene's first");
     add_size(command, watch.size);
-    command
-        .add_option("--frames", watch.frames,
-                    "Frames of the camera's path and of the animation, for histories; the last is measured")
-        ->capture_default_str()
-        ->type_name("A-B");
-    command.add_option("--samples", watch.samples, "Of the truth, per pixel")
+    option(command, "--frames A-B", watch.frames,
+           "Frames of the camera's path and of the animation, for histories; the last is measured")
+        ->capture_default_str();
+    option(command, "--samples N", watch.samples, "Of the truth, per pixel")
         ->check(CLI::Range(32, 1 << 20))
-        ->capture_default_str()
-        ->type_name("N");
-    command.add_option("--seeds", watch.seeds, "Of techniques that draw random numbers; default: 8")
-        ->check(CLI::Range(1, 1000))
-        ->type_name("N");
-    command
-        .add_option("--patience", watch.patience,
-                    "Seconds without a sign of life after which rendering is ended, as of a loop without end")
+        ->capture_default_str();
+    option(command, "--seeds N", watch.seeds, "Of techniques that draw random numbers; default: 8")
+        ->check(CLI::Range(1, 1000));
+    option(command, "--patience SECONDS", watch.patience,
+           "Seconds without a sign of life after which rendering is ended, as of a loop without end")
         ->check(real_in(15, 1e6, "a number from 15, as there is a sign every ten seconds, to 1000000"))
-        ->capture_default_str()
-        ->type_name("SECONDS");
-    command
-        .add_option("--out", watch.out,
-                    "Folder of kept versions and of what is rendered; default: results/watch/<name>")
-        ->type_name("DIR");
+        ->capture_default_str();
+    option(command, "--out DIR", watch.out,
+           "Folder of kept versions and of what is rendered; default: results/watch/<name>");
     add_device(command, line.common), add_scene_path(command, line.common), add_cache(command, line.common);
     add_reading(command);
     command.callback([&] { watch_command(watch, run_options(command, line.common)); });

@@ -1,3 +1,5 @@
+#include "experiments/study/merge.h"
+
 #include "core/error.h"
 #include "core/files.h"
 #include "core/list_text.h"
@@ -5,7 +7,6 @@
 #include "experiments/results/cells/image_path.h"
 #include "experiments/study/folder_owner.h"
 #include "experiments/study/measuring/times/timing.h"
-#include "experiments/study/run.h"
 #include "experiments/study/study_results.h"
 
 #include <algorithm>

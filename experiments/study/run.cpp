@@ -11,6 +11,7 @@
 #include "experiments/study/folder_owner.h"
 #include "experiments/study/manifest_entries.h"
 #include "experiments/study/measuring/costs/gpu_estimates.h"
+#include "experiments/study/plan/cell_selection.h"
 #include "experiments/study/plan/ranking_warnings.h"
 #include "experiments/study/shots/shot_cells.h"
 #include "experiments/study/study_results.h"

@@ -32,12 +32,3 @@ void run_study(const Config& config, const RunSettings& settings);
 /// `command` (run, merge, plan) on this study as a shell takes it in any folder: this program, the config and the
 /// results folder by their absolute paths, and those of the settings that the command's user gave.
 std::string command_line(const std::string& command, const Config& config, const RunSettings& settings);
-
-/// Fills settings.out with the cells that folders of the same study hold, and makes tables and report of all that
-/// are there; nothing is rendered, and the device that made them need not be here. `folders` may be settings.out itself
-/// alone. Of cells that several have (times, on several machines) the least disturbed counts, else that of the folder
-/// named first. Returns how many cells are missing: cells of a shot whose references are missing count as missing, too.
-/// Fails with Error if a folder holds another study, or if what was measured in two folders was measured against other
-/// pixels of the truth.
-size_t merge_study(const Config& config, const RunSettings& settings,
-                   const std::vector<std::filesystem::path>& folders);

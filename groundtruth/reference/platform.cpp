@@ -1,4 +1,4 @@
-#include "groundtruth/reference/reference.h"
+#include "groundtruth/reference/platform.h"
 
 #include "core/error.h"
 

@@ -5,6 +5,7 @@
 #include "core/files.h"
 #include "groundtruth/code_version.h"
 #include "groundtruth/paths/path_tracer.h"
+#include "groundtruth/reference/platform.h"
 #include "groundtruth/reference/reference_guide.h"
 #include "groundtruth/reference/reference_stopping.h"
 

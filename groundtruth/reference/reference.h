@@ -172,7 +172,3 @@ std::optional<ReferenceSettings> settings_of_key(const std::string& stream, cons
 
 /// The hash of all sources that references depend on and of how they were compiled; see code_version.cmake.
 std::string groundtruth_code_version();
-
-/// What the bits of a reference depend on besides, at run time: Embree's version, the processor's level of
-/// instructions, by which Embree and the C library choose their code, and that library's version.
-std::string render_platform();

@@ -3,6 +3,7 @@
 #include "core/digits.h"
 #include "core/error.h"
 #include "core/exr/exr.h"
+#include "groundtruth/reference/platform.h"
 #include "groundtruth/reference/reference_audit.h"
 
 #include <charconv>

@@ -1,10 +1,10 @@
 #include "experiments/study/config/config.h"
 
 #include "core/error.h"
+#include "core/list_text.h"
 #include "core/near_miss.h"
 #include "experiments/study/config/comparisons.h"
 #include "experiments/study/config/config_parts.h"
-#include "experiments/study/config/config_schema.h"
 #include "experiments/study/config/extends.h"
 #include "experiments/study/config/points/read_techniques.h"
 #include "experiments/study/config/shots/read_shots.h"
@@ -273,8 +273,8 @@ json technique_schema(const TechniqueEntry& entry) {
     schema["properties"]["technique"] = {{"const", entry.name},
                                          {"description", entry.title + " (" + entry.source + ")" +
                                                              (limits.empty() ? "" : "; enforced limits: " + limits)}};
-    Names presets = {""};
-    for (const Preset& preset : entry.presets) presets.push_back(preset.name);
+    Names presets = names_of(entry.presets, &Preset::name);
+    presets.insert(presets.begin(), "");
     schema["properties"]["preset"].update(some_of(one_of(presets)).schema);
     return schema;
 }

@@ -147,3 +147,10 @@ inline bool needs_ladder(const Config& config) { return std::ranges::any_of(conf
 /// Reads and checks a config; its keys are in experiments/README.md. Every mistake is an Error that names file and key.
 /// Scenes are only looked up later; techniques, parameters, metrics and masks are checked here, before any work starts.
 Config read_config(const std::filesystem::path& file);
+
+/// JSON Schema (2020-12) of a study's config; with the name of a technique, of that technique's `parameters` alone.
+nlohmann::json config_schema(const std::string& technique);
+
+/// The text with the tables of a config's keys between its lines `<!-- keys of study -->` (scene, capture, shot,
+/// technique, table, tune) and `<!-- end of keys -->`. Fails where one of them is missing.
+std::string with_key_tables(const std::string& markdown);

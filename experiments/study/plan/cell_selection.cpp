@@ -1,6 +1,7 @@
+#include "experiments/study/plan/cell_selection.h"
+
 #include "core/error.h"
 #include "core/near_miss.h"
-#include "experiments/study/plan/study_plan.h"
 
 #include <algorithm>
 #include <charconv>

@@ -2,7 +2,7 @@
 #include "core/files.h"
 #include "experiments/report/report.h"
 #include "experiments/results/verdicts/summary.h"
-#include "experiments/study/run.h"
+#include "experiments/study/merge.h"
 
 #include <gtest/gtest.h>
 #include <filesystem>

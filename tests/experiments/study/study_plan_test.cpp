@@ -1,6 +1,6 @@
 // Which cells a study has, what each of them depends on, and which of them a process does.
-#include "experiments/study/plan/study_plan.h"
 #include "core/error.h"
+#include "experiments/study/plan/cell_selection.h"
 #include "tests/experiments/study/study_fixture.h"
 
 #include <algorithm>

@@ -2,7 +2,6 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "experiments/study/config/config.h"
-#include "experiments/study/config/config_schema.h"
 #include "experiments/study/config/shots/shot.h"
 #include "variants/registry.h"
 
