@@ -13,13 +13,6 @@ struct Elements {
     size_t stride = 0, count = 0;
 };
 
-size_t component_size(const GltfFile& file, int type, const std::string& what) {
-    const int size = tinygltf::GetComponentSizeInBytes(uint32_t(type));
-    if (size <= 0 || type == TINYGLTF_COMPONENT_TYPE_DOUBLE)
-        fail(file.name(), ": ", what, " has the unknown component type ", type);
-    return size_t(size);
-}
-
 Elements elements(const GltfFile& file, int view_index, size_t offset, size_t count, size_t element_size,
                   const std::string& what) {
     const tinygltf::Model& model = file.model;
@@ -61,8 +54,6 @@ float component<float>(const unsigned char* at, int type, bool is_normalized) {
             return scaled(read_as<uint16_t>(at), 65535.0f);
         case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
             return float(read_as<uint32_t>(at));
-        case TINYGLTF_COMPONENT_TYPE_INT:
-            return float(read_as<int32_t>(at));
         default:
             return read_as<float>(at);
     }
@@ -80,12 +71,6 @@ uint32_t component<uint32_t>(const unsigned char* at, int type, bool) {
     }
 }
 
-void check_unsigned(const GltfFile& file, int type, const std::string& what) {
-    if (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE && type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
-        type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
-        fail(file.name(), ": ", what, " must be unsigned integers, not component type ", type);
-}
-
 /// What an accessor, or the sparse part of one, says of its elements.
 struct ElementType {
     int component_type;
@@ -97,7 +82,7 @@ struct ElementType {
 template <class T>
 std::vector<T> read_view(const GltfFile& file, int view, size_t offset, size_t count, ElementType element,
                          const std::string& what) {
-    const size_t size = component_size(file, element.component_type, what);
+    const auto size = size_t(tinygltf::GetComponentSizeInBytes(uint32_t(element.component_type)));
     const Elements source = elements(file, view, offset, count, size * element.components, what);
     std::vector<T> values(count * element.components);
     if (std::is_same_v<T, float> && element.component_type == TINYGLTF_COMPONENT_TYPE_FLOAT) {
@@ -117,12 +102,10 @@ template <class T>
 void apply_sparse(const GltfFile& file, const tinygltf::Accessor& accessor, ElementType element,
                   const std::string& what, std::vector<T>& values) {
     const auto& sparse = accessor.sparse;
-    if (sparse.count < 0 || size_t(sparse.count) > accessor.count || sparse.indices.byteOffset < 0 ||
-        sparse.values.byteOffset < 0)
+    if (size_t(sparse.count) > accessor.count)
         fail(file.name(), ": ", what, " has a malformed sparse part: ", sparse.count, " of ", accessor.count,
              " elements");
     const auto count = size_t(sparse.count);
-    check_unsigned(file, sparse.indices.componentType, what + " (sparse indices)");
     MemoryShare memory;
     memory.add(double(count) * double(sizeof(uint32_t) + element.components * sizeof(T)),
                file.name() + ": " + what + ": a sparse part of " + std::to_string(count) + " elements");
@@ -154,7 +137,6 @@ template <class T>
 std::vector<T> read_accessor(const GltfFile& file, const tinygltf::Accessor& accessor, unsigned components,
                              const std::string& what) {
     const ElementType element{accessor.componentType, accessor.normalized, components};
-    component_size(file, accessor.componentType, what);
     MemoryShare memory;
     memory.add(double(accessor.count) * components * sizeof(T),
                file.name() + ": " + what + " of " + std::to_string(accessor.count) + " elements");
@@ -176,6 +158,9 @@ std::vector<float> read_floats(const GltfFile& file, int index, unsigned compone
 
 std::vector<uint32_t> read_indices(const GltfFile& file, int index, const std::string& what, unsigned components) {
     const auto& accessor = checked_accessor(file, index, components, what);
-    check_unsigned(file, accessor.componentType, what);
+    const int type = accessor.componentType;
+    if (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE && type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
+        type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
+        fail(file.name(), ": ", what, " must be unsigned integers, not component type ", type);
     return read_accessor<uint32_t>(file, accessor, components, what);
 }

@@ -44,12 +44,8 @@ Target pointed_at(const GltfFile& file, const std::string& pointer, const std::v
 Target target_of(const GltfFile& file, const tinygltf::AnimationChannel& channel, const std::vector<int>& node_of,
                  const std::string& what) {
     const auto extension = channel.target_extensions.find("KHR_animation_pointer");
-    if (channel.target_path == "pointer" && extension != channel.target_extensions.end()) {
-        const tinygltf::Value& pointer =
-            extension->second.IsObject() ? extension->second.Get("pointer") : extension->second;
-        if (!pointer.IsString()) fail(file.name(), ": ", what, ": KHR_animation_pointer must have a 'pointer'");
-        return pointed_at(file, pointer.Get<std::string>(), node_of, what);
-    }
+    if (channel.target_path == "pointer" && extension != channel.target_extensions.end())
+        return pointed_at(file, extension->second.Get("pointer").Get<std::string>(), node_of, what);
     Target target{.node = -1, .path = channel.target_path, .beside = ""};
     if (channel.target_node < 0) return target;  // of an extension; glTF 2.0, section 3.11: to be ignored
     target.node = node_of[checked_index(file, channel.target_node, node_of.size(), what + ": node")];
@@ -57,11 +53,9 @@ Target target_of(const GltfFile& file, const tinygltf::AnimationChannel& channel
     return target;
 }
 
-Interpolation interpolation(const GltfFile& file, const std::string& name) {
+Interpolation interpolation(const std::string& name) {
     if (name == "STEP") return Interpolation::step;
-    if (name == "LINEAR") return Interpolation::linear;
-    if (name == "CUBICSPLINE") return Interpolation::cubic_spline;
-    fail(file.name(), ": unknown interpolation '", name, "'; allowed are STEP, LINEAR and CUBICSPLINE");
+    return name == "LINEAR" ? Interpolation::linear : Interpolation::cubic_spline;
 }
 
 /// Appends the channel of a property, or one for each weight of the node's morph targets.
@@ -69,7 +63,7 @@ void add_channels(const GltfFile& file, const tinygltf::AnimationSampler& sample
                   const std::string& what, Scene& scene) {
     const Property property = *target.property();
     AnimationChannel channel{.property = property, .node = unsigned(target.node)};
-    channel.interpolation = interpolation(file, sampler.interpolation);
+    channel.interpolation = interpolation(sampler.interpolation);
     channel.times = read_floats(file, sampler.input, 1, what + " times");
     if (channel.times.empty()) fail(file.name(), ": ", what, " has no keys");
     if (std::ranges::adjacent_find(channel.times, std::greater_equal<>{}) != channel.times.end())
@@ -106,7 +100,7 @@ bool are_disjoint(const std::vector<std::vector<Target>>& targets) {
     return true;
 }
 
-std::string names_of(const std::vector<AnimationClip>& clips) {
+std::string quoted_names(const std::vector<AnimationClip>& clips) {
     constexpr size_t most_names = 6;
     std::string names;
     for (size_t i = 0; i < std::min(clips.size(), most_names); ++i)
@@ -127,10 +121,10 @@ void choose(GltfFile& file, const std::vector<std::vector<Target>>& targets, con
     for (AnimationClip& clip : clips) clip.is_played = all || &clip == &clips.front();
     if (clips.size() == 1 || wanted == "all") return;
     const std::string choosing = " \"animation\" in a scene.json, or --animation, chooses.";
-    file.warn(all ? "All " + std::to_string(clips.size()) + " animations (" + names_of(clips) +
+    file.warn(all ? "All " + std::to_string(clips.size()) + " animations (" + quoted_names(clips) +
                         ") are played together, as no two move the same property of a node;" + choosing
                   : "Animation '" + shortened(clips.front().name) + "' is played, the first of " +
-                        std::to_string(clips.size()) + " (" + names_of(clips) + ");" + choosing);
+                        std::to_string(clips.size()) + " (" + quoted_names(clips) + ");" + choosing);
 }
 }  // namespace
 

@@ -12,7 +12,7 @@ namespace {
 /// One attribute of EXT_mesh_gpu_instancing, `components` numbers for each copy; empty if absent.
 std::vector<float> read_copies(const GltfFile& file, const tinygltf::Value& attributes, const char* name,
                                unsigned components, const std::string& what, std::optional<size_t>& count) {
-    const int accessor = index_member(file, attributes, name, what);
+    const int accessor = index_member(attributes, name);
     if (accessor < 0) return {};
     std::vector<float> values = read_floats(file, accessor, components, what + ": " + name);
     const size_t found = values.size() / components;
@@ -28,8 +28,7 @@ bool add_mesh_copies(const GltfFile& file, const tinygltf::Node& source, const s
     const tinygltf::Value* extension = find_extension(source.extensions, "EXT_mesh_gpu_instancing");
     if (!extension) return false;
     const std::string what = node_name + ": EXT_mesh_gpu_instancing";
-    static const tinygltf::Value none;
-    const tinygltf::Value& attributes = extension->Has("attributes") ? extension->Get("attributes") : none;
+    const tinygltf::Value& attributes = extension->Get("attributes");
     std::optional<size_t> count;
     const auto translations = read_copies(file, attributes, "TRANSLATION", 3, what, count);
     const auto rotations = read_copies(file, attributes, "ROTATION", 4, what, count);

@@ -22,12 +22,7 @@ std::string label_of(const GltfFile& file, size_t index, const std::string& name
 
 /// BLEND is decided by cut_blended_materials(), once textures and vertices are known.
 void read_alpha(const MaterialSource& source, Material& material) {
-    const std::string& mode = source.gltf.alphaMode;
-    if (mode == "MASK")
-        material.alpha_mode = AlphaMode::mask;
-    else if (mode != "OPAQUE" && mode != "BLEND")
-        fail(source.file.name(), ": ", source.what, " has the unknown alphaMode '", mode,
-             "'; allowed are OPAQUE, MASK and BLEND");
+    if (source.gltf.alphaMode == "MASK") material.alpha_mode = AlphaMode::mask;
     material.alpha_cutoff =
         checked_number(source.file, source.gltf.alphaCutoff, 0.0, FLT_MAX, source.what + ": alphaCutoff");
 }

@@ -93,11 +93,11 @@ const std::array left_out = {
 };
 
 bool is_more_than_zero(const Value& extension, const char* key) {
-    if (!extension.IsObject() || !extension.Has(key)) return false;
+    if (!extension.Has(key)) return false;
     const Value& value = extension.Get(key);
     if (value.IsNumber()) return value.GetNumberAsDouble() > 0.0;
     for (int i = 0; i < int(value.ArrayLen()); ++i)
-        if (value.Get(i).IsNumber() && value.Get(i).GetNumberAsDouble() > 0.0) return true;
+        if (value.Get(i).GetNumberAsDouble() > 0.0) return true;
     return false;
 }
 
@@ -138,14 +138,11 @@ Texels roughness_texels(const Texture& source, float glossiness) {
 }  // namespace
 
 TextureSlot MaterialSource::slot(const Value& extension, const char* key, bool is_srgb, const char* channel) const {
-    if (!extension.IsObject() || !extension.Has(key)) return {};
+    if (!extension.Has(key)) return {};
     const Value& info = extension.Get(key);
-    const int texture = index_member(file, info, "index", what + ": " + key);
-    if (texture < 0) fail(file.name(), ": ", what, ": ", key, " lacks the key 'index'");
-    const bool has_extensions = info.Has("extensions") && info.Get("extensions").IsObject();
-    return textures.slot(texture, std::max(index_member(file, info, "texCoord", what + ": " + key), 0),
-                         has_extensions ? info.Get("extensions").Get<Value::Object>() : Value::Object(), is_srgb,
-                         std::string(channel) + " texture of " + what);
+    return textures.slot(index_member(info, "index"), std::max(index_member(info, "texCoord"), 0),
+                         info.Has("extensions") ? info.Get("extensions").Get<Value::Object>() : Value::Object(),
+                         is_srgb, std::string(channel) + " texture of " + what);
 }
 
 void read_material_extensions(const MaterialSource& source, Material& material) {

@@ -173,10 +173,7 @@ bool is_drawn(GltfFile& file, size_t mesh_index, size_t primitive_index) {
         if (!known.contains(attribute) && !is_of_no_effect && !is_of_joints(primitive, attribute))
             file.warn("The vertex attribute " + attribute + " of mesh '" + name + "' is ignored.");
     }
-    const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
-    if (mode > TINYGLTF_MODE_TRIANGLE_FAN)
-        fail(file.name(), ": mesh ", mesh_index, " has the unknown primitive mode ", mode);
-    if (mode < TINYGLTF_MODE_TRIANGLES) {
+    if (primitive.mode >= 0 && primitive.mode < TINYGLTF_MODE_TRIANGLES) {
         file.warn("Points or lines of mesh '" + name + "' are not drawn.");
         return false;
     }

@@ -31,8 +31,6 @@ Node read_node(const GltfFile& file, const tinygltf::Node& source, size_t index)
     }
     node.parent_from_node = transform(node.translation, node.rotation, node.scale);
     if (source.matrix.empty()) return node;
-    if (source.matrix.size() != 16)
-        fail(file.name(), ": ", what, ": matrix must have 16 numbers, not ", source.matrix.size());
     for (int i = 0; i < 16; ++i)
         node.parent_from_node[i / 4][i % 4] =
             checked_number(file, source.matrix[size_t(i)], -any_length, any_length, what + ": matrix");
@@ -57,11 +55,9 @@ std::vector<float> morph_weights(const GltfFile& file, const tinygltf::Node& nod
     return weights;
 }
 
-LightType light_type(const GltfFile& file, const std::string& type) {
+LightType light_type(const std::string& type) {
     if (type == "directional") return LightType::directional;
-    if (type == "point") return LightType::point;
-    if (type == "spot") return LightType::spot;
-    fail(file.name(), ": unknown light type '", type, "'; allowed are directional, point and spot");
+    return type == "point" ? LightType::point : LightType::spot;
 }
 
 /// Units: ssrlab reads KHR_lights_punctual's lux and candela as W m^-2 and W sr^-1, as it reads all radiance.
@@ -70,7 +66,7 @@ PunctualLight read_light(const GltfFile& file, int index, int node) {
     const std::string what = "light " + std::to_string(index);
     PunctualLight light;
     light.name = source.name;
-    light.type = light_type(file, source.type);
+    light.type = light_type(source.type);
     const glm::vec3 color = fixed_vector<3>(file, source.color, glm::vec3(1.0f), what + ": color");
     light.intensity = color * checked_number(file, source.intensity, 0.0, any_radiance, what + ": intensity");
     for (int i = 0; i < 3; ++i)
@@ -142,8 +138,7 @@ void add_contents(GltfFile& file, const tinygltf::Node& source, const std::vecto
     if (!is_visible) return;
     if (source.mesh >= 0) add_meshes_of(file, source, meshes_of, node, scene);
     if (const auto light = source.extensions.find("KHR_lights_punctual"); light != source.extensions.end())
-        scene.lights.push_back(
-            read_light(file, index_member(file, light->second, "light", "node '" + source.name + "'"), int(node)));
+        scene.lights.push_back(read_light(file, index_member(light->second, "light"), int(node)));
 }
 }  // namespace
 

@@ -13,17 +13,9 @@
 #include <utility>
 
 namespace {
-TextureWrap wrap(const GltfFile& file, int mode) {
-    switch (mode) {
-        case TINYGLTF_TEXTURE_WRAP_REPEAT:
-            return TextureWrap::repeat;
-        case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
-            return TextureWrap::mirrored_repeat;
-        case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
-            return TextureWrap::clamp_to_edge;
-        default:
-            fail(file.name(), ": a sampler has the unknown wrap mode ", mode);
-    }
+TextureWrap wrap(int mode) {
+    if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return TextureWrap::clamp_to_edge;
+    return mode == TINYGLTF_TEXTURE_WRAP_REPEAT ? TextureWrap::repeat : TextureWrap::mirrored_repeat;
 }
 
 /// KHR_texture_transform: uv' = translation * rotation * scale * uv, the rotation counter-clockwise where v points up.
@@ -59,11 +51,10 @@ TextureSlot GltfTextures::slot(int texture, int texcoord, const tinygltf::Extens
     const auto& source = model.textures[checked_index(file_, texture, model.textures.size(), what + ": texture")];
     const Candidates images = images_of(source, what);
     if (images.empty()) return slot;
-    if (texcoord < 0) fail(file_.name(), ": the ", what, " has the negative texCoord ", texcoord);
     slot.texcoord = unsigned(texcoord);
     if (const auto found = extensions.find("KHR_texture_transform"); found != extensions.end()) {
         slot.uv_transform = texture_transform(file_, found->second, what);
-        const int replacement = index_member(file_, found->second, "texCoord", what);
+        const int replacement = index_member(found->second, "texCoord");
         if (replacement >= 0) slot.texcoord = unsigned(replacement);
     }
     const auto [found, is_new] = index_of_.try_emplace({texture, is_srgb}, int(scene_.textures.size()));
@@ -78,8 +69,8 @@ TextureSlot GltfTextures::slot(int texture, int texcoord, const tinygltf::Extens
     if (source.sampler >= 0) {
         const auto& sampler =
             model.samplers[checked_index(file_, source.sampler, model.samplers.size(), what + ": sampler")];
-        added.wrap_u = wrap(file_, sampler.wrapS);
-        added.wrap_v = wrap(file_, sampler.wrapT);
+        added.wrap_u = wrap(sampler.wrapS);
+        added.wrap_v = wrap(sampler.wrapT);
         added.is_nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
     }
     return slot;
@@ -94,7 +85,7 @@ GltfTextures::Candidates GltfTextures::images_of(const tinygltf::Texture& textur
     const size_t count = file_.model.images.size();
     Candidates images;
     if (const auto webp = texture.extensions.find("EXT_texture_webp"); webp != texture.extensions.end())
-        if (const int source = index_member(file_, webp->second, "source", what); source >= 0)
+        if (const int source = index_member(webp->second, "source"); source >= 0)
             images.push_back(checked_index(file_, source, count, what + ": image"));
     if (texture.source >= 0) images.push_back(checked_index(file_, texture.source, count, what + ": image"));
     // Both are the same picture; the plain one is what readers of all kinds show, unless the file requires the

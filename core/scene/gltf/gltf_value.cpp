@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cfloat>
-#include <climits>
 #include <cmath>
 #include <limits>
 
@@ -20,29 +19,19 @@ float checked_number(const GltfFile& file, double value, double min, double max,
 
 float number_member(const GltfFile& file, const tinygltf::Value& object, const char* key, float fallback,
                     const std::string& what) {
-    if (!object.IsObject() || !object.Has(key)) return fallback;
-    const tinygltf::Value& value = object.Get(key);
-    if (!value.IsNumber()) fail(file.name(), ": ", what, ": '", key, "' must be a number");
-    return checked_number(file, value.GetNumberAsDouble(), -FLT_MAX, FLT_MAX, what + ": '" + key + "'");
+    if (!object.Has(key)) return fallback;
+    return checked_number(file, object.Get(key).GetNumberAsDouble(), -FLT_MAX, FLT_MAX, what + ": '" + key + "'");
 }
 
-int index_member(const GltfFile& file, const tinygltf::Value& object, const char* key, const std::string& what) {
-    if (!object.IsObject() || !object.Has(key)) return -1;
-    const tinygltf::Value& value = object.Get(key);
-    const double number = value.IsNumber() ? value.GetNumberAsDouble() : -1.0;
-    if (!(number >= 0.0 && number <= INT_MAX && number == std::floor(number)))
-        fail(file.name(), ": ", what, ": '", key, "' must be a whole number of 0 or more");
-    return int(number);
+int index_member(const tinygltf::Value& object, const char* key) {
+    return object.Has(key) ? object.Get(key).GetNumberAsInt() : -1;
 }
 
 template <int N>
 glm::vec<N, float> vector_member(const GltfFile& file, const tinygltf::Value& object, const char* key,
                                  glm::vec<N, float> fallback, const std::string& what) {
-    if (!object.IsObject() || !object.Has(key)) return fallback;
+    if (!object.Has(key)) return fallback;
     const tinygltf::Value& value = object.Get(key);
-    bool fits = value.IsArray() && value.ArrayLen() == size_t(N);
-    for (int i = 0; fits && i < N; ++i) fits = value.Get(i).IsNumber();
-    if (!fits) fail(file.name(), ": ", what, ": '", key, "' must be an array of ", N, " numbers");
     glm::vec<N, float> vector;
     for (int i = 0; i < N; ++i)
         vector[i] = checked_number(file, value.Get(i).GetNumberAsDouble(), -FLT_MAX, FLT_MAX, what + ": '" + key + "'");
@@ -64,7 +53,6 @@ template <int N>
 glm::vec<N, float> fixed_vector(const GltfFile& file, const std::vector<double>& values, glm::vec<N, float> fallback,
                                 const std::string& what) {
     if (values.empty()) return fallback;
-    if (values.size() != size_t(N)) fail(file.name(), ": ", what, " must have ", N, " numbers, not ", values.size());
     glm::vec<N, float> vector;
     for (int i = 0; i < N; ++i) vector[i] = checked_number(file, values[size_t(i)], -FLT_MAX, FLT_MAX, what);
     return vector;

@@ -3,11 +3,12 @@
 
 #include <glm/glm.hpp>
 
-// Members of a glTF extension object; an absent one is `fallback`, a malformed one an Error that names `what`.
+// Members of a glTF extension object, of the types and lengths that gltf_schema.h checks; an absent one is `fallback`.
+// A number that float32 cannot hold is an Error that names `what`.
 float number_member(const GltfFile& file, const tinygltf::Value& object, const char* key, float fallback,
                     const std::string& what);
-/// -1 if absent; a whole number otherwise, however it is written (2, 2.0 and 2e0 are one).
-int index_member(const GltfFile& file, const tinygltf::Value& object, const char* key, const std::string& what);
+/// -1 if absent.
+int index_member(const tinygltf::Value& object, const char* key);
 template <int N>
 glm::vec<N, float> vector_member(const GltfFile& file, const tinygltf::Value& object, const char* key,
                                  glm::vec<N, float> fallback, const std::string& what);

@@ -11,12 +11,9 @@ const char* const variants_extension = "KHR_materials_variants";
 std::vector<std::string> variant_names(const GltfFile& file) {
     std::vector<std::string> names;
     const tinygltf::Value* extension = find_extension(file.model.extensions, variants_extension);
-    if (!extension || !extension->Has("variants")) return names;
+    if (!extension) return names;
     const tinygltf::Value& variants = extension->Get("variants");
-    for (int i = 0; i < int(variants.ArrayLen()); ++i) {
-        const bool has_name = variants.Get(i).Has("name") && variants.Get(i).Get("name").IsString();
-        names.push_back(has_name ? variants.Get(i).Get("name").Get<std::string>() : "");
-    }
+    for (int i = 0; i < int(variants.ArrayLen()); ++i) names.push_back(variants.Get(i).Get("name").Get<std::string>());
     return names;
 }
 }  // namespace
@@ -29,21 +26,20 @@ int find_material_variant(const GltfFile& file, const std::string& name) {
     if (names.empty())
         fail(file.name(), " has no material variant '", shortened(name),
              "': it has no variants (KHR_materials_variants)");
-    std::string list;
-    for (const std::string& known : names) list += (list.empty() ? "'" : ", '") + shortened(known) + "'";
-    fail(file.name(), " has no material variant '", shortened(name), "'", suggestion(name, names), "; it has ", list);
+    const auto quoted = [](const std::string& known) { return "'" + shortened(known) + "'"; };
+    fail(file.name(), " has no material variant '", shortened(name), "'", suggestion(name, names), "; it has ",
+         joined(names_of(names, quoted)));
 }
 
 int material_of(const GltfFile& file, const tinygltf::Primitive& primitive, int variant, const std::string& what) {
     const tinygltf::Value* extension = find_extension(primitive.extensions, variants_extension);
-    if (variant < 0 || !extension || !extension->Has("mappings")) return primitive.material;
+    if (variant < 0 || !extension) return primitive.material;
     const tinygltf::Value& mappings = extension->Get("mappings");
     for (int i = 0; i < int(mappings.ArrayLen()); ++i) {
         const tinygltf::Value& mapping = mappings.Get(i);
-        const tinygltf::Value& variants = mapping.IsObject() ? mapping.Get("variants") : mapping;
+        const tinygltf::Value& variants = mapping.Get("variants");
         for (int k = 0; k < int(variants.ArrayLen()); ++k)
-            if (variants.Get(k).IsNumber() && variants.Get(k).GetNumberAsDouble() == variant)
-                return index_member(file, mapping, "material", what + ": " + variants_extension);
+            if (variants.Get(k).GetNumberAsInt() == variant) return index_member(mapping, "material");
     }
     return primitive.material;
 }
