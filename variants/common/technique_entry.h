@@ -1,5 +1,5 @@
 #pragma once
-#include "variants/technique.h"
+#include "variants/common/technique.h"
 
 #include <filesystem>
 #include <functional>

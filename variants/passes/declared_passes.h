@@ -1,7 +1,7 @@
 #pragma once
+#include "variants/common/technique.h"
 #include "variants/passes/declaration.h"
 #include "variants/passes/provided_images.h"
-#include "variants/technique.h"
 
 #include <span>
 

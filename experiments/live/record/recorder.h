@@ -2,7 +2,7 @@
 #include "core/gbuffer/gbuffer.h"
 #include "core/gpu/passes/pass_watcher.h"
 #include "experiments/gpu_costs/spirv/shader_reads.h"
-#include "variants/technique.h"
+#include "variants/common/technique.h"
 
 #include <map>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 #include "core/gbuffer/composite.h"
 #include "experiments/study/config/config.h"
-#include "variants/technique.h"
+#include "variants/common/technique.h"
 
 /// One frame of a technique with images of its own, measured or timed: the camera is that of the G-buffer, but for the
 /// seed, so that histories go on from the frame before. A pass outside the technique's limits is an Error.

@@ -1,6 +1,6 @@
 #pragma once
 #include "experiments/study/config/config.h"
-#include "variants/technique.h"
+#include "variants/common/technique.h"
 
 #include <memory>
 

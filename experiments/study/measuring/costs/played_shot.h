@@ -2,7 +2,7 @@
 #include "experiments/study/config/config.h"
 #include "experiments/study/config/shots/shot.h"
 #include "experiments/study/measuring/frames/frame_source.h"
-#include "variants/technique.h"
+#include "variants/common/technique.h"
 
 #include <functional>
 
