@@ -117,7 +117,7 @@ Mesh read_mesh(const GltfFile& file, Scene& scene, size_t mesh_index, size_t pri
     const std::string what = "mesh " + std::to_string(mesh_index) + " primitive " + std::to_string(primitive_index);
     Mesh mesh;
     mesh.name = file.model.meshes[mesh_index].name;
-    const int material = material_of(file, primitive, variant, what);
+    const int material = material_of(primitive, variant);
     mesh.material = material < 0
                         ? unsigned(scene.materials.size() - 1)
                         : unsigned(checked_index(file, material, file.model.materials.size(), what + ": material"));

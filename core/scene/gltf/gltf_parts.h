@@ -18,7 +18,7 @@ std::vector<std::vector<unsigned>> add_meshes(GltfFile& file, Scene& scene, cons
 int find_material_variant(const GltfFile& file, const std::string& name);
 
 /// The glTF material of a primitive under that variant; -1: the default one.
-int material_of(const GltfFile& file, const tinygltf::Primitive& primitive, int variant, const std::string& what);
+int material_of(const tinygltf::Primitive& primitive, int variant);
 
 /// What is blended (alphaMode BLEND) becomes a mask that cuts below 0.5, the nearest to it that one layer of a G-buffer
 /// can show, unless its alpha is 1 everywhere or the choices say that it is opaque.

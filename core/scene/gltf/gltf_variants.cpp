@@ -31,7 +31,7 @@ int find_material_variant(const GltfFile& file, const std::string& name) {
          joined(names_of(names, quoted)));
 }
 
-int material_of(const GltfFile& file, const tinygltf::Primitive& primitive, int variant, const std::string& what) {
+int material_of(const tinygltf::Primitive& primitive, int variant) {
     const tinygltf::Value* extension = find_extension(primitive.extensions, variants_extension);
     if (variant < 0 || !extension) return primitive.material;
     const tinygltf::Value& mappings = extension->Get("mappings");
