@@ -3,7 +3,7 @@
 #include "core/gpu/passes/clock.h"
 #include "experiments/results/cells/cell_store.h"
 #include "experiments/results/cells/provenance.h"
-#include "experiments/study/plan/study_plan.h"
+#include "experiments/study/plan/cell_selection.h"
 #include "experiments/study/progress.h"
 #include "experiments/study/run.h"
 #include "experiments/study/spent_time.h"

@@ -1,5 +1,4 @@
 #pragma once
-#include "experiments/study/plan/cell_selection.h"
 #include "experiments/study/study_session.h"
 
 /// The cells of a shot that are asked for, into study.finished. What was done before is loaded; what other processes

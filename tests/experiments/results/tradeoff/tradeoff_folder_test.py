@@ -31,6 +31,7 @@ COLUMNS = {  # of the files that ssrlab reads, which refuses those that lack one
     "time_summary.csv": "shot,technique,point,stage,clock,frames,median_ms,low_ms,high_ms,fits_from_ms,may_fit_from_ms,disturbed_share",
     "effects.csv": "shot,frame,technique,point,against,against_technique,against_point,target,metric,formula,mask,seeds,ratio,low,high,interval,p,family,p_holm,low_holm,high_holm,p_equivalent,p_equivalent_holm,verdict",
     "over_scenes.csv": "target,metric,mask,technique,point,baseline_technique,baseline_point,scenes,shots,ratio,low,high,rank,rank_low,rank_high,over_best,over_best_low,over_best_high,p_holm,p_equivalent,chance_first,chance_near,standing",
+    "splits.csv": "shot,frame,technique,point,target,mask,seeds,mse,bias_squared,variance,variance_low,variance_high,pixels,bias_squared_low,bias_squared_high",
     "time_effects.csv": "shot,technique,point,against,against_technique,against_point,stage,clock,rounds,ratio,low,high,p,p_holm,low_holm,high_holm,verdict",
     "costs.csv": "shot,technique,point,stage,quantity,value",
     "estimates.csv": "shot,technique,point,stage,chip,product,microseconds,low,high,bound,vector,scalar,shared_memory,textures,targets,memory,latency,caches,waves,active_lanes,unmatched,cut_lanes,refusal",
@@ -85,7 +86,7 @@ def write_study(folder):
         compared = {"shot": a_shot, "technique": "v", "point": "rays=2", "against_technique": "v", "against_point": "rays=1", "target": "specular"}
         effects.append(compared | {"metric": "mse", "mask": "reflective", "ratio": 0.5, "low": 0.49, "high": 0.51, "p_holm": 0.001, "low_holm": 0.48, "high_holm": 0.52, "verdict": "less"})
     write_csv(folder, "summary.csv", errors)
-    over_scenes = {"target": "specular", "metric": "mse", "mask": "all", "technique": "v", "point": "rays=1", "scenes": 3, "ratio": 0.25, "low": 0.2, "high": 0.3}
+    over_scenes = {"target": "specular", "metric": "mse", "mask": "all", "technique": "v", "point": "rays=1", "scenes": 3, "shots": 3, "ratio": 0.25, "low": 0.2, "high": 0.3}
     write_csv(folder, "over_scenes.csv", [over_scenes])  # tradeoff compares anew, by its own baseline and shots
     write_csv(folder, "results.csv", errors)
     write_csv(folder, "times.csv", times)
@@ -94,6 +95,7 @@ def write_study(folder):
     write_csv(folder, "costs.csv", counts)
     write_csv(folder, "estimates.csv", estimates)
     write_csv(folder, "effects.csv", effects)
+    write_csv(folder, "splits.csv", [])
     of_times = {"technique": "v", "point": "rays=2", "against_technique": "v", "against_point": "rays=1", "stage": "total", "ratio": 2, "low": 2, "high": 2}
     write_csv(folder, "time_effects.csv", [of_times | {"shot": s, "p": 0.001, "p_holm": 0.002, "low_holm": 1.9, "high_holm": 2.1, "verdict": "more"} for s in shots])
     manifest = {
