@@ -7,6 +7,7 @@
 namespace {
 
 using nlohmann::json;
+using nlohmann::literals::operator""_json_pointer;
 using Names = std::map<std::string, std::string>;
 
 const Names of_parameters = {{"resolve", "denoiser"}};
@@ -37,15 +38,13 @@ public:
     Renaming(const std::map<std::string, JsonPlace>& places, FormerNames which) : places_(places), which_(which) {}
 
     std::map<std::string, JsonPlace> places;
+    bool searches_program = false;
 
     /// `from`, `to`: pointers to `value`. `renames_texts`: texts that are names of columns.
     json renamed(const json& value, const std::string& from, const std::string& to, bool renames_texts) {
         if (const auto place = places_.find(from); place != places_.end()) places[to] = place->second;
         if (value.is_object()) return renamed_members(value, from, to, renames_texts);
-        if (value.is_string()) {
-            const std::string path = present_path(value.get<std::string>());
-            return renames_texts ? present(of_studies, path) : path;
-        }
+        if (value.is_string() && renames_texts) return present(of_studies, value);
         if (!value.is_array()) return value;
         json list = json::array();
         for (size_t i = 0; i < value.size(); ++i) {
@@ -56,8 +55,10 @@ public:
     }
 
 private:
-    /// A technique may have a parameter `variant` of its own.
+    /// A technique may have a parameter `variant` of its own, and a program that is searched any.
     const Names& names_at(const std::string& pointer) const {
+        static const Names none;
+        if (pointer.starts_with("/tune")) return searches_program ? none : of_parameters;
         const bool is_of_entries = pointer.starts_with("/techniques/") || pointer.starts_with("/presets/");
         const bool is_in_entry = is_of_entries && std::ranges::count(pointer, '/') > 2;
         return which_ == FormerNames::of_technique || is_in_entry ? of_parameters : of_studies;
@@ -69,7 +70,8 @@ private:
         for (const auto& [key, value] : object.items()) {
             const bool is_kept = key == "shots" || (names.contains(key) && object.contains(names.at(key)));
             const std::string name = is_kept ? key : present(names, key);
-            const bool is_of_columns = key == "rows" || key == "columns" || key == "over";
+            const bool is_of_columns =
+                from.starts_with("/tables/") && (key == "rows" || key == "columns" || key == "over");
             const std::string pointer = member_pointer(from, key), place = member_pointer(to, name);
             members[name] =
                 key == "shots" ? kept(value, pointer) : renamed(value, pointer, place, renames_texts || is_of_columns);
@@ -91,6 +93,7 @@ private:
 
 void take_former_names(JsonDocument& document, FormerNames which) {
     Renaming renaming(document.places, which);
+    renaming.searches_program = document.value.contains("/tune/program"_json_pointer);
     document.value = renaming.renamed(document.value, "", "", false);
     document.places = std::move(renaming.places);
 }

@@ -12,7 +12,7 @@ enum class FormerNames { of_study, of_technique };
 /// along.
 void take_former_names(JsonDocument& document, FormerNames which);
 
-/// The path of a shader or of parameters as it is: "resolves/ray.glsl" is "denoisers/ray.glsl".
+/// The path of one of ssrlab's own shaders or blocks of parameters: "resolves/ray.glsl" is "denoisers/ray.glsl".
 std::string present_path(std::string path);
 
 /// The preset of a technique as it is: "repaired" of composed_ssr is "corrected".

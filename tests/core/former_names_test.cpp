@@ -41,6 +41,10 @@ TEST(FormerNames, OfOthersAreLeftAlone) {
     const json own = {{"techniques", {{{"technique", "./mine"}, {"parameters", {{"variant", 3}}}}}},
                       {"shots", {{{"scene", "car"}, {"variant", "red"}}}}};
     EXPECT_EQ(taken(own, FormerNames::of_study).value, own);
+    const json texts = {{"techniques", {{{"external", "resolves/frames"}}}},
+                        {"rows", {{{"technique", "resolve"}, {"point", "variant"}}}},
+                        {"tune", {{"program", {"./render"}}, {"axes", {{"resolve", {1, 2}}, {"variant", {3}}}}}}};
+    EXPECT_EQ(taken(texts, FormerNames::of_study).value, texts) << "a path, rows of a cell, settings of a program";
     const json both = {{"variants", 1}, {"techniques", 2}};
     EXPECT_EQ(taken(both, FormerNames::of_study).value, both);
     const json preset = {{"presets", {{{"name", "a"}, {"parameters", {{"variant", 3}}}}}}};
@@ -48,9 +52,7 @@ TEST(FormerNames, OfOthersAreLeftAlone) {
 }
 
 TEST(FormerNames, OfATechniqueAndItsFiles) {
-    const json former = {{"resolve", {{"default", "mean"}}}, {"parameters", {{{"include", "resolves/ray_draw.json"}}}}};
-    const json present = {{"denoiser", {{"default", "mean"}}},
-                          {"parameters", {{{"include", "denoisers/ray_draw.json"}}}}};
+    const json former = {{"resolve", {{"default", "mean"}}}}, present = {{"denoiser", {{"default", "mean"}}}};
     EXPECT_EQ(taken(former, FormerNames::of_technique).value, present);
     EXPECT_EQ(present_path("resolves/ray.glsl"), "denoisers/ray.glsl");
     EXPECT_EQ(present_path("unresolves/ray.glsl"), "unresolves/ray.glsl");

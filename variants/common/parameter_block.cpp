@@ -1,6 +1,7 @@
 #include "variants/common/parameter_block.h"
 
 #include "core/error.h"
+#include "core/former_names.h"
 #include "core/near_miss.h"
 #include "core/path_inside.h"
 #include "variants/common/names.h"
@@ -122,12 +123,13 @@ std::vector<DeclaredParameter> ParameterReader::included(JsonObject include, con
     const std::string name = include.text("include"), where = include.at("include");
     std::error_code error;
     const bool is_of_folder = !folder_.empty() && fs::is_regular_file(path_inside(folder_, name, where), error);
-    const fs::path file = is_of_folder ? path_inside(folder_, name, where)
-                                       : path_inside(fs::path(SSRLAB_SOURCE_DIR) / "variants", name, where);
+    const fs::path file = is_of_folder
+                              ? path_inside(folder_, name, where)
+                              : path_inside(fs::path(SSRLAB_SOURCE_DIR) / "variants", present_path(name), where);
     if (!name.ends_with(".json") || !fs::is_regular_file(file, error))
         fail(where, ": 'include' = '", shortened(name), "' is no JSON file of the folder, and none under variants/");
     if (++depth_ > 8) fail(where, ": the blocks of parameters include each other");
-    (is_of_folder ? of_folder : of_ssrlab).push_back(is_of_folder ? name : "variants/" + name);
+    (is_of_folder ? of_folder : of_ssrlab).push_back(is_of_folder ? name : "variants/" + present_path(name));
     const JsonDocument document = read_json_document(file);
     JsonObject root(document, file.string());
     std::vector<DeclaredParameter> block = read(root, variable_name(include, "prefix", prefix));

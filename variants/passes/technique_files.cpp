@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/former_names.h"
 #include "core/gpu/pipelines/shader_files.h"
 #include "core/near_miss.h"
 #include "core/path_inside.h"
@@ -24,7 +25,7 @@ std::string own_source(const std::string& name) {
     if (name.empty() || fs::path(name).is_absolute() || std::ranges::count(fs::path(name), fs::path("..")) > 0)
         return {};
     for (const fs::path& root : shader_roots()) {
-        const fs::path file = path_inside(root, name);
+        const fs::path file = path_inside(root, present_path(name));
         const std::string inside = file.lexically_relative(SSRLAB_SOURCE_DIR).string();
         if ((inside.starts_with("variants/") || inside.starts_with("core/")) && is_shader_source(file) &&
             fs::is_regular_file(file))

@@ -69,7 +69,8 @@ ShaderFile read_shader(const std::string& name, const std::string& includer, con
     if (const std::string folder = folder_of(name); folder.size() < name.size())
         if (const auto file = given_folders().find(folder, name.substr(folder.size() + 1))) return *file;
     for (const auto& root : shader_roots()) {
-        const std::filesystem::path file = path_inside(root, name, "the shader '" + name + "'" + asked_for_by);
+        const std::filesystem::path file =
+            path_inside(root, present_path(name), "the shader '" + name + "'" + asked_for_by);
         if (std::ifstream in(file); std::filesystem::is_regular_file(file) && in)
             return {name, {std::istreambuf_iterator<char>(in), {}}};
     }
@@ -80,7 +81,7 @@ ShaderFile read_shader(const std::string& name, const std::string& includer, con
 std::string included_by(const std::string& line) {
     static constexpr std::string_view include = "#include \"";
     if (!line.starts_with(include)) return {};
-    return present_path(line.substr(include.size(), line.rfind('"') - include.size()));
+    return line.substr(include.size(), line.rfind('"') - include.size());
 }
 
 std::vector<ShaderInclude> includes_of(const std::string& text) {
