@@ -91,8 +91,8 @@ int run_program(const std::vector<std::string>& arguments, const Patience* patie
     if (is_killed) kill(child, SIGKILL);
     const int status = wait_for(child, arguments.front());
     if (is_killed)
-        fail_machine(arguments.front(), " got no further for ", std::chrono::duration<double>(patience->limit).count(),
-                     " s and was ended");
+        fail_machine(arguments.front(), " made no progress for ",
+                     std::chrono::duration<double>(patience->limit).count(), " s and was ended");
     if (WIFSIGNALED(status)) fail_machine(arguments.front(), " was ended by signal ", WTERMSIG(status));
     return WEXITSTATUS(status);
 }

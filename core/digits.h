@@ -3,7 +3,7 @@
 #include <concepts>
 #include <string>
 
-/// As operator<< writes the number, with as many digits as tell it from its neighbours: "1e+06", "1.57079637".
+/// The number as operator<< writes it, with enough digits to distinguish it from its neighbours: "1e+06", "1.57079637".
 std::string message_digits(std::floating_point auto value) {
     char text[32];
     return {text, std::to_chars(text, text + sizeof(text), value, std::chars_format::general).ptr};

@@ -17,8 +17,8 @@ struct MachineError : Error {
     using Error::Error;
 };
 
-/// The parts of a message in one text. Six digits, as streams write them, would say that 1.5708 lies outside
-/// [0, 1.5708].
+/// Joins the parts of a message. Numbers keep their digits: with the six of streams, 1.5708 may lie outside [0,
+/// 1.5708].
 template <class... Args>
 std::string message_text(const Args&... args) {
     std::ostringstream text;

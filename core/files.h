@@ -5,21 +5,22 @@
 #include <string>
 #include <string_view>
 
-/// What a file's name ends with, in lower case: ".exr" of "A.EXR", as cameras and some programs write it; "" without.
+/// The extension of a file's name in lower case: ".exr" for "A.EXR"; "" without one.
 std::string lower_case_extension(const std::filesystem::path& file);
 
-/// Makes the folder and those above it. Fails with MachineError where it cannot.
+/// Makes the folder and those above it. Fails with MachineError if that is impossible.
 void create_folder(const std::filesystem::path& folder);
 
 /// Calls `write` with a temporary name beside `file`, then renames it to `file`; removes the temporary if `write`
-/// throws. Makes the folders above it. Fails with MachineError where these, or the new name, cannot be made.
+/// throws. Makes the folders above `file`. Fails with MachineError if a folder or the new name cannot be made.
 void write_atomically(const std::filesystem::path& file,
                       const std::function<void(const std::filesystem::path&)>& write);
 
-/// Atomic text file. Fails with MachineError where the disk is full or the folder cannot be written.
+/// Writes a text file by write_atomically(). Fails with MachineError if the disk is full or the folder cannot be
+/// written.
 void write_text(const std::filesystem::path& file, std::string_view text);
-/// All bytes of a regular file as they are. Fails with Error if it is none, cannot be read, or is larger than what may
-/// be read (reading_limits.h).
+/// All bytes of a regular file. Fails with Error if it is no regular file, cannot be read, or is larger than may be
+/// read (reading_limits.h).
 std::string read_text(const std::filesystem::path& file);
 
 /// The content hash of everything added, as 32 hexadecimal digits (XXH3, 128 bits).
@@ -31,8 +32,8 @@ public:
     ContentHash& operator=(const ContentHash&) = delete;
 
     void add(std::span<const std::byte> bytes);
-    void add(std::string_view text);  ///< its length, too: "ab" and "c" differ from "a" and "bc"
-    /// Adds the bytes of a plain value without padding, or of a vector of such.
+    void add(std::string_view text);  ///< adds the length, too: "ab" and "c" differ from "a" and "bc"
+    /// Adds the bytes of a number.
     template <class T>
     requires std::is_arithmetic_v<T>
     void add(T value) { add(std::as_bytes(std::span(&value, 1))); }

@@ -3,21 +3,21 @@
 
 #include <string>
 
-// Names that keys, options and files had go on being read: a note on the terminal says the name that each has, once.
+// ssrlab reads former names of keys, options and files. A note on the terminal says each present name once.
 
 enum class FormerNames { of_study, of_technique };
 
-/// Renames keys, and texts that name columns, of a study's config or cell, or of tuned presets: `variant` is
-/// `technique`, `resolve` is `denoiser`; of a technique.json the latter alone. `shots` is left alone. Places move
-/// along.
+/// Renames keys, and texts that name columns. In a study's config or cell, and in tuned presets, `variant` becomes
+/// `technique` and `resolve` becomes `denoiser`; in a technique.json only `resolve` changes. `shots` is left alone.
+/// JsonDocument::places change likewise.
 void take_former_names(JsonDocument& document, FormerNames which);
 
-/// The path of one of ssrlab's own shaders or blocks of parameters: "resolves/ray.glsl" is "denoisers/ray.glsl".
+/// The present path of one of ssrlab's shaders or blocks of parameters: "denoisers/ray.glsl" for "resolves/ray.glsl".
 std::string present_path(std::string path);
 
-/// The preset of a technique as it is: "repaired" of composed_ssr is "corrected".
+/// The present name of a technique's preset: "corrected" for "repaired" of composed_ssr.
 std::string present_preset(const std::string& technique, const std::string& preset);
 
-/// A command's word as it is: "--variants" is "--techniques", and after `--cells` "variant=none" is "technique=none".
-/// `before`: the words before it.
+/// The present form of a command's word: "--techniques" for "--variants", and after `--cells` "technique=none" for
+/// "variant=none". `before`: the words before it.
 std::string present_word(const std::string& word, const std::vector<std::string>& before);

@@ -2,7 +2,7 @@
 #include "core/decoded_image.h"
 
 /// See decode_image() of decoded_image.h: baseline and progressive JPEGs of grey or three components, of 8 bits; alpha
-/// is 255. What libjpeg complains of without harm to the picture becomes a warning: bytes that belong to nothing, a
-/// missing end behind whole data. Fails with Error where data are missing or broken, and, with what the file is and a
-/// command that converts it, for CMYK and YCCK, 12 bits, and lossless or hierarchical JPEGs.
+/// is 255. Complaints of libjpeg that do not harm the picture become warnings: stray bytes, or a missing end after
+/// complete data. Fails with Error if data are missing or broken. CMYK, YCCK, 12-bit, lossless and hierarchical JPEGs
+/// also fail; the message names the kind and a command that converts the file.
 DecodedImage decode_jpeg(const EncodedImage& image, unsigned longest_side);

@@ -12,22 +12,22 @@
 #include <string_view>
 #include <vector>
 
-/// Files nest some ten levels; what reads them may recurse, and a stack ends somewhere.
+/// Files nest about ten levels. Readers may recurse, and the stack is finite.
 inline constexpr size_t max_json_depth = 100;
 
-/// Parses a document that a file brings; `name` says which in messages. An Error names line and column of a syntax
-/// error and of a number that float64 cannot hold, and the place of a key that comes twice in one object (RFC 8259
-/// leaves open which of them counts) or of what is nested deeper than max_json_depth.
+/// Parses the document of a file; `name` is the file in messages. Fails with Error, which names line and column, on a
+/// syntax error or a number that float64 cannot hold. Also fails, and names the place, if an object has a key twice
+/// (RFC 8259 leaves open which counts) or nesting exceeds max_json_depth.
 nlohmann::json parse_json(std::string_view text, const std::string& name, bool allows_comments = false);
 
 /// parse_json() of a file, which may have comments.
 nlohmann::json read_json(const std::filesystem::path& file);
 
-/// Of an object; empty of anything else.
+/// The keys of an object; empty for other values.
 std::vector<std::string> keys_of(const nlohmann::json& object);
 
-/// Where a value was written, line and column from 1: of a member of an object its key, of an element of an array its
-/// first character.
+/// Where a value was written; line and column count from 1. A member of an object is at its key, an element of an array
+/// at its first character.
 struct JsonPlace {
     std::string file;
     size_t line = 0, column = 0;
@@ -51,12 +51,12 @@ std::string shown(const nlohmann::json& value);
 /// Whether the number is whole: 3, 3.0 and 3e0 are the same to JSON (RFC 8259, section 6), and programs write each.
 bool is_whole(const nlohmann::json& value);
 
-/// The value, a whole number of at most 2^53 as an integer: 3 for 3.0.
+/// The value, but whole numbers up to 2^53 as integers: 3 for 3.0.
 nlohmann::json with_whole_as_integer(const nlohmann::json& value);
 
 /// Reads the members of one JSON object and remembers which were asked for, so that a misspelt key is an error instead
-/// of a silent default. What begins each message is e.g. "scenes/fence/scene.json: cameras[0]", or with the places of a
-/// JsonDocument "scenes/fence/scene.json:12:7: cameras[0]".
+/// of a silent default. Each message begins with, for example, "scenes/fence/scene.json: cameras[0]", or with the
+/// places of a JsonDocument "scenes/fence/scene.json:12:7: cameras[0]".
 class JsonObject {
 public:
     JsonObject(const nlohmann::json& object, std::string where);
@@ -74,7 +74,7 @@ public:
     std::string text(const std::string& key, const std::string& fallback);
     std::vector<std::string> texts(const std::string& key);  ///< a text, or an array of one or more; empty if absent
     std::string choice(const std::string& key, const std::vector<std::string>& choices, const std::string& fallback);
-    /// The value that stands beside the name; the first of them if the key is absent.
+    /// The value beside the chosen name; the first value if the key is absent.
     template <class T>
     T value_of(const std::string& key, const std::vector<std::pair<std::string, T>>& choices) {
         const std::vector<std::string> names = names_of(std::views::keys(choices));

@@ -3,10 +3,10 @@
 
 /// A feature, shader or pass that a scene does not need, so that it costs nothing.
 struct LeftOut {
-    std::string what;        ///< "alpha tests"; of a technique the stage that is not run, or a part of `stage`
+    std::string what;        ///< "alpha tests"; for a technique, a stage that does not run, or a part of `stage`
     std::string fact;        ///< of the scene: "no alpha masks"
     std::string why;         ///< one sentence
-    std::string stage = {};  ///< that is shorter without it; empty where `what` is all there is to name
+    std::string stage = {};  ///< the stage that is shorter without it; empty if `what` names all
     bool keeps_bits = true;  ///< false: images are the same up to the rounding of float32 arithmetic
 };
 

@@ -5,7 +5,7 @@
 
 // Lists of names, also in sentences.
 
-/// Of all elements: a member of each, or what a function makes of it.
+/// One name per element: a member of it, or the result of a function.
 template <class Range, class Name = std::identity>
 std::vector<std::string> names_of(const Range& all, Name name = {}) {
     std::vector<std::string> names;

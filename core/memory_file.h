@@ -9,7 +9,7 @@ public:
     ~MemoryFile();
     MemoryFile(const MemoryFile&) = delete;
     MemoryFile& operator=(const MemoryFile&) = delete;
-    /// By which other processes of the user open it, too.
+    /// The path by which other processes of the user can open the file, too.
     std::string path() const;
 
 private:

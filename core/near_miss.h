@@ -10,15 +10,15 @@
 /// The text as messages show it: the middle of a long one is left out, and so are the data of data URIs.
 std::string shortened(const std::string& text);
 
-/// The member of `choices` nearest to `name` by Damerau-Levenshtein distance (optimal string alignment), if none is
-/// within a third of its length the first that contains it ("thickness" of "relative_thickness"), or "". What is longer
-/// than 100 characters is no name that somebody misspelt, and is near none.
+/// The member of `choices` nearest to `name` by Damerau-Levenshtein distance (optimal string alignment), if that is
+/// within a third of its length. Else the first choice that contains `name` ("thickness": "relative_thickness"), or "".
+/// A text of more than 100 characters is no misspelt name and near none.
 std::string nearest_name(std::string_view name, std::span<const std::string> choices);
 
 /// "; did you mean 'thickness'?" where a near miss exists, else "; known are: a, b, c", or "; there are none".
 std::string suggestion(std::string_view name, std::span<const std::string> choices);
 
-/// The entry whose member `name` is that; fails with "<what> 'NAME'; did you mean ..." where there is none.
+/// The entry with that `name`; fails with "<what> 'NAME'; did you mean ..." if there is none.
 template <std::ranges::borrowed_range Entries, class... What>
 auto& find_named(Entries&& entries, const std::string& name, const What&... what) {
     const auto name_of = [](const auto& entry) -> const std::string& { return entry.name; };

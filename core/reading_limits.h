@@ -10,22 +10,24 @@ struct ReadingLimits {
     bool allows_outside = false;  ///< files may name others outside of their own folder (--allow-outside)
 };
 
-/// Those of the process, which the command line sets before anything is read; at first half of machine_memory().
+/// The limits of the process. The command line sets them before anything is read; the default memory is half of
+/// machine_memory().
 ReadingLimits& reading_limits();
 
-/// Of this machine, bytes.
+/// Memory of this machine (bytes).
 uint64_t machine_memory();
 
-/// What shares may still set aside, bytes.
+/// Memory that shares may still set aside (bytes).
 uint64_t memory_left();
 
-/// Memory set aside for what a file brings, before it is spent: readers add what the file's header announces. Given
-/// back with the last copy. All shares together stay within reading_limits().memory. Threads may add to one at a time.
+/// Memory set aside for a file's content before it is used: readers add what the file's header announces. The last copy
+/// gives it back. All shares together stay within reading_limits().memory. Threads may add to one share at the same
+/// time.
 class MemoryShare {
 public:
     MemoryShare();
     /// Sets aside `bytes` more for `what`, which begins the message: "FILE: 20000 x 20000 pixels". Fails with Error,
-    /// which names the bytes, the limit and the option, where that would be too much.
+    /// which names the bytes, the limit and the option, if that is too much.
     void add(double bytes, const std::string& what);
     /// Takes over what another one holds.
     void take(MemoryShare& other);
@@ -40,7 +42,7 @@ private:
 void check_regular_file(const std::filesystem::path& file);
 
 /// The file which `named_by` names as `name`, relative to `folder`. Fails with Error, unless
-/// reading_limits().allows_outside, if it is not below the folder: by an absolute path, by "..", or by links. Need not
-/// exist.
+/// reading_limits().allows_outside, if it is not below the folder: by an absolute path, by "..", or by links. The file
+/// need not exist.
 std::filesystem::path file_below(const std::filesystem::path& folder, const std::string& name,
                                  const std::string& named_by);

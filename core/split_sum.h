@@ -8,11 +8,10 @@
 glm::dvec2 split_sum(double mu_o, double alpha);
 
 /// Two channels A, B; column = mu_o, row = perceptual roughness, both at texel centres (i + 0.5) / size, for bilinear
-/// reading clamped at the edges: with 64 its error is below 1e-3, but for views within 6 degrees of grazing, where it
-/// reaches 6e-3.
+/// reading clamped at the edges. With size 64 the error is below 1e-3, or 6e-3 for views within 6 degrees of grazing.
 HostImage split_sum_table(unsigned size = 64);
 
-/// That of the default size, made once.
+/// The table of the default size, made once.
 const HostImage& default_split_sum_table();
 
 /// A, B from such a table. mu_o in (0, 1], perceptual roughness in [0, 1].

@@ -20,6 +20,6 @@ cat <<'END'
 Where to go next:
   open the report above in a browser: the comparison, what lies behind each number, and the images
   build/release/ssrlab list scenes                 what each scene tests; also: techniques, presets, tracers, metrics
-  build/release/ssrlab describe amd_sssr           a technique and its parameters, for studies of your own (experiments/README.md)
+  build/release/ssrlab describe amd_sssr           a technique and its parameters, for studies of your own (experiments/docs/compare.md)
   build/release/ssrlab figures results/quickstart  figures for a paper
 END

@@ -86,7 +86,7 @@ void report_bad_pixels(Comparison& comparison) {
                            " negative";
         if (counts.non_finite() > 0) text += "; NaN and Inf are left out of every metric";
         if (counts.non_finite() > 0 && comparison.options.fail_on_non_finite)
-            fail(text.substr(0, text.find(';')), ", but none may be");
+            fail(text.substr(0, text.find(';')), "; NaN and Inf must not occur");
         comparison.warnings.push_back(text);
     };
     report(comparison.reference_counts, comparison.options.reference);

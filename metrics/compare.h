@@ -10,13 +10,13 @@
 /// The options of `ssrlab compare REFERENCE TEST`.
 struct CompareOptions {
     std::filesystem::path reference, test;  ///< OpenEXR, Radiance: linear; PNG: sRGB codes, decoded for linear metrics
-    std::string layer;                      ///< of EXR files; "": as read_exr_rgb() of core/exr/exr.h chooses
-    std::vector<std::string> metrics;       ///< names; empty: all that are usual and that the images allow
+    std::string layer;                      ///< layer of EXR files; "": the choice of read_exr_rgb() (core/exr/exr.h)
+    std::vector<std::string> metrics;       ///< names; empty: the usual metrics that the images allow
     std::filesystem::path
-        map;                  ///< error maps, .exr: a layer per metric, or .png: one metric, false colour; empty: none
-    float map_max = 1.0f;     ///< the error that is drawn as the brightest colour of a .png
-    MetricSettings settings;  ///< without flip_exposures they are taken from the reference
-    bool fail_on_non_finite = false;  ///< else non-finite pixels are left out of every mean and warned about
+        map;  ///< file of error maps; .exr: one layer per metric; .png: one metric in false colour; empty: none
+    float map_max = 1.0f;             ///< the error that is drawn as the brightest colour of a .png
+    MetricSettings settings;          ///< without `flip_exposures`, the reference decides the exposures
+    bool fail_on_non_finite = false;  ///< if false, means leave out non-finite pixels and a warning names them
 };
 
 struct CompareResult {
@@ -26,7 +26,7 @@ struct CompareResult {
 };
 
 struct Comparison {
-    CompareOptions options;  ///< as used: with the metrics and exposures that were chosen
+    CompareOptions options;  ///< as used, with the chosen metrics and exposures
     glm::uvec2 extent{0, 0};
     PixelCounts reference_counts, test_counts;
     size_t pixels = 0;  ///< finite in both images
@@ -34,11 +34,12 @@ struct Comparison {
     std::vector<CompareResult> results;
 };
 
-/// Reads both files, measures, and writes options.map if asked to. Fails on unreadable files, different sizes, unknown
-/// metrics, images too small for a metric, no finite pixel, and non-finite pixels if options.fail_on_non_finite.
+/// Reads both files, measures, and writes `options.map` if it is set. Fails on unreadable files, different sizes,
+/// unknown metrics, images too small for a metric, no finite pixel, and non-finite pixels if
+/// options.fail_on_non_finite.
 Comparison compare(const CompareOptions& options);
 
-/// Warnings to `warnings`, each as one line; then one line per metric to `out`: "mse 0.123", in digits that read back
+/// Prints one line per warning to `warnings`, then one line per metric to `out`: "mse 0.123". The digits read back
 /// exactly.
 void print(const Comparison& comparison, std::ostream& out, std::ostream& warnings);
 

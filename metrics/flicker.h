@@ -8,7 +8,7 @@
 
 /// Frames of a shot where camera and scene stand still, after the technique has converged: all change is flicker.
 struct FlickerMoments {
-    SeedMoments frames;         ///< over time: each frame is one seed
+    SeedMoments frames;         ///< moments over time: each frame counts as one seed
     std::vector<double> steps;  ///< sum over the frames of (x_t - x_(t-1))^2, per channel
     HostImage last;
 
@@ -16,10 +16,9 @@ struct FlickerMoments {
     void add(const HostImage& rgb);
 };
 
-/// For each mask: flicker, flicker_relative (if there is a reference to relate to) and flicker_correlation. The
-/// variance over T frames that are correlated over a time of about 1/a frames (an exponential history of weight a)
-/// is too small by about 2 (1 - a) / (a T) of itself. Where the measured correlation 1 - a makes that more than
-/// a fifth, flicker has a note in place of a value. Intervals are those of jackknife_half_width(), without that error.
-/// Fails below two frames.
+/// For each mask: flicker, flicker_relative (only with a reference) and flicker_correlation. An exponential history of
+/// weight a correlates frames over about 1/a frames. The variance over T frames is then too small by a share of about 2
+/// (1 - a) / (a T). If the measured correlation 1 - a makes this share exceed a fifth, flicker has a note instead of a
+/// value. Intervals are those of jackknife_half_width(), without this error. Fails below two frames.
 std::vector<TemporalScore> flicker_scores(const FlickerMoments& moments, const MetricReference* reference,
                                           std::span<const Mask> masks);

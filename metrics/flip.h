@@ -15,16 +15,15 @@ struct FlipExposures {
     unsigned count = 1;  ///< at least 1
 };
 
-/// The range that HDR-FLIP prescribes: from the exposure at which the tone map brings the brightest pixel to 85 %, to
-/// the one at which it does so with the median pixel; about one exposure per stop, at least two. Take it once per
-/// scene, from the full reference image. Fails where the median luminance is not positive, as in a buffer of
-/// reflections only: the formula would ask for infinite exposures there, and comparing at those means to compare black
-/// noise. It ignores non-finite pixels.
+/// The exposures that HDR-FLIP prescribes. The tone map brings the brightest pixel to 85 % at the first exposure and
+/// the median pixel at the last. There is about one exposure per stop, at least two. Compute them once per scene, from
+/// the full reference image; non-finite pixels are ignored. Fails if the median luminance is not positive, as in a
+/// buffer of reflections only: the exposures would be infinite.
 FlipExposures flip_exposure_range(const HostImage& full_reference, ToneMap map);
 
 /// LDR-FLIP per pixel, in [0, 1], of linear colours which are clamped to [0, 1]. `pixels_per_degree` in [1, 1000].
 Plane flip_map(const HostImage& reference, const HostImage& test, float pixels_per_degree);
 
-/// HDR-FLIP per pixel: the greatest LDR-FLIP over all exposures; of radiance, negative counts as 0.
+/// HDR-FLIP per pixel of linear radiance: the greatest LDR-FLIP over all exposures. Negative radiance counts as 0.
 Plane hdr_flip_map(const HostImage& reference, const HostImage& test, const FlipExposures& exposures, ToneMap map,
                    float pixels_per_degree);

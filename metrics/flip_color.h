@@ -20,8 +20,8 @@ inline glm::vec3 linear_from_relative_xyz(glm::vec3 t) {
             0.055639423f * c.x - 0.204011202f * c.y + 1.057148933f * c.z};
 }
 
-/// YCxCz, the space that the eye's contrast sensitivity is known in, without its factors and offset: (Y + 16) / 116, Cx
-/// / 500, Cz / 200. Filters are linear, so they do not mind, and small differences survive float32.
+/// YCxCz, the space of the eye's contrast sensitivity, without its factors and offset: (Y + 16) / 116, Cx / 500, Cz /
+/// 200. Linear filters give the same result, and small differences survive float32.
 inline glm::vec3 opponent_from_linear(glm::vec3 c) {
     const glm::vec3 t = relative_xyz_from_linear(c);
     return {t.y, t.x - t.y, t.y - t.z};

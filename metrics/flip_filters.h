@@ -19,7 +19,7 @@ struct Kernel {
     unsigned radius() const { return unsigned(right.size()) - 1; }
 };
 
-/// Convolutions without the pixels that the kernel would leave: `in` is wider (or higher) by 2 radius.
+/// Convolutions. The result is narrower (or lower) than `in` by 2 radius: it lacks the pixels whose taps leave `in`.
 FloatPlane filter_rows(const FloatPlane& in, const Kernel& kernel);
 FloatPlane filter_columns(const FloatPlane& in, const Kernel& kernel);
 

@@ -21,7 +21,7 @@ struct MaskInputs {
     const PreviousFrame* previous = nullptr;  ///< nullptr: there is no frame before, so nothing is disoccluded
 };
 
-/// Perceptual roughness in [from, below); a class that ends at 1 includes it.
+/// Perceptual roughness in [from, below); a class with below = 1 includes 1.
 struct RoughnessClass {
     float from, below;
 };
@@ -35,20 +35,19 @@ std::optional<RoughnessClass> roughness_class(const std::string& name);
 inline constexpr const char* roughness_class_pattern = "^roughness_(0|0?\\.[0-9]+)_(0?\\.[0-9]+|1(\\.0+)?)$";
 
 /// "all", "reflective", "hit", "miss", "edge", "disoccluded"; roughness classes come on top of them.
-/// - reflective: something was hit, roughness <= reflective_max_roughness, largest channel of reflectance >= its
-/// minimum
+/// - reflective: something was hit, roughness is at most reflective_max_roughness, and the largest channel of
+///   reflectance is at least reflective_min_reflectance
 /// - hit, miss: reflective pixels with a confidence of at least, or below, one half
-/// - edge: pixels within one pixel (8 neighbours) of a discontinuity: another material, normals more than 20 degrees
-/// apart,
-///   or a jump of depth. 1/depth is affine in the screen over every plane, however slanted, so a jump is where its
-///   second difference exceeds 2 % of the largest of the three values: free of scale, and blind to slant.
-/// - disoccluded: reflective pixels that the frame before did not show, see disoccluded()
+/// - edge: pixels within one pixel (8 neighbours) of another material, of a normal more than 20 degrees apart, or of a
+///   jump of depth. 1/depth is affine in the screen over every plane, however slanted. A jump is where its second
+///   difference exceeds 2 % of the largest of the three values, at any scale and slant.
+/// - disoccluded: reflective pixels that the previous frame did not show, see disoccluded()
 const std::vector<std::string>& mask_names();
 
 /// Fails on a name that is neither one of mask_names() nor a roughness class.
 void check_mask_name(const std::string& name);
 
-/// A roughness class holds the pixels where something was hit, the roughness is within it, and the largest channel of
-/// reflectance is at least its minimum, independent of reflective_max_roughness. Fails on an unknown name, or where the
-/// extents differ.
+/// A roughness class holds the pixels where something was hit, with a roughness in the class and a largest channel of
+/// reflectance of at least reflective_min_reflectance. It ignores reflective_max_roughness. Fails on an unknown name,
+/// or if the extents differ.
 Mask make_mask(const std::string& name, const MaskInputs& inputs);

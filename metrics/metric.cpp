@@ -37,12 +37,13 @@ std::vector<Metric> make_table() {
     std::vector<Metric> table = pixel_metrics();
     const size_t first_of_most_one = table.size();  // a similarity, or an error that an eye can see
     for (Metric& metric : ssim_metrics()) table.push_back(std::move(metric));
-    table.push_back({"flip", "flip_ldr", "1", Better::lower, "mean LDR-FLIP of the codes (Andersson et al. 2020)",
+    table.push_back({"flip", "flip_ldr", "1", Better::lower,
+                     "Mean of LDR-FLIP, the difference that a viewer notices, sRGB codes (Andersson et al. 2020)",
                      flip_layers, pooled_mean});
-    table.push_back(
-        {"hdr_flip", "flip_hdr", "1", Better::lower,
-         "mean of the greatest LDR-FLIP over a range of exposures that is fixed per scene (Andersson et al. 2021)",
-         hdr_flip_layers, pooled_mean});
+    table.push_back({"hdr_flip", "flip_hdr", "1", Better::lower,
+                     "Mean of the greatest LDR-FLIP over a range of exposures that is fixed for each scene, linear "
+                     "radiance (Andersson et al. 2021)",
+                     hdr_flip_layers, pooled_mean});
     for (Metric& metric : std::span(table).subspan(first_of_most_one)) metric.greatest = 1;
     return table;
 }

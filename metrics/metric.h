@@ -15,20 +15,19 @@ struct MetricSettings {
     ToneMap tone_map = ToneMap::none;                     ///< ... tone-mapped, clamped to [0, 1] and sRGB-coded
     float pixels_per_degree = default_pixels_per_degree;  ///< of FLIP's observer
     ToneMap hdr_flip_tone_map = ToneMap::aces;
-    /// Of hdr_flip only: flip_exposure_range() of the scene's full reference image.
+    /// For hdr_flip only: flip_exposure_range() of the scene's full reference image.
     std::optional<FlipExposures> flip_exposures;
 };
 
-/// Pixels with at least one such channel, each pixel counted once, in this order.
+/// Numbers of pixels with a NaN, infinite or negative channel. Each pixel counts once, for the first that applies.
 struct PixelCounts {
     size_t nan = 0, infinite = 0, negative = 0;
     size_t non_finite() const { return nan + infinite; }
 };
 PixelCounts count_bad_pixels(const HostImage& rgb);
 
-/// Two images made ready for measuring. A pixel with NaN or Inf in either image is black in both here and outside of
-/// `finite`, so that it is in no mean and no window of its neighbours; `reference_counts` and `test_counts`
-/// count them.
+/// Two images made ready for measuring. A pixel with NaN or Inf in either image is black in both and outside `finite`,
+/// so that no mean and no neighbour's window contains it. `reference_counts` and `test_counts` count such pixels.
 struct ImagePair {
     HostImage reference, test;              ///< linear
     HostImage reference_codes, test_codes;  ///< sRGB codes in [0, 1]
@@ -40,15 +39,15 @@ struct ImagePair {
 /// From linear images of three channels and one extent; fails if they differ in it or are empty.
 ImagePair image_pair(const HostImage& reference, const HostImage& test, const MetricSettings& settings);
 
-/// As above, where the codes are at hand already (PNG), used as they are.
+/// As above, with sRGB codes that are known (from PNG files) and used unchanged.
 ImagePair image_pair(const HostImage& reference, const HostImage& test, const HostImage& reference_codes,
                      const HostImage& test_codes, const MetricSettings& settings);
 
 enum class Better { lower, higher, near_zero, near_one };
 
-/// One measure of the difference between a test image and its reference. `layers` computes all that is per pixel, once;
-/// `pool` makes one number of it for each mask: NaN if no pixel is inside. Windowed metrics (ssim, flip) are pooled by
-/// averaging their map inside the mask: windows reach beyond the mask's border.
+/// One measure of the difference between a test image and its reference. `layers` computes the values of all pixels
+/// once; `pool` reduces them to one number per mask, NaN if no pixel is inside. Windowed metrics (ssim, flip) average
+/// their map inside the mask: their windows reach beyond its border.
 struct Metric {
     std::string name;
     std::string formula;  ///< id of the exact formula: tools disagree on what a name means
@@ -58,15 +57,15 @@ struct Metric {
     std::vector<Plane> (*layers)(const ImagePair&);  ///< the first one is the error map
     double (*pool)(std::span<const Plane> layers, const Mask& mask);
 
-    /// mean over pixels and channels of weight(r) (x - r)^2, of which noise in r can be subtracted (metrics/noise.h);
-    /// nullptr for all other metrics.
+    /// The weight of metrics that are the mean over pixels and channels of weight(r) (x - r)^2, from which noise in r
+    /// can be subtracted (metrics/noise.h). nullptr for all other metrics.
     double (*squared_error_weight)(double reference) = nullptr;
-    /// Id of the formula where the weight is that of a path-traced reference's guide in place of its own noisy pixels;
-    /// empty if the weight does not depend on the reference.
+    /// Id of the formula with the weight of a path-traced reference's guide instead of its noisy pixels. Empty if the
+    /// weight does not depend on the reference.
     std::string guided_formula = {};
 
-    /// A map whose mean over the mask is the value, or what `of_mean` makes into it, and whose tiles move that as those
-    /// of the images do, to first order; nullptr for metrics that are no such mean, or for which `layers` has the map.
+    /// A map whose mean over the mask, after `of_mean`, is the value. Tiles of the map move the value as tiles of the
+    /// images do, to first order. nullptr if the metric is no such mean, or if `layers` holds the map.
     Plane (*mean_map)(std::span<const Plane> layers, const Mask& mask) = nullptr;
     double (*of_mean)(double mean) = nullptr;  ///< monotonic; nullptr: the mean itself
     double greatest = INFINITY;                ///< upper bound

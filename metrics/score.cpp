@@ -84,7 +84,7 @@ std::vector<ImagePair> noisier_pairs(const MetricReference& reference, const Hos
 }
 
 /// Windows of SSIM weigh noise against the scene's own contrast: how its means grow says too little of what they would
-/// be without (metrics/README.md: in a dark room no interval of SSIM held that).
+/// be without (metrics/coverage.md: in a dark room no interval of SSIM held that).
 constexpr std::string_view not_extrapolated[] = {"ssim"};
 
 /// Means of absolute differences grow by neither law where rare bright paths make the noise: then they have no

@@ -13,14 +13,14 @@ struct Score {
     std::string formula;  ///< id: the metric's, or its guided one
     std::string mask;
     double value;        ///< noise-corrected if `corrected`; NaN if no pixel is inside the mask
-    double uncorrected;  ///< with the reference's noise in it, by the same formula
+    double uncorrected;  ///< with the reference's noise, by the same formula
     bool corrected;
     std::optional<double> low,
         high;                     ///< 95 % interval of `value` due to the reference's noise, where known
-    std::optional<double> floor;  ///< metric(half A, half B): overestimates the score of the reference's noise, as each
-                                  ///< half has twice its variance
+    std::optional<double> floor;  ///< metric(half A, half B): above the score of the reference's noise alone, as each
+                                  ///< half has twice the noise variance
     size_t pixels;                ///< finite ones inside the mask
-    NoiseGrowth growth = {};      ///< of the mean that `value` is, where the interval is extrapolated from it
+    NoiseGrowth growth = {};      ///< growth of the mean behind `value`, if it extrapolates the interval
 };
 
 /// A reference and all that does not depend on the test image, made once and used for many tests.
@@ -39,13 +39,12 @@ struct MetricReference {
 MetricReference metric_reference(HostImage image, std::optional<ReferenceHalves> halves,
                                  const std::vector<std::string>& metric_names, const MetricSettings& settings);
 
-/// All metrics under all masks: masks vary fastest. `counts`, if given, gets the bad pixels of the test image. `noise`,
-/// if given, gets for each score how the reference's noise moves its value, to first order, for the noise of means
-/// of several scores: 0 outside of the mask; empty where unknown.
+/// All metrics under all masks; masks vary fastest. `counts`, if given, gets the bad pixels of the test image. `noise`,
+/// if given, gets per score how the reference's noise moves its value, to first order: 0 outside the mask, empty where
+/// unknown. It serves to find the noise of means of several scores.
 ///
-/// Intervals: of metrics that are corrected (means of weighted squares), `bias` and `energy_ratio`, the ratio of a
-/// fixed mean to that of the reference. All others are means of a map, or made of one (Metric::mean_map), and carry the
-/// reference's noise in their value; their intervals reach to where it would lie without (metrics/extrapolation.h). The
-/// forms of SSIM have none.
+/// Corrected metrics (means of weighted squares), `bias` and `energy_ratio` have intervals of the noise. All other
+/// metrics are made from the mean of a map (Metric::mean_map), and their value contains the reference's noise. Their
+/// interval reaches to the value without noise (metrics/extrapolation.h). SSIM metrics have no interval.
 std::vector<Score> score(const MetricReference& reference, const HostImage& test, std::span<const Mask> masks,
                          PixelCounts* counts = nullptr, std::vector<NoisyMap>* noise = nullptr);

@@ -3,8 +3,8 @@
 #include "metrics/plane.h"
 #include "metrics/statistics/estimates.h"
 
-/// Estimates from each two of N seeds, as means over channels and pixels. The pair of the seeds i < j, counted from 0,
-/// has index j (j - 1) / 2 + i.
+/// Estimates from each pair of N seeds, as means over channels and pixels. The pair of seeds i < j, counted from 0, has
+/// index j (j - 1) / 2 + i.
 struct SeedPairs {
     std::vector<double> variance;  ///< (x - y)^2 / 2
     /// ((x - A)(y - B) + (y - A)(x - B)) / 2 with the halves A, B of the reference: all four noises are independent, so
@@ -12,16 +12,16 @@ struct SeedPairs {
     std::vector<double> bias_squared;
 };
 
-/// Of the pixels inside of the mask, which must be finite in all images. A reference without noise is its own half
-/// twice.
+/// Uses the pixels inside the mask, which must be finite in all images. For a reference without noise, both halves are
+/// the reference.
 SeedPairs seed_pairs(std::span<const HostImage> seeds, const HostImage& half_a, const HostImage& half_b,
                      const Mask& inside);
 
-/// The mean over all pairs of the chosen seeds: unbiased, and with less scatter than that of disjoint pairs (a
+/// The mean over all pairs of the chosen seeds: unbiased, and with less scatter than the mean over disjoint pairs (a
 /// U-statistic: Hoeffding 1948, "A Class of Statistics with Asymptotically Normal Distribution"). `without` is empty
-/// for two seeds. Fails below that.
+/// for two seeds. Fails below two seeds.
 ///
-/// metrics/README.md has the measured coverage of jackknifed_ratio() of these.
+/// metrics/coverage.md has the measured coverage of jackknifed_ratio() of such means.
 Jackknifed jackknifed_pairs(std::span<const double> of_pairs, std::span<const size_t> chosen);
 
 /// Mean and variance of each channel of each pixel over independent seeds, one image at a time (Welford 1962).

@@ -95,7 +95,8 @@ std::vector<Metric> ssim_metrics() {
     using enum Better;
     return {
         {"ssim", "ssim_gauss1.5_channels", "1", higher,
-         "mean SSIM of the three code channels, Gaussian window 11x11 of sigma 1.5, biased covariance, windows within "
+         "Mean SSIM of the three channels of sRGB codes, Gaussian window 11x11 of sigma 1.5, biased covariance, "
+         "windows within "
          "the image (Wang et al. 2004)",
          channel_mean_map, pooled_mean},
     };

@@ -9,22 +9,23 @@ const std::vector<TemporalMetric>& temporal_metrics() {
     using enum Better;
     static const std::vector<TemporalMetric> table = {
         {"flicker", "temporal_deviation", "radiance", lower,
-         "sqrt(mean over pixels and channels of the variance over the frames of a converged shot where nothing moves)"},
+         "Square root of the variance over the frames of a converged shot without motion; mean over pixels and "
+         "channels"},
         {"flicker_relative", "temporal_variance_a", "1", lower,
-         "mean of that variance / (r^2 + 0.01), the weight of relmse", "temporal_variance_a_guided"},
+         "Mean of that variance / (r^2 + 0.01), weighted as relmse", "temporal_variance_a_guided"},
         {"flicker_correlation", "temporal_lag_1", "1", near_zero,
-         "1 - mean (x_t - x_(t-1))^2 / (2 mean variance over the frames): 0 where frames are independent, towards 1 "
-         "where each repeats the last, which buys little flicker by lag",
+         "1 - mean (x_t - x_(t-1))^2 / (2 mean variance over the frames). 0 for independent frames, towards 1 if each "
+         "frame repeats the last. A technique with a high value buys little flicker by lag",
          "", 1},
         {"frame_difference", "frame_difference_mse", "radiance^2", lower,
-         "mean ((x_t - x_(t-1)) - (r_t - r_(t-1)))^2: changes that are not the truth's"},
-        {"frame_difference_relative", "frame_difference_a", "1", lower, "that / (r_t^2 + 0.01), the weight of relmse",
-         "frame_difference_a_guided"},
+         "Mean of ((x_t - x_(t-1)) - (r_t - r_(t-1)))^2: changes between frames that the truth does not have"},
+        {"frame_difference_relative", "frame_difference_a", "1", lower,
+         "Mean of frame_difference / (r_t^2 + 0.01), weighted as relmse", "frame_difference_a_guided"},
         {"ghost_length", "ghost_projection_0.05", "frames", lower,
-         "frames after a change that still hold 5 % of the old image or more: (x_t - plateau) projected onto the "
+         "Frames after a change that still contain 5 % of the old image or more: (x_t - plateau) projected onto the "
          "truth's change"},
         {"settling_length", "squared_error_step_0.05", "frames", lower,
-         "frames after a change until the squared error is within 5 % of its first step above its plateau"},
+         "Frames after a change until the squared error is within 5 % of its first step above its final level"},
     };
     return table;
 }

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-/// A number from a sequence of frames. There is no standard of such metrics, and names vary: the formula's id and `doc`
-/// define it.
+/// A metric of a sequence of frames. Such metrics have no standard and their names vary: `formula` and `doc` define
+/// them.
 struct TemporalMetric {
     std::string name;
     std::string formula;
@@ -32,20 +32,21 @@ struct TemporalScore {
     std::string mask;
     double value = NAN;  ///< without the reference's noise if `corrected`; NaN if `note` says why there is none
     bool corrected = false;
-    std::optional<double> uncorrected;  ///< with that noise: of frame differences
+    std::optional<double> uncorrected;  ///< with the reference's noise; frame differences only
     std::optional<double> low, high;    ///< 95 % interval, where known
-    size_t pixels = 0;                  ///< finite ones inside the mask (frame differences: summed over the steps)
-    size_t left_out = 0;                ///< those inside the mask that were NaN or Inf in some image (likewise)
+    size_t pixels = 0;                  ///< finite pixels inside the mask (frame differences: summed over the steps)
+    size_t left_out = 0;                ///< pixels inside the mask that are NaN or Inf in some image (likewise)
     std::string note;                   ///< the reason for a missing value; else empty
 };
 
 inline constexpr const char* no_pixel = "no finite pixel is inside the mask";
 
-/// A row without a value yet; its note is no_pixel if that is so. `finite` holds the pixels that are finite in all
-/// images of the sequence.
+/// A row without a value. Its note is `no_pixel` if no finite pixel is inside the mask. `finite`: the pixels that are
+/// finite in all images of the sequence.
 TemporalScore empty_score(const std::string& metric, const Mask& mask, const Mask& finite);
 
-/// Takes the pixels out of `mask` where the image is NaN or Inf. Fails if it has another extent, or not three channels.
+/// Removes the pixels from `mask` where the image is NaN or Inf. Fails if the image has another extent or not three
+/// channels.
 void keep_finite(Mask& mask, const HostImage& rgb);
 
 /// 1 / (r^2 + 0.01), the weight of relmse.

@@ -18,7 +18,7 @@ std::string name_of(ToneMap map);
 /// Applied to exposed linear radiance; the result is not clamped.
 glm::vec3 tone_mapped(glm::vec3 radiance, ToneMap map);
 
-/// The radiance that the curve maps to 0.85, by which HDR-FLIP chooses its exposures. Fails for ToneMap::none.
+/// The radiance that the curve maps to 0.85; HDR-FLIP chooses its exposures by it. Fails for ToneMap::none.
 double radiance_of_85_percent(ToneMap map);
 
 /// sRGB codes in [0, 1] (IEC 61966-2-1): radiance x 2^exposure_ev, tone map, clamp, sRGB curve. Not quantised.

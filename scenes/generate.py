@@ -3,7 +3,7 @@
 
     scenes/generate.py [--out FOLDER] [NAME...]
     scenes/generate.py --refusals COUNT room
-    scenes/generate.py --fill scenes/README.md
+    scenes/generate.py --fill scenes/rooms.md
 
 Without a name, all scenes that have one; without --out, beside this file. room:17 and street:3 are scenes by their
 number, written as <folder>/room_17. --refusals draws the first scenes of a family and says which rules refused how

@@ -19,7 +19,7 @@ def all_files():
 
 FILES = set(all_files())
 FOLDERS = {str(parent) for file in FILES for parent in Path(file).parents}
-NAME = r"(?:README|RESULTS|[a-z0-9_]+)\.(?:cpp|h|py|js|md|sh|csv|json|glsl|comp|frag|cmake)"
+NAME = r"(?:README|[a-z0-9_]+)\.(?:cpp|h|py|js|md|sh|csv|json|glsl|comp|frag|cmake)"
 DOCUMENTS = sorted(file for file in FILES if file.endswith(".md"))
 
 
@@ -31,9 +31,11 @@ def without_code(text, keeps_inline=False):
 
 
 def anchors(document):
-    """The names that its headings have on the repository's host: small letters, '-' for spaces, -1 after the second."""
-    found = []
-    for title in re.findall(r"(?m)^#{1,6} (.+)$", without_code((ROOT / document).read_text(encoding="utf-8"), True)):
+    """Those of `<a id="name"></a>`, and the names that its headings have on the repository's host: small letters, '-' for
+    spaces, -1 after the second."""
+    text = without_code((ROOT / document).read_text(encoding="utf-8"), True)
+    found = re.findall(r'<a id="([\w-]+)"></a>', text)
+    for title in re.findall(r"(?m)^#{1,6} (.+)$", text):
         name = re.sub(r"[^\w\- ]", "", title.strip().lower()).replace(" ", "-")
         same = sum(re.fullmatch(re.escape(name) + r"(-\d+)?", other) is not None for other in found)
         found.append(f"{name}-{same}" if same else name)
@@ -81,12 +83,12 @@ class Markdown(unittest.TestCase):
     def test_pictures_were_drawn_from_what_is_committed(self):
         """Else draw them anew: python3 experiments/python readme_pictures."""
         made_from = {
-            "readme/error_time.png": "summaries/quickstart.csv",
+            "readme/report.png": "configs/quickstart.json",
             "readme/comparison.png": "configs/readme.json",
-            "findings/flight_helmet.png": "findings/figures.json",
-            "findings/room_10103.png": "findings/composed.json",
-            "findings/room_10105.png": "findings/composed.json",
-            "findings/metal_corner.png": "findings/engines.json",
+            "questions/flight_helmet.png": "questions/figures.json",
+            "questions/room_10103.png": "questions/composed.json",
+            "questions/room_10105.png": "questions/composed.json",
+            "questions/metal_corner.png": "questions/engines.json",
         }
         for name, source in made_from.items():
             picture = (ROOT / "experiments/studies" / name).read_bytes()

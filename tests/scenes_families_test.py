@@ -151,11 +151,11 @@ class Densities(unittest.TestCase):
             self.assertAlmostEqual(kinds.count(kind) / count, share, delta=0.04)
         self.assertEqual(Dice("a").about("b").uniform(), Dice("a/b").uniform())
 
-    def test_the_readme_states_all_of_them(self):
-        readme = (SCENES / "README.md").read_text(encoding="utf-8")
-        self.assertEqual(tables.filled(readme), readme, "run scenes/generate.py --fill scenes/README.md")
+    def test_the_page_states_all_of_them(self):
+        page = (SCENES / "rooms.md").read_text(encoding="utf-8")
+        self.assertEqual(tables.filled(page), page, "run scenes/generate.py --fill scenes/rooms.md")
         for density in dice.TABLE:
-            self.assertIn(f"\n| {density.what} | {density.text()} |", readme)
+            self.assertIn(f"\n| {density.what} | {density.text()} |", page)
 
 
 if __name__ == "__main__":

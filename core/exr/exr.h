@@ -19,7 +19,7 @@ struct Layer {
 struct LayeredImage {
     std::vector<Layer> layers;  ///< all of one extent
     std::map<std::string, std::string> attributes;
-    MemoryShare memory = {};  ///< of an image that was read
+    MemoryShare memory = {};  ///< set aside for an image that was read
 
     const Layer* find(const std::string& name) const;  ///< nullptr if there is none of that name
 };
@@ -28,10 +28,10 @@ struct LayeredImage {
 /// file. Fails with MachineError if the disk is full or the folder cannot be written.
 void write_exr(const std::filesystem::path& file, const LayeredImage& image);
 
-/// Reads all layers of all parts (core/exr/exr_layers.h), each one's channels in the order RGBA, XYZ, else
-/// alphabetical: the display window, 0 where the data window does not reach. Fails with Error if the file is missing,
-/// truncated, no OpenEXR file, has deep or subsampled channels or larger integers than float32 holds, or if its
-/// header announces more than may be read (reading_limits.h).
+/// Reads all layers of all parts (core/exr/exr_layers.h). Channels come in the order RGBA, XYZ, else alphabetical. The
+/// images cover the display window, with 0 outside the data window. Fails with Error if the file is missing, truncated
+/// or no OpenEXR file, or if its header announces more than may be read (reading_limits.h). Also fails on deep or
+/// subsampled channels, and on larger integers than float32 holds.
 LayeredImage read_exr(const std::filesystem::path& file);
 
 /// One RGB image in the default layer.

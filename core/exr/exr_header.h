@@ -31,21 +31,21 @@ std::string shown(const ExrWindow& window);
 /// One image of a file. Several parts share the display window and the chromaticities.
 struct ExrPart {
     std::string name;  ///< "" where the file does not say
-    std::string view;  ///< of the channels without a layer's name: the attribute `view`, or the first of `multiView`
+    std::string view;  ///< view of channels without a layer's name: the attribute `view`, or the first of `multiView`
     bool is_deep = false;  ///< pixels hold lists of samples
     std::vector<ExrChannel> channels;
-    ExrWindow data, display;    ///< which pixels are stored; which are the picture
+    ExrWindow data, display;    ///< stored pixels; pixels of the picture
     glm::dvec2 tile{0, 0};      ///< pixels; 0: scan lines
     unsigned compression = 0;   ///< as the file numbers it
-    double unknown_blocks = 0;  ///< of a type of part that is not known: how many blocks it says to have
+    double unknown_blocks = 0;  ///< number of blocks that a part of unknown type declares
     std::optional<Chromaticities> chromaticities;
     std::map<std::string, std::string> texts;  ///< attributes that are strings
 
     double block_lines() const;  ///< how many rows are compressed together
-    double blocks() const;       ///< how many there are, of tiles in full resolution
+    double blocks() const;       ///< number of blocks; of tiles, those in full resolution
     const char* compression_name() const;
-    /// Whether the compression changes the channel's values: DWA those of colours and luminance, by their letters, B44
-    /// those of halves, PXR24 those of floats (openexr.com, "Technical Introduction", "Data Compression").
+    /// Whether the compression changes the channel's values. DWA changes colours and luminance, known by their letters;
+    /// B44 changes halves; PXR24 changes floats (openexr.com, "Technical Introduction", "Data Compression").
     bool is_lossy(const ExrChannel& channel) const;
 };
 
@@ -54,7 +54,7 @@ struct ExrHeader {
     bool has_part_flag = false;  ///< written as a file of several parts, even of one
 };
 
-/// Reads the header of an OpenEXR file, but no pixels (openexr.com, "OpenEXR File Layout"), and sets no memory aside
-/// beyond what the file has bytes. Fails with Error if the file is missing, no OpenEXR file, or if its header is
-/// truncated or malformed: what OpenEXR would then take for lengths could be anything.
+/// Reads the header of an OpenEXR file, but no pixels (openexr.com, "OpenEXR File Layout"). Uses no more memory than
+/// the file has bytes. Fails with Error if the file is missing or no OpenEXR file, or if its header is truncated or
+/// malformed: OpenEXR might take any bytes for a length.
 ExrHeader read_exr_header(const std::filesystem::path& file);

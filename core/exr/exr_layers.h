@@ -22,18 +22,17 @@ struct ExrLayer {
     const ExrComponent* find(std::string_view component) const;  ///< by name; nullptr if there is none
 };
 
-/// In the order of the file, the components of each in the order RGBA, XYZ, else alphabetical.
+/// All layers in the order of the file, with their components in the order RGBA, XYZ, else alphabetical.
 std::vector<ExrLayer> layers_of(const ExrHeader& header);
 
-/// The layer of that name, else the first which a part's name, a view's name, or the name within its part means.
-/// nullptr if there is none.
+/// The layer of that name, else the first whose part, view or name within its part is `name`. nullptr if there is none.
 const ExrLayer* find_layer(const ExrHeader& header, const std::vector<ExrLayer>& layers, const std::string& name);
 
-/// The layer's components that stand for the letters, in their order, capitals before small letters before words. None
-/// if one of them is missing.
+/// The layer's components for the letters, in their order. A capital is preferred to a small letter, and this to a
+/// word. None if a component is missing.
 std::optional<std::vector<ExrComponent>> components_named(const ExrLayer& layer, std::string_view letters);
 
 /// "'ViewLayer.Combined' (R G B A)"; the layer without a name is "R G B without a layer's name".
 std::string shown(const ExrLayer& layer);
-/// All of them in a list; of many only the first.
+/// The layers as a list; of many layers only the first.
 std::string shown(const std::vector<ExrLayer>& layers);

@@ -22,22 +22,22 @@ struct ExrPictureSource {
     Kind kind = Kind::rgb;
 };
 
-/// What read_exr_picture() makes its colours of, by the header alone. `notes` gets a sentence where a choice was made.
-/// Fails with Error as it does where there is no such layer, or none of these channels.
+/// The channels that read_exr_picture() makes its colours of, from the header alone. `notes` gets a sentence for each
+/// choice. Fails with Error, as read_exr_picture() does, without such a layer or such channels.
 ExrPictureSource exr_picture_source(const std::filesystem::path& file, const ExrHeader& header,
                                     const std::string& layer, std::vector<std::string>& notes);
 
-/// Reads the colours of `layer`: a layer, a part, a view or a channel. Where that is "": R, G and B without a layer's
-/// name, or Y, RY and BY; else the layer "image", as references call what the camera sees; else the only layer with
-/// R, G and B; else a picture in grey. A file whose only layer has no name has it under every name.
+/// Reads the colours of `layer`: a layer, a part, a view or a channel. "" stands for the first of these that exists: R,
+/// G and B (or Y, RY and BY) without a layer's name; the layer "image", as in references; the only layer with R, G and
+/// B; a grey picture. A file whose only layer has no name has this layer under every name.
 ///
 /// Channels are chosen by their names (exr_layers.h): R G B, or Y RY BY, or X Y Z as they are, or Y as grey, or the
 /// only channel beside A as grey. R, G and B are converted to Rec. 709 from the primaries that `chromaticities` names.
-/// The attributes `whiteLuminance` and `acesImageContainerFlag` are left alone: values stay relative, and the primaries
-/// of ACES files are named as of all others.
+/// The attributes `whiteLuminance` and `acesImageContainerFlag` are ignored: values stay relative, and ACES files name
+/// their primaries as others do.
 ///
-/// Primaries with another white than D65 are adapted to it: see core/chromaticities.h.
+/// Another white than D65 is adapted to D65: see core/chromaticities.h.
 ///
-/// Fails with Error, with the layers that there are, if there is no such layer or none of these channels; if integers
+/// Fails with Error, which lists the file's layers, if there is no such layer or none of these channels; if integers
 /// are above what float32 holds (2^24); and as read_planes() of exr_pixels.h.
 ExrPicture read_exr_picture(const std::filesystem::path& file, const std::string& layer = "");

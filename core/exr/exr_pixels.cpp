@@ -196,7 +196,7 @@ MemoryShare read_planes(const fs::path& file, const ExrHeader& header, std::span
                 if (part.channels[c].sampling != glm::ivec2(1))
                     fail("cannot read ", file.string(), ": channel '", part.channels[c].name, "' is subsampled (",
                          part.channels[c].sampling.x, " x ", part.channels[c].sampling.y,
-                         "), which is read of chroma alone (RY, BY beside Y)");
+                         "); only chroma may be subsampled (RY, BY beside Y)");
         }
         set_aside(memory, file, header, index, channels, double(channels + integers) * sizeof(float));
     }
@@ -216,8 +216,7 @@ void refuse_rounding(const fs::path& file, const ExrHeader& header, const ExrPla
         if (uint64_t(float(planes.integers[i])) != planes.integers[i])
             fail("cannot read ", file.string(), ": channel '",
                  header.parts[planes.part].channels[planes.channels[i % planes.channels.size()]].name,
-                 "' has the integer ", planes.integers[i],
-                 ", which 32-bit floats do not tell from its neighbours; up to 16777216 they do");
+                 "' has the integer ", planes.integers[i], ", but 32-bit floats hold all integers up to 16777216 only");
 }
 
 HostImage read_luminance_chroma(const fs::path& file, const ExrHeader& header, size_t index,
@@ -244,7 +243,7 @@ HostImage read_luminance_chroma(const fs::path& file, const ExrHeader& header, s
     const std::string prefix = layer.empty() ? "" : layer + ".";
     if (index > 0 || y.name != prefix + "Y" || ry.name != prefix + "RY" || by.name != prefix + "BY")
         fail("cannot read ", file.string(), ": the chroma '", ry.name, "' and '", by.name, "' of '", y.name,
-             "' is subsampled, which is read of the first part's Y, RY and BY alone; write R, G and B");
+             "' is subsampled, but only Y, RY and BY of the first part may be; write R, G and B");
     set_aside(memory, file, header, index, 3, 3 * sizeof(float) + sizeof(Imf::Rgba));
     rgb = HostImage(picture_extent(part), 3);
     const Overlap overlap(part);

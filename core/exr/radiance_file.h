@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-/// Reads linear radiance, RGB, from an OpenEXR or a Radiance file: which one its bytes say, not its name. `layer`: of
-/// an OpenEXR file, as read_exr_picture() takes it. `notes` gets a sentence for each thing that was converted. Fails
-/// with Error as the readers do (exr/exr_picture.h, radiance_hdr.h); of another format the message has a command that
-/// converts it.
+/// Reads linear radiance, RGB, from an OpenEXR or a Radiance file, as its bytes say. `layer`: of an OpenEXR file, see
+/// read_exr_picture(). `notes` gets a sentence for each conversion. Fails with Error as the readers do
+/// (exr/exr_picture.h, radiance_hdr.h). For another format the message has a command that converts it.
 HostImage read_radiance(const std::filesystem::path& file, const std::string& layer, std::vector<std::string>& notes);

@@ -65,7 +65,7 @@ glm::vec2 pair(JsonObject& object, const std::string& key, glm::vec2 fallback) {
     const std::vector<float> values = numbers(object.any(key), 2, object.where() + ": '" + key + "'");
     for (const float value : values)
         if (std::abs(value) > max_side)
-            fail(object.where(), ": '", key, "' holds ", value, ", but no sample lies ", max_side, " pixels off");
+            fail(object.where(), ": '", key, "' holds ", value, ", but must be within +-", max_side, " pixels");
     return {values[0], values[1]};
 }
 

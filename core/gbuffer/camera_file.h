@@ -10,7 +10,8 @@ struct CameraFile {
     float exposure_ev = 0;
 };
 
-/// Every number reads back as the same bits. Atomic as write_text(), and fails as it does.
+/// Every number reads back as the same bits. Writes atomically and fails as write_text().
 void write_camera(const std::filesystem::path& file, const CameraFile& camera);
-/// Fails with Error, which names file and key, where one is missing, unknown, no number or out of range.
+/// Fails with Error, which names file and key, if a key is missing or unknown, or its value is no number or out of
+/// range.
 CameraFile read_camera(const std::filesystem::path& file);

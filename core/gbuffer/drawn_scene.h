@@ -13,11 +13,11 @@ public:
     /// Which fragment shader a mesh needs: the cheapest that its material allows.
     enum class Kind { plain, textured, masked };
 
-    /// Uploads all drawn meshes, materials and textures. With `has_dielectric_f0` none is drawn by the plain shader,
-    /// with `keep_all` every mesh by the one for masks.
+    /// Uploads all drawn meshes, materials and textures. With `has_dielectric_f0` no mesh is `plain`; with `keep_all`
+    /// every mesh is `masked`.
     DrawnScene(PassList& pass_list, const Scene& scene, bool has_dielectric_f0, bool keep_all);
 
-    /// Transforms and deformed vertices of this frame; `previous`: of the frame before.
+    /// Uploads transforms and deformed vertices of this frame. `previous`: the pose of the previous frame.
     void pose(const ScenePose& pose, const ScenePose& previous);
 
     const std::vector<Draw>& draws(Kind kind) const { return draws_[size_t(kind)]; }
@@ -26,11 +26,11 @@ private:
     struct MeshBuffers {
         Buffer vertices, indices;
     };
-    /// An instance whose vertices joints or morph targets move: uploaded for each frame, with those of the frame
-    /// before.
+    /// An instance whose vertices joints or morph targets move. Each frame uploads its vertices of this and the
+    /// previous frame.
     struct DeformedInstance {
         unsigned instance = 0;
-        std::shared_ptr<const LeadingVertices> leading;  ///< those of its mesh
+        std::shared_ptr<const LeadingVertices> leading;  ///< of its mesh
         Buffer vertices;
         Deformation deformation;  ///< of `posed`
         std::vector<Vertex> posed, before;

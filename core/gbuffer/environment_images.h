@@ -6,13 +6,13 @@
 /// The environment on the GPU, for passes that include core/shaders/gbuffer/environment.glsl.
 class EnvironmentImages {
 public:
-    /// Without `prefilter` only its sharp radiance can be read. `environment` must outlive this.
+    /// Without `prefilter` shaders can read only the sharp radiance. `environment` must outlive this.
     EnvironmentImages(PassList& pass_list, const Environment& environment, bool prefilter);
 
     /// Binds images and constants to the pass; `bind_sharp` for shaders that do not read the prefiltered image.
     PassList::Pass& bind(PassList::Pass& pass) const;
     PassList::Pass& bind_sharp(PassList::Pass& pass) const;
-    /// The same, with the kind of environment compiled in.
+    /// As bind_sharp(), with the kind of environment compiled in.
     PassList::Pass& bind_rays(PassList::Pass& pass) const;
     static void compile_in(PassList::Pass& pass, unsigned kind);
 

@@ -1,8 +1,8 @@
 #pragma once
 #include "core/scene/scene.h"
 
-/// The light of an environment, as a quadtree over its lat-long texels: level 0 holds the texels, each level above four
-/// of the one below per node, the last a single node. Structure of arrays per level; all directions are in world space.
+/// The light of an environment as a quadtree over its lat-long texels. Level 0 holds the texels; a node of a higher
+/// level holds four nodes of the level below; the last level is a single node. Directions are in world space.
 struct EnvironmentTree {
     struct Level {
         glm::uvec2 extent{0, 0};
@@ -17,6 +17,6 @@ struct EnvironmentTree {
     std::vector<Level> levels;
 };
 
-/// Environments wider than 1024 texels are averaged down to at most that first: a quarter of the narrowest lobe for
-/// which the tree is used. A constant or gradient environment is sampled at 256 x 128 directions.
+/// First averages environments down to a width of at most 1024 texels: a texel is then a quarter of the narrowest lobe
+/// that uses the tree. A constant or gradient environment is sampled at 256 x 128 directions.
 EnvironmentTree build_environment_tree(const Environment& environment);

@@ -31,8 +31,8 @@ struct HostGBuffer {
     glm::uvec2 extent() const { return depth.extent; }
 };
 
-/// How many values of each layer are NaN or infinite; layers without any are left out. By the names of gbuffer.exr, but
-/// roughness counts as normal, metalness as base_color and specular as emission.
+/// How many values of each layer are NaN or infinite; layers without any are left out. Keys are the layers of
+/// gbuffer.exr, but roughness counts as normal, metalness as base_color and specular as emission.
 std::map<std::string, size_t> count_non_finite(const HostGBuffer& gbuffer);
 
 /// A folder with gbuffer.exr and camera.json, so that captures of other engines can stand in for a scene. All images
@@ -73,18 +73,17 @@ void save_gbuffer(const std::filesystem::path& folder, const HostGBuffer& gbuffe
 
 struct LoadedGBuffer {
     HostGBuffer gbuffer;
-    std::vector<std::string> layers;  ///< those above that the file has
-    std::map<std::string, std::string>
-        absent;                      ///< what is taken in place of layers that the file lacks, by their names
-    std::vector<std::string> notes;  ///< layers not used, and check_gbuffer(): one sentence each
+    std::vector<std::string> layers;            ///< layers of save_gbuffer() that the file has
+    std::map<std::string, std::string> absent;  ///< what replaces each layer that the file lacks, by its name
+    std::vector<std::string> notes;             ///< one sentence each: unused layers, and results of check_gbuffer()
 };
 
 /// Fails with Error, naming file and layer, if something required is missing or malformed, or if extents differ.
 LoadedGBuffer load_gbuffer(const std::filesystem::path& folder);
 
-/// environment.json: a scene file's "environment" (scenes/README.md), an image beside it in environment.exr. Comes back
-/// bit by bit, but for the rotation of an image, which is in degrees.
+/// Writes environment.json, with the keys of a scene file's "environment" (scenes/README.md), and an image to
+/// environment.exr. All reads back bit by bit, except the rotation of an image, which is stored in degrees.
 void save_environment(const std::filesystem::path& folder, const Environment& environment);
-/// None if the folder has no environment.json. `notes` gets a sentence for each thing that was converted. Fails with
-/// Error if that is malformed.
+/// None if the folder has no environment.json. `notes` gets a sentence for each conversion. Fails with Error if the
+/// file is malformed.
 std::optional<Environment> load_environment(const std::filesystem::path& folder, std::vector<std::string>& notes);

@@ -1,9 +1,9 @@
 #pragma once
 #include "core/gpu/passes/pass_list.h"
 
-/// In which formats techniques find the G-buffer. `exact`: those of gbuffer.h. `packed`: as engines have it, in about
-/// half of the bytes: normals with their roughness, emission, lit colour and fallback rgba16f, base colour with its
-/// metalness rgba8, motion rg16f. Depth and material stay.
+/// The formats in which techniques get the G-buffer. `exact`: those of gbuffer.h. `packed`: about half the bytes, as in
+/// engines: rgba16f for normals with roughness, emission, lit colour and fallback; rgba8 for base colour with
+/// metalness; rg16f for motion. Depth and material do not change.
 enum class GBufferFormats { exact, packed };
 
 /// For the pass_list that makes the images.

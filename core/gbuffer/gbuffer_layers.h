@@ -22,13 +22,13 @@ void copy_channels(const HostImage& from, unsigned from_channel, HostImage& to, 
 
 struct FoundLayers {
     std::set<std::string> names;
-    std::vector<std::string> notes;  ///< one sentence each: what is not used, what a compression changed
+    std::vector<std::string> notes;  ///< one sentence each: unused content, and values that a compression changed
     MemoryShare memory;
 };
 
 /// Reads the layers of `file`, and no other channels, into the images of `gbuffer`, whose camera says their extent.
-/// Channels are chosen by name: of a vector X Y Z, or R G B as picture programs call them; of one value the letter that
-/// gbuffer_file.h names, or the layer's only channel. The picture is the display window; pixels outside of the data
-/// window of `depth` are background. Colours come in linear Rec. 709. Fails with Error, naming file and layer, if a
-/// required layer or a channel is missing, if the extent is another, and if material numbers are above 2^24.
+/// Channels are chosen by name. Vectors are X Y Z, or R G B as picture programs name them; single values have the
+/// letter in gbuffer_file.h, or the layer's only channel. The picture is the display window; pixels outside the data
+/// window of `depth` are background. Colours are converted to linear Rec. 709. Fails with Error, naming file and layer,
+/// if a required layer or channel is missing, the extent differs, or material numbers are above 2^24.
 FoundLayers read_gbuffer_layers(const std::filesystem::path& file, HostGBuffer& gbuffer);

@@ -46,7 +46,7 @@ Image one_dielectric_f0(PassList& pass_list) {
 
 GBuffer upload_gbuffer(PassList& pass_list, const HostGBuffer& g) {
     if (pass_list.extent() != g.extent())
-        fail("a G-buffer of ", g.extent().x, " x ", g.extent().y, " does not fit the pass pass_list of ",
+        fail("a G-buffer of ", g.extent().x, " x ", g.extent().y, " does not fit the pass list of ",
              pass_list.extent().x, " x ", pass_list.extent().y);
     GBuffer gbuffer{.depth = uploaded(pass_list, "depth", Format::r32f, g.depth),
                     .geometric_normal = uploaded(pass_list, "geometric_normal", Format::rgba32f, g.geometric_normal),

@@ -8,11 +8,11 @@ struct PrefilteredEnvironment {
     HostImage atlas;  ///< RGB, laid out as core/shared/prefiltered_environment.h says; empty for a constant environment
 };
 
-/// Takes all cores for some tenths of a second. Every texel is a deterministic sum over the whole sphere, fine near the
+/// Uses all cores for some tenths of a second. Every texel is a deterministic sum over the whole sphere, fine near the
 /// lobe's peak and coarse in its tails, so that no bright texel is missed or met by chance.
 PrefilteredEnvironment prefilter_environment(const Environment& environment);
 
-/// Mean radiance over the part above the horizon of the visible-normal reflection lobe, as if it were round about
-/// `direction` (unit, world space), which is the mirror direction. `roughness` is perceptual, in [0, 1].
+/// Mean radiance over the visible-normal reflection lobe above the horizon. The lobe is treated as round about the
+/// mirror direction, `direction` (unit, world space). `roughness` is perceptual, in [0, 1].
 glm::vec3 mean_over_lobe(const Environment& environment, const PrefilteredEnvironment& prefiltered, glm::vec3 direction,
                          float roughness);

@@ -8,39 +8,39 @@
 struct RasterizerOptions {
     glm::uvec2 extent{0, 0};
     DepthFormat depth_format = DepthFormat::d32f;
-    unsigned normal_bits = 0;       ///< of each of the two numbers that the shading normal is stored in
+    unsigned normal_bits = 0;       ///< bits of each of the two numbers that store the shading normal
                                     ///< (core/shaders/gbuffer/octahedral.glsl), 2 to 16; 0: floats
     bool has_depth_layers = false;  ///< also GBuffer::second_depth and ::back_depth
-    /// What reflections show where nothing is found for them, in place of the scene's environment: a reflection probe.
-    /// It must outlive the rasteriser.
+    /// A reflection probe: reflections that find nothing show it instead of the scene's environment. Must outlive the
+    /// rasteriser.
     const Environment* probe = nullptr;
-    bool is_still = false;  ///< in all frames that will be asked for neither camera nor scene moves
-    bool keep_all = false;  ///< run and compile also what left_out() names: the same images, slower
+    bool is_still = false;  ///< neither camera nor scene moves in the frames that will be rendered
+    bool keep_all = false;  ///< also compile and run what left_out_of_rasterizer() names: the same images, slower
 };
 
 /// What a rasteriser leaves out of frames with these facts.
 std::vector<LeftOut> left_out_of_rasterizer(const SceneFacts& facts);
 
-/// Draws the G-buffer of a scene. It has a pass pass_list of its own, so that its times are not those of a technique;
-/// techniques read its images through theirs, after render() has waited for the device.
+/// Draws the G-buffer of a scene. Its own pass list keeps its times apart from a technique's. Techniques read its
+/// images through their pass lists, after render() has waited for the device.
 ///
-/// Surfaces are drawn from both sides, their normals turned to the camera, as the path tracer sees them, but for backs
-/// that the scene hides (Scene::hides_backs_of()); where they are drawn the back of a single-sided emitter is dark.
+/// Surfaces are drawn from both sides, with normals turned to the camera, as in the path tracer. Backs that the scene
+/// hides are not drawn (Scene::hides_backs_of()). The back of a single-sided emitter is dark.
 class Rasterizer {
 public:
     /// Uploads the scene and prefilters its environment. `scene` must outlive the rasteriser. Fails with MachineError
     /// if the device lacks the depth format.
     Rasterizer(Device& device, const Scene& scene, const RasterizerOptions& options);
 
-    /// The G-buffer of one frame, all but `lit`, which one of the functions below fills. view.extent must be that of
-    /// the options. view.predecessor() is drawn first unless it was the last one drawn; the first frame has none, and
-    /// gets its own depth and normal as the previous ones. With view.jitter samples lie at pixel centre + jitter.
+    /// The G-buffer of one frame, except `lit`, which a function below fills. view.extent must be that of the options.
+    /// view.predecessor() is drawn first unless it was drawn last. The first frame has none: its previous depth and
+    /// normal are its own. With view.jitter samples lie at pixel centre + jitter.
     GBuffer render(const SceneCamera& camera, const FrameView& view);
 
-    /// Emission and direct diffuse light, of punctual lights and of the environment, without any shadow. Seconds faster
-    /// than tracing paths, and so wrong that results must say that it was used.
+    /// Fills `lit` with emission and direct diffuse light of punctual lights and environment, without shadows. Saves
+    /// seconds of path tracing, but is so wrong that results must report its use.
     void light_directly(const GBuffer& gbuffer);
-    /// Path-traced lit colour: RGB of the same extent.
+    /// Fills `lit` with path-traced lit colour: RGB of the same extent.
     void upload_lit(const GBuffer& gbuffer, const HostImage& rgb);
 
     const CameraData& camera() const { return camera_; }  ///< of the last frame

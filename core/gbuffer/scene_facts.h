@@ -5,22 +5,22 @@
 
 #include <span>
 
-/// What a scene holds and a shot of it shows, as far as someone can leave work out for lack of it. Only what is drawn
+/// What a scene holds and a shot of it shows. The lack of something lets passes leave work out. Only what is drawn
 /// counts: materials of visible triangles, lights that shine, motion within the frames of the shot.
 struct SceneFacts {
     bool has_geometry = false;
     bool has_reflective = false;  ///< a surface whose specular reflectance is not zero
-    bool has_matte = true;        ///< a surface where it is zero, or becomes zero in 8 bits; true until known
+    bool has_matte = true;        ///< a surface whose specular reflectance is zero, also in 8 bits; true until known
     float min_roughness = 1.0f,
           max_roughness = 0.0f;  ///< perceptual, over reflective surfaces and all texels of their textures
     bool camera_moves = false,   ///< also by jitter
         objects_move = false;
-    bool has_environment = false;  ///< that is not black
+    bool has_environment = false;  ///< an environment that is not black
     bool has_textures = false, has_alpha_masks = false, has_normal_maps = false, has_vertex_colors = false;
-    bool has_dielectric_f0 = false;  ///< a dielectric whose reflectance is not 0.04 times one factor for all of it
-    bool hides_backs = false;        ///< a single-sided surface in a scene that does not draw the backs of such
-    bool has_faulty_inputs = false;  ///< a G-buffer of files with values that are not finite, or normals that are not
-                                     ///< unit; what is rasterised has none
+    bool has_dielectric_f0 = false;  ///< a dielectric whose reflectance is not 0.04 times one factor
+    bool hides_backs = false;        ///< a single-sided surface in a scene that does not draw such backs
+    bool has_faulty_inputs = false;  ///< a G-buffer from files has values that are not finite, or normals that are not
+                                     ///< unit; a rasterised one never has
 
     bool is_still() const { return !camera_moves && !objects_move; }
 };
@@ -29,11 +29,11 @@ struct SceneFacts {
 /// moves in it.
 SceneFacts derive_facts(const Scene& scene, const SceneCamera& camera, std::span<const unsigned> frames);
 
-/// The same without what depends on a shot: nothing moves.
+/// The facts that do not depend on a shot; nothing moves.
 SceneFacts material_facts(const Scene& scene);
 
-/// Whether a surface has a specular term in every format that a G-buffer may have: the larger of its specular factor
-/// and its metalness, which 8 bits keep in the packed one.
+/// Whether a surface has a specular term in every format of a G-buffer. `factor`: the larger of its specular factor and
+/// its metalness, which the packed formats keep in 8 bits.
 inline bool is_stored_as_reflective(float factor) { return factor >= 1.0f / 255.0f; }
 
 /// What the pixels of one frame show, as shares of all pixels.

@@ -11,16 +11,16 @@
 vk::Format vulkan_format(Format format);
 vk::ImageAspectFlags aspect_of(Format format);
 
-/// What techniques or this layer cannot do without and a device lacks, each by its name in Vulkan and what it is for.
+/// Features that techniques or core/gpu need and the device lacks: the name in Vulkan and the purpose of each.
 std::vector<std::string> missing_features(const vk::PhysicalDeviceFeatures& v10,
                                           const vk::PhysicalDeviceVulkan13Features& v13,
                                           const std::vector<vk::ExtensionProperties>& extensions);
 
-/// What is switched on of them on every device. Reads beyond an image give zeros, as the Direct3D originals of several
-/// techniques expect.
+/// The features that are enabled on every device. Reads beyond an image give zeros, as the Direct3D originals of
+/// several techniques expect.
 struct NeededFeatures {
     vk::PhysicalDeviceVulkan13Features v13;
-    vk::PhysicalDeviceVulkan12Features v12;  ///< of those that are not needed, but used where they are there
+    vk::PhysicalDeviceVulkan12Features v12;  ///< also optional features, enabled where the device has them
     vk::PhysicalDeviceFeatures v10;
 };
 NeededFeatures needed_features();
@@ -52,11 +52,10 @@ struct Device::Impl {
     vk::raii::Fence fence{nullptr};
     std::shared_ptr<class PipelineCache> pipelines;  ///< see PipelineCache::of()
 
-    /// A pass_list that has recorded and not yet submitted; others call this before they start, so that work keeps its
-    /// order.
+    /// Submits what a pass_list has recorded. Other pass_lists call it before they start, so that work keeps its order.
     std::function<void()> flush_recording;
 
-    /// Memory of a type that has all of `required` and, if there is such a one, all of `preferred` too.
+    /// Memory of a type with all `required` flags, and with all `preferred` ones if such a type exists.
     vk::raii::DeviceMemory allocate(const vk::MemoryRequirements& requirements, vk::MemoryPropertyFlags required,
                                     vk::MemoryPropertyFlags preferred = {});
 
@@ -75,7 +74,7 @@ struct DeviceBuffer {
     DeviceBuffer(Device::Impl& gpu, size_t size, vk::BufferUsageFlags usage, bool is_host_visible);
 };
 
-/// Of an image, which is made when it is first used (allow_use()).
+/// The storage of an image, made at its first use (allow_use()).
 struct ImageStorage {
     vk::ImageCreateInfo info;         ///< its uses grow
     vk::FormatFeatureFlags features;  ///< what the device can do with the format

@@ -20,14 +20,14 @@ struct FormatFacts {
     bool is_color_renderable, is_filterable;  ///< in WebGL 2 with EXT_color_buffer_float
 };
 const FormatFacts& facts_of(Format format);
-/// In the order of Format.
+/// All formats in the order of `Format`.
 std::span<const FormatFacts> all_formats();
 
 /// "rgba16f": as GLSL and this project call it.
 std::string name_of(Format format);
 
-/// Formats of as many channels in 32 bits and in 16, of any that holds fractions; depth, stencil and whole numbers
-/// stay. Of formats without alpha (r11g11b10f) those with one, in which it is what the shader writes.
+/// The float format with as many channels of 32 or 16 bits. Depth, stencil and integer formats stay. r11g11b10f becomes
+/// a format with alpha, which holds what the shader writes.
 Format as_float32(Format format);
 Format as_float16(Format format);
 
@@ -35,7 +35,7 @@ Format as_float16(Format format);
 bool has_depth(Format format);
 bool has_stencil(Format format);
 
-/// Texels of the format from float32 channels and back: as many values as the texels have channels. Halves are rounded
-/// to the nearest even, unorm values to the nearest after clamping to [0, 1].
+/// Converts float32 channels to texels of the format, and back; one value per channel. Halves are rounded to the
+/// nearest even, unorm values to the nearest after clamping to [0, 1].
 void encode_texels(Format format, std::span<const float> values, std::byte* texels);
 void decode_texels(Format format, const std::byte* texels, std::span<float> values);

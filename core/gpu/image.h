@@ -36,10 +36,10 @@ struct Image {
     Image as(std::string shader_name) const;  ///< the same image, bound to another variable
 };
 
-/// Of all mips of the view, without padding.
+/// Bytes of all mips of the view, without padding.
 uint64_t bytes_of(const Image& image);
 
-/// The whole of what an image is a mip of.
+/// The whole image that a mip belongs to.
 struct WholeImage {
     glm::uvec2 extent;
     unsigned mips;

@@ -7,12 +7,12 @@
 // Images and buffers on the device, and their way there and back. All images stay in the general layout: ssrlab
 // compares algorithms, and one layout keeps passes free of transitions.
 
-/// An image that can be copied and sampled, and as a depth image be tested against.
+/// An image that can be copied and sampled; a depth image also serves for depth tests.
 std::shared_ptr<ImageStorage> create_image(Device::Impl& gpu, Format format, glm::uvec2 extent, unsigned mips);
 
-/// Lets shaders store to an image, or draw to it, too. Drivers compress less of what may be stored to (Mesa's
-/// radv: radv_use_dcc_for_image_early() in src/amd/vulkan/radv_image.c): so each allows no more than its passes have
-/// asked for, and is made again, with what it holds, when the first one asks for more.
+/// Lets shaders also store to an image, or draw to it. Drivers compress such images less (Mesa's radv:
+/// radv_use_dcc_for_image_early() in src/amd/vulkan/radv_image.c). An image therefore allows only uses that passes have
+/// asked for; a new use makes the image again, with its content.
 void allow_use(Device::Impl& gpu, const Image& image, vk::ImageUsageFlagBits use);
 
 std::shared_ptr<BufferStorage> create_buffer(Device::Impl& gpu, size_t bytes);

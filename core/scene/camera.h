@@ -18,13 +18,13 @@ struct CameraPose {
     float aspect = 0.0f;               ///< SceneCamera::aspect; 0: the height of the field holds in every image
 };
 
-/// The pose with the field of view that it has in an image of this aspect (width over height), and no aspect of its
-/// own: where the image is narrower than the frame that the camera's author saw, the field grows in height until that
-/// frame's width fits, for clients should not crop it (glTF 2.0, sections 3.10.3.2 to 3.10.3.4). Functions that take a
-/// pose and an extent or an aspect apply it themselves.
+/// The pose with its field of view in an image of this aspect (width over height), and without an aspect of its own. In
+/// an image narrower than the author's frame, the field grows in height until the frame's width fits: clients should
+/// not crop (glTF 2.0, sections 3.10.3.2 to 3.10.3.4). Functions with a pose and an extent or an aspect call it
+/// themselves.
 CameraPose fitted(const CameraPose& pose, double image_aspect);
 
-/// At a frame, which may lie between two. Fails with Error where the node that it hangs on has a scale of 0.
+/// The pose at a frame, which may be fractional. Fails with Error if the camera's node has a scale of 0.
 CameraPose pose_camera(const SceneCamera& camera, const ScenePose& scene_pose, float frame);
 
 struct FrameView {

@@ -6,7 +6,7 @@
 /// geometry from which near and far are derived where the entry gives none.
 SceneCamera read_camera(JsonObject entry, const Scene& scene);
 
-/// A vector of the file that must have a length, as a unit vector.
+/// A vector of the file as a unit vector. Fails with Error if it is zero.
 glm::vec3 read_direction(JsonObject& object, const std::string& key);
 
 /// A required point within any_length of the origin, along each axis (m).

@@ -139,8 +139,8 @@ std::span<const Vertex> posed_vertices(const Scene& scene, const ScenePose& pose
     if (pose.deformations.empty() || pose.deformations[instance] == Deformation{}) return mesh.vertices;
     const bool has_normal_map = scene.materials[mesh.material].normal_texture.texture >= 0;
     if (!deform(mesh, pose.deformations[instance], has_normal_map, deformed))
-        fail("scene '", scene.name, "': joints or morph targets take vertices of mesh '", shortened(mesh.name),
-             "' (node '", shortened(scene.nodes[scene.instances[instance].node].name), "') out of +-", any_length,
+        fail("scene '", scene.name, "': joints or morph targets move vertices of mesh '", shortened(mesh.name),
+             "' (node '", shortened(scene.nodes[scene.instances[instance].node].name), "') beyond +-", any_length,
              " m");
     return deformed;
 }

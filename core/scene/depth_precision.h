@@ -6,9 +6,9 @@
 /// By how much (m) neighbouring codes of a depth buffer differ at a depth (m) between the planes of the camera.
 double depth_step(const CameraData& camera, DepthFormat format, double depth);
 
-/// Sentences where a depth buffer leaves steps of more than a hundredth of the distance at the farthest surface, else
-/// "". `whose`: "camera 'main'". `farthest`: depth (m) of that surface. `remedy`: a
-/// sentence, without its stop, that says how to give other planes.
+/// A warning if a depth buffer's steps at the farthest surface exceed a hundredth of its distance, else "". `whose`:
+/// "camera 'main'". `farthest`: depth (m) of that surface. `remedy`: a sentence, without its stop, that says how to
+/// give other planes.
 std::string precision_warning(const std::string& whose, const CameraData& camera, DepthFormat format, double farthest,
                               const std::string& remedy);
 

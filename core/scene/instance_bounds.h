@@ -9,17 +9,18 @@ struct Box {
 
     double nearest_to(glm::dvec3 point) const;     ///< distance (m); 0 inside
     double farthest_from(glm::dvec3 point) const;  ///< distance (m) of the farthest corner
-    Box moved(const glm::mat4& transform) const;   ///< a box about the transformed one, rounding allowed for
+    Box moved(const glm::mat4& transform) const;   ///< a box around the transformed one, with room for rounding
 };
 
-/// Boxes about what a scene's instances draw at a frame, for a few operations each: the boxes of meshes are made once.
+/// Boxes around what a scene's instances draw at a frame. Each takes a few operations, as boxes of meshes are made
+/// once.
 class InstanceBounds {
 public:
     /// `scene` must outlive this.
     explicit InstanceBounds(const Scene& scene);
 
-    /// World space. The one place that knows how an instance's vertices get to their places. Holds all of them, and may
-    /// be larger than need be.
+    /// A box in world space that holds all vertices of the instance, and may be larger than needed. Only this function
+    /// knows how vertices get to their places.
     Box at(const ScenePose& pose, size_t instance) const;
 
 private:

@@ -68,7 +68,7 @@ Scene load_bare_gltf(const fs::path& file, const GltfChoices& choices) {
 }  // namespace
 
 Scene load_scene(const std::string& name, const std::vector<fs::path>& search_path, const GltfChoices& choices) {
-    if (name.size() >= PATH_MAX) fail("unknown scene '", shortened(name), "': no path is as long");
+    if (name.size() >= PATH_MAX) fail("unknown scene '", shortened(name), "': the name is too long for a path");
     if (is_of_family(name)) return load_scene_file(scene_file_of_family(name), search_path, choices);
     std::error_code error;  // a name too long for the file system is just unknown
     const fs::path direct = name;

@@ -5,8 +5,7 @@
 #include <map>
 #include <utility>
 
-/// Texels that overrides made, by what they made them from and the channel that they set to 1: the overrides of a scene
-/// share them.
+/// Texels that overrides made, by their source and the channel that was set to 1. The overrides of a scene share them.
 using ChangedTexels = std::map<std::pair<Texels, size_t>, Texels>;
 
 /// One entry of scene.json's `overrides`: changes all materials whose whole name matches the regular expression

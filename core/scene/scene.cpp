@@ -96,8 +96,8 @@ ScenePose pose_scene(const Scene& scene, float frame) {
                                            ? node.parent_from_node
                                            : pose.world_from_node[size_t(node.parent)] * node.parent_from_node);
         if (!is_in_range(pose.world_from_node.back()))
-            fail("scene '", scene.name, "': at frame ", frame, " animation takes node '", shortened(node.name),
-                 "' out of +-", any_length, " m, or scales it by more");
+            fail("scene '", scene.name, "': at frame ", frame, " animation moves node '", shortened(node.name),
+                 "' beyond +-", any_length, " m, or scales it by more");
     }
     for (const Instance& instance : scene.instances)
         pose.world_from_instance.push_back(pose.world_from_node[instance.node]);

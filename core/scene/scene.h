@@ -43,8 +43,8 @@ struct TextureSlot {
 
 enum class AlphaMode { opaque, mask };
 
-/// glTF 2.0 metallic-roughness (Appendix B). Factors multiply their textures. What glTF calls BLEND, and transmission,
-/// is drawn as opaque by both renderers unless scene.json hides the material: a G-buffer has one layer.
+/// glTF 2.0 metallic-roughness (Appendix B). Factors multiply their textures. A G-buffer has one layer: BLEND becomes a
+/// mask or opaque (cut_blended_materials()), and transmission is opaque, unless scene.json hides the material.
 struct Material {
     std::string name;
     glm::vec3 base_color{1.0f};
@@ -139,8 +139,7 @@ struct Environment {
     glm::vec3 radiance(glm::vec3 direction) const;  ///< direction: unit, world space
 };
 
-/// Where a camera is at a frame, or a node of the glTF. Between keys position and target are linear in the frame
-/// number.
+/// Where a camera is at a frame. Between keys position and target are linear in the frame number.
 struct CameraKey {
     float frame = 0.0f;
     glm::vec3 position{0.0f}, target{0.0f, 0.0f, -1.0f}, up{0.0f, 1.0f, 0.0f};
@@ -191,7 +190,7 @@ struct AnimationClip {
     bool is_played = false;
 };
 
-/// What a file holds and ssrlab does not show as the file says, or chose for it: one sentence, and whom it concerns.
+/// One sentence about something that ssrlab shows differently from the file, or that it chose for the file.
 struct SceneWarning {
     std::string text;
     int material = -1, node = -1;  ///< indices into Scene::materials and Scene::nodes; -1: none in particular
@@ -222,7 +221,7 @@ struct Scene {
 
     const SceneCamera& camera(const std::string& name) const;  ///< "": the first; Error with a near miss if unknown
     size_t triangle_count() const;                             ///< over all instances
-    /// Whether surfaces of the material are not there for whoever looks at their back: cameras, reflections, shadows.
+    /// Whether cameras, reflections and shadows do not see the backs of the material's surfaces.
     bool hides_backs_of(const Material& material) const { return !draws_backs && !material.is_double_sided; }
     bool hides_backs() const;  ///< of anything that is drawn
 };
@@ -237,8 +236,8 @@ struct Deformation {
 
 /// The scene at one instant: what moves, in world space.
 struct ScenePose {
-    /// One per Scene::instances. Where joints place the vertices, a mirroring or nothing: that of the skin's first
-    /// joint.
+    /// One per Scene::instances. If joints place the vertices: the identity, or a mirroring if the skin's first joint
+    /// mirrors.
     std::vector<glm::mat4> world_from_instance;
     std::vector<Deformation> deformations;  ///< one per Scene::instances; none where all meshes keep their shapes
     std::vector<glm::mat4> world_from_node;

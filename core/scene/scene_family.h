@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-/// A family of scenes without end, each drawn from a stated distribution by its number: `room:17` (scenes/README.md).
+/// A family of scenes without end, each drawn from a stated distribution by its number: `room:17` (scenes/rooms.md).
 struct SceneFamily {
     std::string name, about;
 };

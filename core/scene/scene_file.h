@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <vector>
 
-/// Reads a scene.json; its keys are in scenes/README.md. The scene's name is that of the folder. `choices` that are
-/// made take the place of the file's.
+/// Reads a scene.json; its keys are in scenes/README.md. The scene's name is that of the folder. `choices` that are set
+/// replace the file's.
 Scene load_scene_file(const std::filesystem::path& file, const std::vector<std::filesystem::path>& search_path,
                       GltfChoices choices = {});
 
@@ -16,6 +16,6 @@ Scene load_scene_file(const std::filesystem::path& file, const std::vector<std::
 void finish_scene(Scene& scene);
 
 /// A scene file's "environment" (scenes/README.md). An image is looked for beside `file`, then in the search path.
-/// `notes` gets a sentence for each thing that was converted.
+/// `notes` gets a sentence for each conversion.
 Environment read_environment(JsonObject object, const std::filesystem::path& file,
                              const std::vector<std::filesystem::path>& search_path, std::vector<std::string>& notes);

@@ -3,14 +3,14 @@
 
 #include <array>
 
-/// The slots that decide what is seen, by pointers: those of a const Material point to const.
+/// Pointers to the slots that affect the picture, to const ones of a const Material.
 template <class AnyMaterial>
 auto texture_slots(AnyMaterial& m) {
     return std::array{&m.base_color_texture, &m.metalness_roughness_texture, &m.normal_texture, &m.emission_texture,
                       &m.specular_texture,   &m.specular_color_texture};
 }
 
-/// What messages call them, in the same order.
+/// The names of these slots in messages, in the same order.
 inline constexpr std::array texture_channels = {"base colour", "metallic-roughness", "normal",
                                                 "emissive",    "specular",           "specular colour"};
 

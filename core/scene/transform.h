@@ -6,17 +6,16 @@ glm::mat4 transform(glm::vec3 translation, glm::vec4 rotation, glm::vec3 scale);
 
 /// How a transform moves normals. Defined for every matrix, also for those without an inverse.
 struct NormalTransform {
-    /// Moves normals of any length to the side of the surface that they were on, with a length to be normalised after
-    /// interpolation: the cofactor matrix, which is the inverse transpose but for a factor, with the sign of the
-    /// determinant and the largest entry 1. A transform that flattens all to a plane moves every normal to that
-    /// plane's, or to zero; one that leaves no area moves all to zero.
+    /// Keeps normals of any length on their side of the surface; normalise them after interpolation. It is the cofactor
+    /// matrix (the inverse transpose but for a factor) with the sign of the determinant and a largest entry of 1. If
+    /// the transform flattens all to a plane, normals become the plane's or zero; if it leaves no area, zero.
     glm::mat3 matrix{1.0f};
     bool is_mirrored = false;  ///< negative determinant; never if flat
     bool is_flat = false;      ///< no inverse in float32: the volume is below 1e-6 of that of the matrix's columns
 };
 NormalTransform normal_transform(const glm::mat4& world_from_object);
 
-/// Of unit length; zero where `v` has no direction: is zero, or not finite.
+/// `v` with unit length; zero if `v` has no direction, that is, is zero or not finite.
 glm::vec3 direction_or_zero(glm::vec3 v);
 
 /// Unit and perpendicular to the unit vector `n` (Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017).

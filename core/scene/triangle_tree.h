@@ -4,14 +4,14 @@
 
 #include <span>
 
-/// The distance (m) of a mesh's nearest point from a point of the world, for one pass over all triangles.
+/// The distance (m) of a mesh's nearest point from a point in world space, by one pass over all triangles.
 double nearest_distance(const std::vector<uint32_t>& indices, std::span<const Vertex> vertices,
                         const glm::mat4& world_from_mesh, glm::vec3 point);
 inline double nearest_distance(const Mesh& mesh, const glm::mat4& world_from_mesh, glm::vec3 point) {
     return nearest_distance(mesh.indices, mesh.vertices, world_from_mesh, point);
 }
 
-/// A tree of boxes over a mesh's triangles, to ask for distances often.
+/// A tree of boxes over a mesh's triangles, for many queries of distances.
 class TriangleTree {
 public:
     /// `mesh` must outlive this.

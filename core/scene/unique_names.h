@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-/// glTF lets cameras share a name, nodes a camera, and animations a name; here a name means one of them. The second of
-/// a name gets "_2".
+/// Makes names unique: the second element of a name gets "_2". glTF lets cameras or animations share a name, and nodes
+/// share a camera.
 template <class Named>
 void make_names_unique(std::vector<Named>& list) {
     std::set<std::string> taken;

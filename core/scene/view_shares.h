@@ -9,6 +9,6 @@ struct ViewShares {
     std::vector<double> of_instance;  ///< by index into Scene::instances
 };
 
-/// Of one frame of one camera, between its planes. Masks cut nothing out here: what is shared out is where a material
-/// is, also where it is not seen. A depth buffer on the CPU, which takes less time than Embree takes to begin.
+/// The shares of one frame of one camera, between its planes. Masks do not count: a material also has the pixels that
+/// its mask cuts out. A depth buffer on the CPU finds them in less time than Embree takes to start.
 ViewShares view_shares(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent);

@@ -42,8 +42,7 @@ SHARED float schlick_weight(float cosine) {
     return x2 * x2 * x;
 }
 
-/// The reflectance at normal incidence of a dielectric whose index of refraction is 1.5, of which glTF makes materials
-/// that say nothing else.
+/// Reflectance at normal incidence of a dielectric with glTF's default index of refraction, 1.5.
 const float usual_dielectric_f0 = 0.04f;
 
 /// Reflectance at normal incidence of the mix of dielectric and metal. `specular`: the factor of
@@ -51,7 +50,7 @@ const float usual_dielectric_f0 = 0.04f;
 SHARED vec3 specular_f0(vec3 base_color, float metalness, float specular, vec3 dielectric_f0) {
     return mix(dielectric_f0 * specular, base_color, metalness);
 }
-/// Of an index of refraction of 1.5.
+/// The same for an index of refraction of 1.5.
 SHARED vec3 specular_f0(vec3 base_color, float metalness, float specular) {
     return mix(vec3(0.04f * specular), base_color, metalness);
 }
@@ -59,9 +58,9 @@ SHARED vec3 specular_f0(vec3 base_color, float metalness, float specular) {
 /// Reflectance at grazing incidence, the same for all colours and indices of refraction.
 SHARED float specular_f90(float metalness, float specular) { return mix(specular, 1.0f, metalness); }
 
-/// The factor of reflected radiance before an engine's pass adds it to an image (its documentation of
-/// 2026-01-14, "Composite Pass"): Schlick's Fresnel term at the surface's normal, mu_o its cosine to the viewer, times
-/// the weight, and up to half less on metals. The dielectric reflectance is always 0.04.
+/// The factor by which an engine's pass adds reflected radiance to an image (its documentation of 2026-01-14,
+/// "Composite Pass"). It is Schlick's Fresnel term at the surface's normal (mu_o: cosine of the viewer) times the
+/// weight, and up to half less on metals. The dielectric reflectance is always 0.04.
 SHARED vec3 additive_weight(vec3 base_color, float metalness, float mu_o, float weight) {
     vec3 f0 = mix(vec3(0.04f), base_color, metalness);
     vec3 fresnel = f0 + (vec3(1.0f) - f0) * schlick_weight(mu_o);

@@ -23,7 +23,8 @@ struct DrawnMaterial {
     vec4 base_color;      ///< rgb, alpha
     vec4 factors;         ///< metalness, perceptual roughness, normal scale, alpha cutoff
     vec4 emission;        ///< rgb radiance, specular factor
-    vec4 specular_color;  ///< rgb: of dielectrics at normal incidence, to be clamped to 1 after its texture
+    vec4 specular_color;  ///< rgb reflectance of dielectrics at normal incidence, to be clamped to 1 after its
+                          ///< texture
     vec4 slot_u[6];       ///< uv_transform's first row; w: set of texture coordinates
     vec4 slot_v[6];       ///< ... second row
     uvec4 sampling[2];    ///< per slot, four in each
@@ -38,9 +39,9 @@ struct DrawnInstance {
                          ///< before begin (floats; 0: they are those of this frame)
 };
 
-/// Floats per vertex: position, normal, tangent (4), two uv, colour (4); then of the triangle that it leads the
-/// geometric normal (3), and the alpha that its corners' colours share, or -1 where they differ. Of deformed instances
-/// three more follow all vertices for each: its position in the frame before.
+/// Floats per vertex: position, normal, tangent (4), two uv, colour (4); then, for the triangle that it leads, the
+/// geometric normal (3) and the alpha that the corners' colours share (-1: they differ). After all vertices of a
+/// deformed instance follow their positions in the previous frame, three floats each.
 const uint vertex_stride = 22u;
 
 /// Texel column or row for an index that may lie outside (glTF 2.0, sampler.wrapS); mode: TextureWrap.

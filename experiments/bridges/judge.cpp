@@ -72,7 +72,7 @@ json shots_of(const JudgeSettings& settings) {
                          {"frames", view.frames}});
     if (shots.empty())
         fail(settings.frames.string(), " holds no images of ", name.empty() ? "a view" : "'" + name + "'",
-             ": they are expected as SCENE.CAMERA.WIDTHxHEIGHT/fFRAME.s0.exr");
+             "; name images SCENE.CAMERA.WIDTHxHEIGHT/fFRAME.s0.exr");
     return shots;
 }
 
@@ -117,7 +117,7 @@ void refuse_missing_frames(const fs::path& folder, const fs::path& other) {
     for (const auto& [image, hash] : images_in(folder))
         if (image.string().ends_with(".s0.exr") && !there.contains(image))
             fail(other.string(), " lacks ", image.string(), ", which ", folder.string(),
-                 " has: frames are judged against those of the same views");
+                 " has; frames are judged against frames of the same views");
 }
 
 /// Of each shot the error over its frames, or of its only one.
@@ -147,7 +147,7 @@ JudgedFrames judge_frames(const JudgeSettings& settings) {
         const auto before = read_external_images(settings.against, "--against");
         if (before->name != images->name)
             fail(settings.against.string(), " holds images of '", before->name, "', ", settings.frames.string(),
-                 " of '", images->name, "': frames are judged against those of the same renderer");
+                 " of '", images->name, "'; frames are judged against frames of the same renderer");
         refuse_missing_frames(settings.frames, settings.against);
         refuse_missing_frames(settings.against, settings.frames);
     }

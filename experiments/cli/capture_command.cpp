@@ -38,7 +38,7 @@ void add_capture(Commands& line) {
     CaptureCommandOptions& capture = line.keep<CaptureCommandOptions>();
     CLI::App& command = line.add("capture", "Check a capture of an engine's G-buffers, and list its layers");
     option(command, "folder DIR", capture.folder,
-           "With gbuffer.exr and camera.json, or with folders frame_<number> of them")
+           "Folder with gbuffer.exr and camera.json, or with one folder frame_<number> for each frame")
         ->required();
     add_reading(command);
     command.callback([&] { capture_command(capture); });

@@ -40,7 +40,7 @@ CLI::Validator positive() {
 
 void add_margin(CLI::App& command, double& margin, const std::string& otherwise) {
     option(command, "--margin SHARE", margin,
-           "Errors that differ by a smaller share than this for certain are equivalent; default: " + otherwise)
+           "Two errors are equivalent if they certainly differ by a smaller share than this; default: " + otherwise)
         ->check(CLI::Range(0.001, 1.0));
 }
 
@@ -48,37 +48,38 @@ void add_reading(CLI::App& command) {
     command
         .add_option_function<uint64_t>(
             "--max-memory", [](const uint64_t& bytes) { reading_limits().memory = bytes; },
-            "What files may take at one time, e.g. 8GB; more is refused before it is taken; default: "
-            "SSRLAB_MAX_MEMORY, else half of this machine's")
-        ->transform(CLI::AsSizeValue(true))
+            "Memory that reading a file may take, for example 8GB. A file that announces more is refused. Default: "
+            "SSRLAB_MAX_MEMORY, else half of this machine's memory")
+        ->transform(CLI::AsSizeValue(true).description(""))
         ->transform(CLI::Validator(  // the last one comes first: CLI11 would take -1 for 2^64 - 1
             [](std::string& text) { return text.starts_with('-') ? "'" + text + "' must be a size" : std::string(); },
             ""))
+        ->type_name("SIZE")
         ->envname("SSRLAB_MAX_MEMORY");
     command.add_flag_callback(
         "--allow-outside", [] { reading_limits().allows_outside = true; },
-        "Scene and glTF files may name files outside of their own folder; for files that you trust");
+        "Allow scene and glTF files to name files outside their own folder. Use it only for files that you trust");
 }
 
 void add_scene_path(CLI::App& command, CommonOptions& common) {
     option(command, "--scene-path DIR", common.scene_path,
-           "Folder with scenes, searched before SSRLAB_SCENE_PATH and ssrlab's own; may be repeated");
+           "Folder with scenes, searched before SSRLAB_SCENE_PATH and ssrlab's own scenes; may be repeated");
 }
 
 void add_device(CLI::App& command, CommonOptions& common) {
     option(command, "--device NAME", common.device,
-           "Vulkan device: its index or a part of its name (see: ssrlab list devices); default: a discrete GPU, else "
+           "Vulkan device, by index or by part of its name (see: ssrlab list devices); default: a discrete GPU, else "
            "lavapipe");
 }
 
 void add_cache(CLI::App& command, CommonOptions& common) {
     option(command, "--cache DIR", common.cache,
-           "Folder of cached references; default: SSRLAB_CACHE, else ssrlab in the user's cache folder");
+           "Folder that caches references; default: SSRLAB_CACHE, else ssrlab in the user's cache folder");
 }
 
 void add_scene(CLI::App& command, std::string& scene) {
     option(command, "scene SCENE", scene,
-           "A scene's name (see: ssrlab list scenes), or a path to a .json, .gltf or .glb")
+           "Name of a scene (see: ssrlab list scenes), or path to a .json, .gltf or .glb file")
         ->required();
 }
 
@@ -90,19 +91,19 @@ void add_size(CLI::App& command, std::vector<unsigned>& size, const std::string&
 
 void add_planes(CLI::App& command, ShotOptions& shot) {
     option(command, "--planes WHOSE", shot.planes,
-           "Near and far planes: camera, its own (default), or scene, derived so that they cut nothing")
+           "Near and far planes. camera: those of the camera. scene: derived from the scene so that they cut nothing. "
+           "Default: camera")
         ->check(CLI::IsMember({"camera", "scene"}));
 }
 
 void add_animation(CLI::App& command, std::string& animation) {
-    option(
-        command, "--animation NAME", animation,
-        "Which of the glTF's animations is played; or all, or none; default: as its scene.json says, else the first");
+    option(command, "--animation NAME", animation,
+           "Animation of the glTF to play, by name, or all, or none; default: what scene.json says, else the first");
 }
 
 void add_shot(CLI::App& command, ShotOptions& shot) {
     add_scene(command, shot.scene), add_animation(command, shot.animation);
-    option(command, "--camera NAME", shot.camera, "Default: the scene's first");
+    option(command, "--camera NAME", shot.camera, "Camera of the scene, by name; default: the first");
     add_planes(command, shot);
     add_size(command, shot.size);
     option(command, "--frame N", shot.frame, "Frame of the camera's path and of the animation; default: 0");
@@ -119,11 +120,12 @@ std::vector<std::string> run_options(const CLI::App& command, const CommonOption
 }
 
 void add_values(CLI::App& command, std::string& preset, nlohmann::json& parameters) {
-    option(command, "--preset NAME", preset, "One of its presets; default: its defaults");
+    option(command, "--preset NAME", preset,
+           "Preset of the technique to start from; default: the technique's default parameters");
     command
         .add_option_function<std::vector<std::string>>(
             "--set", [&parameters](const std::vector<std::string>& values) { parameters = parameters_of(values); },
-            "A parameter's value; may be repeated")
+            "Value of a parameter; may be repeated")
         ->type_name("NAME=VALUE");
 }
 

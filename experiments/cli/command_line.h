@@ -13,17 +13,17 @@ struct CommonOptions {
     std::filesystem::path cache;  ///< "": the default folder
 };
 
-/// The command line of `ssrlab`, to which each command adds itself (commands.h).
+/// The command line of `ssrlab`; each command adds itself (commands.h).
 struct Commands {
     explicit Commands(CLI::App& app) : app(app) {}
 
     CLI::App& app;
-    int status = 0;  ///< the exit code of the command that ran, as it sets it
+    int status = 0;  ///< exit code, set by the command that ran
     CommonOptions common;
 
     CLI::App& add(const std::string& name, const std::string& about) { return *app.add_subcommand(name, about); }
 
-    /// What a command's options write into: lives until the command has run.
+    /// Storage for a command's options; lives until the command has run.
     template <class Options>
     Options& keep(Options options = {}) {
         auto kept = std::make_shared<Options>(std::move(options));
@@ -46,7 +46,8 @@ struct ShotOptions {
     bool has_planes_of_scene() const { return planes == "scene"; }
 };
 
-/// An option or a positional by its name and what its value is called: "--out DIR", "scene SCENE", "--size W H".
+/// Adds an option or positional argument by its name and the name of its value: "--out DIR", "scene SCENE", "--size W
+/// H".
 template <class Value>
 CLI::Option* option(CLI::App& command, const std::string& name_and_type, Value& value, const std::string& help) {
     const size_t space = name_and_type.find(' ');
@@ -56,30 +57,31 @@ CLI::Option* option(CLI::App& command, const std::string& name_and_type, Value& 
 
 // Checks of values, and options of several commands.
 
-/// CLI11's own ranges let NaN pass, which lies in none.
+/// A range that excludes NaN, which CLI11's own ranges accept.
 CLI::Validator real_in(double min, double max, const std::string& description);
 CLI::Validator positive();
 
-/// What files may cost and name, of all commands that read them (core/reading_limits.h).
+/// Options that limit what files may cost and name, for all commands that read files (core/reading_limits.h).
 void add_reading(CLI::App& command);
 void add_scene_path(CLI::App& command, CommonOptions& common);
 void add_device(CLI::App& command, CommonOptions& common);
 void add_cache(CLI::App& command, CommonOptions& common);
-/// Of equivalence: PrimaryComparisons::margin.
+/// The margin of equivalence: PrimaryComparisons::margin.
 void add_margin(CLI::App& command, double& margin, const std::string& otherwise);
 
 void add_scene(CLI::App& command, std::string& scene);
-/// Width and height; `otherwise`: what they are by default.
+/// Width and height; `otherwise`: the default, for the help text.
 void add_size(CLI::App& command, std::vector<unsigned>& size, const std::string& otherwise = "480 270");
 void add_planes(CLI::App& command, ShotOptions& shot);
 void add_animation(CLI::App& command, std::string& animation);
 /// All of ShotOptions.
 void add_shot(CLI::App& command, ShotOptions& shot);
-/// A technique's values: those of a preset, or its defaults, with others in their place.
+/// A technique's preset, and parameter values that override the preset's or the defaults.
 void add_values(CLI::App& command, std::string& preset, nlohmann::json& parameters);
 
-/// As the command line of `ssrlab run` takes them, for studies that `command` makes.
+/// The arguments for `ssrlab run` of a study that `command` makes.
 std::vector<std::string> run_options(const CLI::App& command, const CommonOptions& common);
 
-/// Fails with the nearest commands where `name` is none: CLI11 would only say that some command is missing.
+/// Fails with Error if `name` is not a command, and suggests the nearest. CLI11 would only say that a command is
+/// missing.
 void refuse_unknown_command(const CLI::App& app, const std::string& name);

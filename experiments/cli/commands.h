@@ -1,7 +1,7 @@
 #pragma once
 #include "experiments/cli/command_line.h"
 
-// The commands of `ssrlab`: each, in a file of its name, adds its options and what it does to the command line. They
+// The commands of `ssrlab`. Each, in a file of its name, adds its options and its action to the command line. They
 // throw Error for mistakes and MachineError for faults.
 
 void add_run(Commands& line);

@@ -1,9 +1,9 @@
 #pragma once
 #include "experiments/study/config/config.h"
 
-/// A study, by its config. Fails with Error where it is none, where it is `ssrlab tune`'s, and where its tables name
-/// what results do not have.
+/// Reads a study's config. Fails with Error if it is none, if it is for `ssrlab tune`, or if its tables name what
+/// results do not have.
 Config config_of_study(const std::filesystem::path& file);
 
-/// results/<name of the config>
+/// The default results folder: results/<name of the config>.
 std::filesystem::path default_results(const std::filesystem::path& config);

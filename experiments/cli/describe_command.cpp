@@ -9,6 +9,7 @@
 #include "core/scene/scene_family.h"
 #include "core/shown_text.h"
 #include "experiments/cli/commands.h"
+#include "experiments/cli/declarations.h"
 #include "experiments/gpu_costs/chips/chip_compiler.h"
 #include "experiments/study/config/config.h"
 #include "metrics/metric.h"
@@ -25,7 +26,7 @@ namespace {
 struct DescribeOptions {
     std::string technique;  ///< "": all
     bool as_schema = false;
-    std::filesystem::path document;  ///< whose tables of config keys are made anew; "": none
+    bool as_json = false;
 };
 
 void describe_tracer(const TracerEntry& tracer, const ParameterSet& params) {
@@ -81,7 +82,6 @@ static void describe_command(const DescribeOptions& asked) {
         std::cout << config_schema(options.technique).dump(2) << '\n';
         return;
     }
-    if (!options.document.empty()) return write_text(options.document, with_key_tables(read_text(options.document)));
     if (is_tracer(options.technique)) {
         ParameterSet params;
         for (const TracerEntry& tracer : tracer_table())
@@ -118,11 +118,20 @@ static void describe_command(const DescribeOptions& asked) {
 
 void add_describe(Commands& line) {
     DescribeOptions& describe = line.keep<DescribeOptions>();
-    CLI::App& command = line.add("describe", "Print every parameter: default, range, unit, meaning, source");
+    CLI::App& command = line.add(
+        "describe", "Print the parameters of techniques, tracers and denoisers: default, range, unit, meaning, source");
     option(command, "technique NAME", describe.technique,
-           "A technique or its folder, a tracer or a denoiser; default: all techniques");
-    command.add_flag("--schema", describe.as_schema, "Print a JSON Schema for configs, so that editors complete them");
-    option(command, "--fill FILE.md", describe.document,
-           "In place of printing make the tables of a config's keys in a document anew");
-    command.callback([&] { describe_command(describe); });
+           "Technique or its folder, tracer or denoiser; default: all techniques");
+    command.add_flag("--schema", describe.as_schema,
+                     "Print a JSON Schema of studies, with which editors complete and check configs; with a technique, "
+                     "that of its parameters");
+    command.add_flag(
+        "--json", describe.as_json,
+        "Print everything that the program declares as JSON: commands, keys, columns, techniques and metrics");
+    command.callback([&] {
+        if (describe.as_json)
+            std::cout << declarations(line.app).dump(1) << '\n';
+        else
+            describe_command(describe);
+    });
 }

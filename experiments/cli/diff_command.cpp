@@ -104,15 +104,16 @@ int diff_command(const DiffOptions& options) {
 void add_diff(Commands& line) {
     DiffOptions& diff = line.keep<DiffOptions>();
     CLI::App& command = line.add("diff",
-                                 "List the numbers that changed significantly between two results folders (exit code 1 "
-                                 "if any did; at most 5 % false alarms)");
-    option(command, "old OLD", diff.before, "A folder that `ssrlab run` filled")->required();
-    option(command, "new NEW", diff.after, "Another, of the same shots and points")->required();
-    command.add_flag("--times", diff.judges_times, "Compare times, too, in one family with the errors");
+                                 "List the numbers that differ significantly between two results folders (exit code 1 "
+                                 "if any does; at most 5 % false alarms)");
+    option(command, "old OLD", diff.before, "Results folder that `ssrlab run` filled")->required();
+    option(command, "new NEW", diff.after, "Another results folder, with the same shots and points")->required();
+    command.add_flag("--times", diff.judges_times,
+                     "Also compare times. Their p-values are adjusted together with those of the errors");
     command.add_flag("--all", diff.shows_all, "List all changes, not only the largest");
     option(command, "--csv FILE.csv", diff.csv, "Also write all compared numbers, with p-values and verdicts");
     option(command, "--page FILE.html", diff.page,
-           "Also write a page with both pictures, their difference and the numbers of what changed");
+           "Also write a page that shows both pictures, their difference and the numbers of each change");
     add_margin(command, diff.margin, "the new study's `primary.margin`");
     add_reading(command);
     command.callback([&] { line.status = diff_command(diff); });

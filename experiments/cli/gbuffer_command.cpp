@@ -67,14 +67,15 @@ void add_gbuffer(Commands& line) {
     GBufferCommandOptions& gbuffer = line.keep<GBufferCommandOptions>();
     CLI::App& command = line.add("gbuffer", "Rasterise a scene's G-buffer into gbuffer.exr and camera.json");
     add_shot(command, gbuffer.shot);
-    option(command, "--frames A B", gbuffer.frames, "First and last, both included: a capture of frames in a row")
+    option(command, "--frames A B", gbuffer.frames, "First and last frame of a sequence, both included")
         ->expected(2)
         ->excludes("--frame");
-    option(command, "--out DIR", gbuffer.out, "Folder; default: <scene>_gbuffer");
-    option(command, "--depth-format", gbuffer.depth_format, "")
+    option(command, "--out DIR", gbuffer.out, "Output folder; default: <scene>_gbuffer");
+    option(command, "--depth-format", gbuffer.depth_format, "Format of the depth buffer")
         ->check(CLI::IsMember({"d32f", "d24", "d16"}))
         ->capture_default_str();
-    command.add_flag("--reversed-depth", gbuffer.is_reversed, "1 at the near plane, 0 at the far plane");
+    command.add_flag("--reversed-depth", gbuffer.is_reversed,
+                     "Store depth as 1 at the near plane and 0 at the far plane");
     add_device(command, line.common), add_scene_path(command, line.common);
     add_reading(command);
     command.callback([&] { gbuffer_command(gbuffer, line.common); });

@@ -56,13 +56,13 @@ void add_inspect(Commands& line) {
     CLI::App& command = line.add(
         "inspect", "Show what ssrlab understands of a file: a scene, an image, a capture or an engine's frames");
     option(command, "file FILE", inspect.file,
-           "A .gltf, .glb or scene.json, a folder with one, a scene's name, an image, the folder of a capture or of an "
-           "engine's frames")
+           "A .gltf, .glb or scene.json file, the folder of one, the name of a scene, an image, or the folder of a "
+           "capture or of an engine's frames")
         ->required();
-    command.add_flag("--all", inspect.has_all, "Lists in full; default: the first eight entries of each");
-    option(command, "--json FILE.json", inspect.json, "Also write all of it as JSON; -: print that alone");
+    command.add_flag("--all", inspect.has_all, "Print lists in full; by default, the first eight entries of each");
+    option(command, "--json FILE.json", inspect.json, "Also write everything as JSON; with - print only JSON");
     option(command, "--picture FILE.png", inspect.picture,
-           "Also draw a scene's first view by both renderers, and where they differ");
+           "Also draw the first view of a scene by the rasteriser and by the path tracer, and where they differ");
     add_device(command, line.common), add_scene_path(command, line.common);
     add_reading(command);
     command.callback([&] { inspect_command(inspect, line.common); });

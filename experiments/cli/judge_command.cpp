@@ -67,24 +67,23 @@ static int judge_command(const JudgeOptions& options, const CommonOptions& commo
 
 void add_judge(Commands& line) {
     JudgeOptions& judge = line.keep<JudgeOptions>();
-    CLI::App& command =
-        line.add("judge",
-                 "Judge the frames of another renderer by the truth, and against those that it rendered before: "
-                 "better, worse, equivalent, undecided or identical (at most 1 % false alarms)");
+    CLI::App& command = line.add(
+        "judge",
+        "Judge frames of another renderer by the truth, and compare them with earlier frames of that renderer. The "
+        "verdict is better, worse, equivalent, undecided or identical (at most 1 % false alarms)");
     option(command, "frames FRAMES", judge.frames,
-           "Folder with external.json and SCENE.CAMERA.WIDTHxHEIGHT/fFRAME.sSEED.exr (experiments/README.md, \"Images "
-           "of other programs\")")
+           "Folder with external.json and SCENE.CAMERA.WIDTHxHEIGHT/fFRAME.sSEED.exr, as `experiments/docs/judge.md` "
+           "describes")
         ->required();
     option(command, "--scene SCENE", judge.scene,
-           "The scene of the views, by name or path; default: found by the names of the views' folders");
-    option(command, "--capture DIR", judge.capture, "A captured G-buffer in place of a scene");
-    option(command, "--reference FILE.exr", judge.reference, "With --capture: the truth of its frame");
-    option(command, "--against FOLDER", judge.against,
-           "Such a folder of earlier frames of the same renderer and views");
-    command.add_flag("--fail-if-worse", judge.fails_if_worse, "Exit code 1 if the verdict is \"worse\"");
-    option(command, "--samples N", judge.samples, "Of the truth, per pixel; default: 256")
+           "Scene of the views, by name or path; default: found from the names of the views' folders");
+    option(command, "--capture DIR", judge.capture, "Captured G-buffer that replaces a scene");
+    option(command, "--reference FILE.exr", judge.reference, "Truth of the captured frame; needs --capture");
+    option(command, "--against FOLDER", judge.against, "Folder with earlier frames of the same renderer and views");
+    command.add_flag("--fail-if-worse", judge.fails_if_worse, "Exit with code 1 if the verdict is \"worse\"");
+    option(command, "--samples N", judge.samples, "Samples per pixel of the truth; default: 256")
         ->check(CLI::Range(32, 1 << 20));
-    option(command, "--out DIR", judge.out, "Results folder with the page; default: results/judge");
+    option(command, "--out DIR", judge.out, "Results folder, with a page; default: results/judge");
     add_margin(command, judge.margin, "0.05");
     add_scene_path(command, line.common), add_device(command, line.common), add_cache(command, line.common);
     add_reading(command);

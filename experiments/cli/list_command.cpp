@@ -128,8 +128,7 @@ static void list_command(const std::string& what, const CommonOptions& common) {
 void add_list(Commands& line) {
     auto& what = line.keep<std::string>();
     CLI::App& command = line.add(
-        "list",
-        "List scenes and what each tests, techniques, their presets, tracers, denoisers, metrics, devices or chips");
+        "list", "List scenes and what each tests, techniques, presets, tracers, denoisers, metrics, devices or chips");
     option(command, "what scenes|techniques|presets|tracers|denoisers|metrics|devices|chips", what, "What to list")
         ->required()
         ->check(

@@ -31,16 +31,16 @@ static int merge_command(const MergeOptions& options, const CommonOptions& commo
 void add_merge(Commands& line) {
     MergeOptions& merge = line.keep<MergeOptions>();
     CLI::App& command =
-        line.add("merge", "Merge the results folders of a study's parts (`ssrlab run --cells`) into one");
+        line.add("merge", "Merge the results folders of the parts of a study (`ssrlab run --cells`) into one");
     option(command, "config CONFIG.json", merge.config, "The study")->required();
-    option(command, "results DIR...", merge.folders, "Folders of its parts; default: that of --out")
+    option(command, "results DIR...", merge.folders, "Results folders of the parts; default: that of --out")
         ->check(CLI::ExistingDirectory);
     option(command, "--out DIR", merge.out, "Results folder; default: results/<name of the config>");
     command.add_flag("--keep-all", merge.keep_all, "The parts were run with --keep-all");
     command.add_flag("--replace", merge.replaces, "As for `ssrlab run`");
     option(command, "--device NAME", line.common.device,
-           "Whose cells are merged, where the parts hold those of several devices: a part of its name, or an index of "
-           "`ssrlab list devices`; default: the one that made all, which need not be here");
+           "Device whose cells are merged if the parts hold cells of several devices: part of its name, or its index "
+           "in `ssrlab list devices`. Default: the device that made all cells. This machine need not have it");
     add_scene_path(command, line.common);
     add_reading(command);
     command.callback([&] { line.status = merge_command(merge, line.common); });

@@ -113,20 +113,20 @@ static int needs_command(const NeedsOptions& options, const CommonOptions& commo
 
 void add_needs(Commands& line) {
     NeedsOptions& needs = line.keep<NeedsOptions>();
-    CLI::App& command = line.add(
-        "needs",
-        "List what a scene holds, the work that rasteriser, path tracer and techniques skip, and what that saves");
+    CLI::App& command = line.add("needs",
+                                 "List what a scene contains, and which work the rasteriser, the path tracer and the "
+                                 "techniques leave out because of that");
     add_shot(command, needs.shot);
     option(command, "--frames N", needs.frames, "Number of frames of the shot; default: 1, so that nothing moves")
         ->check(CLI::Range(1, 10000));
-    option(
-        command, "--techniques NAME", needs.techniques,
-        "Techniques, or their folders, or single presets as NAME:PRESET; default: all presets of all, and all tracers")
+    option(command, "--techniques NAME", needs.techniques,
+           "Techniques, folders of techniques, or single presets as NAME:PRESET; default: all presets of all "
+           "techniques, and all tracers")
         ->delimiter(',');
-    command.add_flag(
-        "--measure", needs.is_measured,
-        "Render with and without skipped work: the time saved, and whether images are the same (exit code 1 if not)");
-    option(command, "--timed-frames N", needs.timed_frames, "Measured frames of each; default: 15")
+    command.add_flag("--measure", needs.is_measured,
+                     "Render with and without the work that is left out. Print the time saved and whether the images "
+                     "are the same (exit code 1 if not)");
+    option(command, "--timed-frames N", needs.timed_frames, "Measured frames of each point; default: 15")
         ->check(CLI::Range(1, 10000));
     option(command, "--csv FILE.csv", needs.csv, "Also write the measurements");
     add_device(command, line.common), add_scene_path(command, line.common);

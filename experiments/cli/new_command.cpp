@@ -80,12 +80,12 @@ static void new_command(const NewOptions& options) {
 
 void add_new(Commands& line) {
     NewOptions& new_technique = line.keep<NewOptions>();
-    CLI::App& command =
-        line.add("new", "Write a technique of one's own as a folder, which needs no compiler, and a first study of it");
-    option(command, "folder FOLDER", new_technique.folder, "The folder to make; its name is the technique's")
+    CLI::App& command = line.add(
+        "new", "Write a folder with a technique of your own, which needs no compiler, and a first study of it");
+    option(command, "folder FOLDER", new_technique.folder, "Folder to make; its name is the name of the technique")
         ->required();
-    option(
-        command, "--from TECHNIQUE", new_technique.from,
-        "What it begins as: mcguire_dda, simple_ssr or four_mode_ssr, or a technique's folder; default: mcguire_dda");
+    option(command, "--from TECHNIQUE", new_technique.from,
+           "Technique to copy: mcguire_dda, simple_ssr, four_mode_ssr, or the folder of a technique; default: "
+           "mcguire_dda");
     command.callback([&] { new_command(new_technique); });
 }

@@ -141,14 +141,15 @@ static void plan_command(const PlanOptions& options, const CommonOptions& common
 
 void add_plan(Commands& line) {
     PlanOptions& plan = line.keep<PlanOptions>();
-    CLI::App& command =
-        line.add("plan", "List the cells of a study, which are done, and the estimated time and memory of the others");
+    CLI::App& command = line.add(
+        "plan", "Show how many cells of a study are done, and how long and how much memory the others will take");
     option(command, "config CONFIG.json", plan.config, "The study")->required();
-    option(command, "--out DIR", plan.out, "Its results folder; default: results/<name of the config>");
-    option(command, "--cells TERM", plan.cells, "Only these cells, as for `ssrlab run`")->delimiter(',');
-    command.add_flag("--list", plan.has_list, "List the cells in place of estimates");
+    option(command, "--out DIR", plan.out, "Results folder of the study; default: results/<name of the config>");
+    option(command, "--cells TERM", plan.cells, "Consider only these cells; terms as for `ssrlab run`")->delimiter(',');
+    command.add_flag("--list", plan.has_list, "List the cells instead of estimates");
     option(command, "--json FILE.json", plan.json,
-           "Also write all cells with their estimates, for other machines: this one's memory is then no limit");
+           "Also write all cells with their estimates as JSON, to distribute them to other machines. The memory of "
+           "this machine is then no limit");
     command.add_flag("--keep-all", plan.keep_all, "As for `ssrlab run`");
     add_device(command, line.common), add_scene_path(command, line.common);
     add_reading(command);

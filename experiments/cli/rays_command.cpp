@@ -73,14 +73,15 @@ static void rays_command(const RaysOptions& options, const CommonOptions& common
 
 void add_rays(Commands& line) {
     RaysOptions& rays = line.keep<RaysOptions>();
-    CLI::App& command = line.add("rays", "Trace the mirror rays of what reflects, and print where they end as a table");
+    CLI::App& command =
+        line.add("rays", "Trace the mirror rays of reflective pixels, and print a table of where they end");
     option(command, "scenes SCENE...", rays.scenes,
-           "Scenes, each seen by its first camera; room:* stands for several in a row")
+           "Scenes, each seen by its first camera; room:* stands for several rooms in a row")
         ->required();
-    option(command, "--count N", rays.count, "How many scenes room:* stands for")
+    option(command, "--count N", rays.count, "Number of scenes that room:* stands for")
         ->check(CLI::Range(1u, largest_scene_number + 1))
         ->capture_default_str();
-    option(command, "--first N", rays.first, "The number of the first of them")
+    option(command, "--first N", rays.first, "Number of the first of these scenes")
         ->check(CLI::Range(0u, largest_scene_number))
         ->capture_default_str();
     add_size(command, rays.size, "160 90");

@@ -60,28 +60,30 @@ static void record_command(const RecordOptions& options, const CommonOptions& co
 void add_record(Commands& line) {
     RecordOptions& record = line.keep<RecordOptions>();
     CLI::App& command = line.add(
-        "record", "Write a page in which a browser does a technique's passes again (WebGL 2), beside the truth");
+        "record",
+        "Write a page on which a browser runs a technique's passes (WebGL 2) and compares the result with the truth");
     add_scene(command, record.shot.scene);
     option(command, "--technique NAME", record.technique,
-           "A technique of fragment passes alone (see: ssrlab list techniques), or its folder; others are refused")
+           "Technique that has only fragment passes (see: ssrlab list techniques), or its folder; other techniques are "
+           "refused")
         ->required();
     add_values(command, record.preset, record.parameters);
-    option(command, "--camera NAME", record.shot.camera, "Default: the scene's first");
+    option(command, "--camera NAME", record.shot.camera, "Camera of the scene, by name; default: the first");
     add_planes(command, record.shot);
     add_animation(command, record.shot.animation);
     add_size(command, record.shot.size, "192 108");
     option(command, "--frames A-B", record.frames, "Frames of the camera's path and of the animation")
         ->capture_default_str();
-    option(command, "--samples N", record.samples, "Of the truth, per pixel")
+    option(command, "--samples N", record.samples, "Samples per pixel of the truth")
         ->check(CLI::Range(1, 1 << 24))
         ->capture_default_str();
     command.add_flag("--packed", record.is_packed,
-                     "G-buffer in the formats of engines, so that the page is smaller; default: float32");
+                     "Store the G-buffer in the formats of engines, which makes the page smaller; default: float32");
     command.add_flag("--results", record.has_results,
-                     "Also what this device rendered, so that the page says where a browser differs from it");
+                     "Also store what this device rendered, so that the page shows where the browser differs");
     command.add_flag("--passes", record.has_passes,
-                     "Also what each pass of this device wrote, so that the page compares one by one");
-    option(command, "--out PAGE.html", record.out, "The page")->required();
+                     "Also store what each pass wrote on this device, so that the page compares pass by pass");
+    option(command, "--out PAGE.html", record.out, "Output file")->required();
     add_device(command, line.common), add_scene_path(command, line.common), add_cache(command, line.common);
     add_reading(command);
     command.callback([&] { record_command(record, line.common); });

@@ -113,34 +113,35 @@ static void reference_command(const ReferenceCommandOptions& options, const Comm
 
 void add_reference(Commands& line) {
     ReferenceCommandOptions& reference = line.keep<ReferenceCommandOptions>();
-    CLI::App& command = line.add("reference", "Path-trace a scene; continues a stopped render");
+    CLI::App& command = line.add("reference", "Path-trace a scene; a stopped render continues");
     add_shot(command, reference.shot);
     option(command, "--samples", reference.settings.max_samples,
-           "Per pixel, at most; rounded up to 16 x 2^k; default: " +
+           "Largest number of samples per pixel, rounded up to 16 x 2^k; default: " +
                std::to_string(ReferenceSettings::default_samples) + ", or no limit with --seconds or --target")
         ->check(CLI::Range(16, 1 << 24));
     option(command, "--lit-samples", reference.settings.lit_samples,
-           "Of these of the diffuse light, at most: the rest is of the specular light alone; default: all")
+           "Largest number of these samples that also trace diffuse light. The others trace specular light only. "
+           "Default: all")
         ->check(CLI::Range(16, 1 << 24));
     option(command, "--guide-samples", reference.settings.guide_samples,
-           "Per pixel of the guide, which weighs relative errors and tells roulette what to expect")
+           "Samples per pixel of the guide image, which weighs relative errors and steers Russian roulette")
         ->check(CLI::Range(16, 4096))
         ->capture_default_str();
     option(command, "--seconds", reference.settings.max_seconds,
-           "Time limit, beside the samples of the guide; default: none")
+           "Time limit in seconds, not counting the samples of the guide; default: no limit")
         ->check(positive());
     option(command, "--target", reference.settings.target_relative_error,
-           "Stop at this relative standard error of the specular light at a pixel, e.g. 0.03")
+           "Relative standard error of the specular light at a pixel at which the render stops, for example 0.03")
         ->check(real_in(1e-4, 1, "a number from 0.0001 to 1"));
     option(command, "--max-depth", reference.settings.max_depth,
-           "Reflections of a path at most; the camera ray does not count")
+           "Largest number of reflections of a path; the camera ray does not count")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
     option(command, "--seed", reference.settings.seed, "Seed of the path tracer")->capture_default_str();
     command.add_flag("--ladder", reference.settings.ladder,
-                     "Also the truth ladder: lower bounds of the errors by factoring the BRDF, one view and bounce, "
-                     "and the borders of the screen; about twice the rays");
-    option(command, "--out FILE.exr", reference.out, "Default: <scene>_reference.exr");
+                     "Also render the truth ladder: the errors that remain if the BRDF is factored, if only one view "
+                     "and one bounce are known, and if only the screen is known. Needs about twice the rays");
+    option(command, "--out FILE.exr", reference.out, "Output file; default: <scene>_reference.exr");
     add_scene_path(command, line.common), add_cache(command, line.common);
     add_reading(command);
     command.callback([&] { reference_command(reference, line.common); });

@@ -11,13 +11,13 @@ static void report_command(const std::filesystem::path& folder, bool links_image
 
 void add_report(Commands& line) {
     auto& report_folder = line.keep<std::filesystem::path>();
-    CLI::App& command = line.add("report", "Write report.html again from the tables of a folder");
-    option(command, "results DIR", report_folder, "A folder that `ssrlab run` or `ssrlab stability` filled")
+    CLI::App& command = line.add("report", "Write report.html again from the tables of a results folder");
+    option(command, "results DIR", report_folder, "Results folder that `ssrlab run` or `ssrlab stability` filled")
         ->required()
         ->check(CLI::ExistingDirectory);
     bool& links_images = line.keep<bool>();
     command.add_flag("--link-images", links_images,
-                     "Keep all images beside the page, in report_images/, even if they are small");
+                     "Keep all images in report_images/ beside the page, even if they are small");
     add_reading(command);
     command.callback([&] { report_command(report_folder, links_images); });
 }

@@ -38,31 +38,34 @@ static void run_study_command(const RunOptions& options, const CommonOptions& co
 
 void add_run(Commands& line) {
     RunOptions& run = line.keep<RunOptions>();
-    CLI::App& command = line.add("run", "Run a study: shots x techniques x parameter points x seeds");
-    option(command, "config CONFIG.json", run.config, "The study (experiments/README.md explains its keys)")
+    CLI::App& command = line.add("run", "Run a study: render and measure every point of every technique in every shot");
+    option(command, "config CONFIG.json", run.config,
+           "The study; `experiments/docs/reference/study_keys.md` explains the keys")
         ->required();
     option(command, "--out DIR", run.out,
-           "Results folder; default: results/<name of the config>. A stopped study continues there");
+           "Results folder; default: results/<name of the config>. A stopped study continues in its folder");
     command.add_flag("--keep-all", run.keep_all,
-                     "Also do work that can be skipped (to verify that skipping it changes nothing)");
+                     "Also do work that the scene does not need, to verify that leaving it out changes nothing");
     command.add_flag("--replace", run.replaces,
-                     "Use a results folder of another study for this one; cells that both share are kept");
-    command.add_flag("--prune", run.prunes, "Remove cells and images of earlier versions of the study from its folder");
+                     "Take over the results folder of another study. Cells that both studies share are kept");
+    command.add_flag("--prune", run.prunes,
+                     "Remove cells and images of earlier versions of the study from the results folder");
     command.add_flag("--times-here", run.takes_times_here,
-                     "Take times on this machine again; by default those of another machine are kept");
+                     "Measure all times on this machine again. By default, times from another machine are kept");
     command.add_flag("--times-again", run.takes_times_again,
-                     "Take times again that other programs disturbed; the less disturbed are kept");
+                     "Measure times again that other programs disturbed, and keep the less disturbed ones");
     command.add_flag("--no-report", run.has_no_report,
-                     "Write tables and images alone; `ssrlab report` makes the report of them later");
+                     "Write tables and images, but no report. `ssrlab report` writes the report later");
     option(command, "--report-after SECONDS", run.report_after,
-           "Seconds of a running study until it writes tables and report of what is done; it goes on to do so for a "
-           "twenty-fifth of the time, after ten minutes for half a hundredth")
+           "Seconds after which a running study first writes tables and report of the finished cells. It writes them "
+           "again from time to time and spends at most 4 % of the time on that, 0.5 % after ten minutes")
         ->check(real_in(0, std::numeric_limits<double>::max(), "a number of 0 or more"))
         ->capture_default_str();
-    option(command, "--cells TERM", run.cells,
-           "Do only these cells, of a study that several processes or machines share: references, renders, costs, "
-           "times; shot=NAME, technique=NAME (* stands for any text); shard=I/N; cell=HASH. Terms of different kinds "
-           "narrow each other. Tables are made by `ssrlab merge`")
+    option(
+        command, "--cells TERM", run.cells,
+        "Do only some cells, so that several processes or machines share a study. Terms: references, renders, costs, "
+        "times, shot=NAME, technique=NAME, shard=I/N, cell=HASH; * in a name stands for any text. Terms of one kind "
+        "add up, and terms of different kinds narrow the choice. `ssrlab merge` makes the tables afterwards")
         ->delimiter(',');
     add_device(command, line.common), add_scene_path(command, line.common), add_cache(command, line.common);
     add_reading(command);

@@ -70,31 +70,32 @@ static void scene_for_command(const SceneForOptions& options, const CommonOption
 void add_scene_for(Commands& line) {
     SceneForOptions& scene_for = line.keep<SceneForOptions>();
     CLI::App& command = line.add("scene-for",
-                                 "Write a scene's views for another program: glTF, poses, and the light that its "
-                                 "reflections are to be computed from");
+                                 "Write the views of a scene for another program: glTF, camera poses, and the light "
+                                 "that reflections are computed from");
     option(command, "engine ENGINE", scene_for.engine,
-           "any, three, babylon, eevee or godot: decides the files' formats")
+           "Program that will read the files: any, three, babylon, eevee or godot. It decides the formats")
         ->required();
     add_scene(command, scene_for.scene);
     add_animation(command, scene_for.animation);
-    option(command, "--camera NAME", scene_for.cameras, "One or more; default: the scene's first");
+    option(command, "--camera NAME", scene_for.cameras, "Cameras of the scene, one or more; default: the first");
     add_size(command, scene_for.size);
     option(command, "--frames N", scene_for.frames,
            "Frames of the cameras' paths and of the animation, as 0-63 or 0 8 16")
         ->capture_default_str();
     option(command, "--samples", scene_for.samples,
-           "Of the truth, per pixel: those of the study that will compare the images, which then finds it cached")
+           "Samples per pixel of the truth. Use the number of the study that will compare the images, which then finds "
+           "the truth in the cache")
         ->check(CLI::Range(16, 1 << 24))
         ->capture_default_str();
-    option(command, "--lit-samples", scene_for.lit_samples, "As the study's; default: all")
+    option(command, "--lit-samples", scene_for.lit_samples, "Samples of the lit colour, as in the study; default: all")
         ->check(CLI::Range(16, 1 << 24));
     command.add_flag("--ladder", scene_for.has_ladder, "The study has targets of the truth ladder");
     option(command, "--fallback", scene_for.fallback,
-           "As the study's: what rays see that find nothing. A probe shows a room from the camera's place, where the "
-           "environment is the sky behind its walls")
+           "What rays that find nothing see, as in the study: the environment, or a probe at the camera's place, which "
+           "shows the room instead of the sky behind the walls")
         ->check(CLI::IsMember({"environment", "probe"}))
         ->capture_default_str();
-    option(command, "--out DIR", scene_for.out, "Folder")->required();
+    option(command, "--out DIR", scene_for.out, "Output folder")->required();
     add_scene_path(command, line.common), add_cache(command, line.common);
     add_reading(command);
     command.callback([&] { scene_for_command(scene_for, line.common); });

@@ -141,39 +141,39 @@ static void hand_on(CLI::App& command, int (*call)(const std::vector<std::string
 }
 
 void add_figures(Commands& line) {
-    hand_on(
-        line.add("figures",
-                 "Draw the figures of a paper (PDF, SVG, PNG) and animations of motion (GIF) from a results folder"),
-        figures_command, line);
+    hand_on(line.add("figures",
+                     "Draw figures for papers (PDF, SVG, PNG) and animations of motion (GIF) from a results folder"),
+            figures_command, line);
 }
 
 void add_tables(Commands& line) {
-    hand_on(line.add("tables", "Make a study's tables (Markdown, LaTeX, CSV) from a results folder"), tables_command,
-            line);
+    hand_on(line.add("tables", "Make the tables of a study (Markdown, LaTeX, CSV) from a results folder"),
+            tables_command, line);
 }
 
 void add_tradeoff(Commands& line) {
     TradeoffOptions& tradeoff = line.keep<TradeoffOptions>();
-    CLI::App& command = line.add(
-        "tradeoff",
-        "Answer error against time: fronts, the best technique for a time budget, errors that no time removes");
-    option(command, "results DIR", tradeoff.results, "A folder that `ssrlab run` filled")->required();
-    option(command, "--out DIR", tradeoff.out, "Default: tradeoff in the results folder");
+    CLI::App& command = line.add("tradeoff",
+                                 "Find the best technique for a time budget, the fronts of error against time, and the "
+                                 "errors that no time removes");
+    option(command, "results DIR", tradeoff.results, "Results folder that `ssrlab run` filled")->required();
+    option(command, "--out DIR", tradeoff.out, "Folder of the answers; default: tradeoff in the results folder");
     option(command, "--baseline TECHNIQUE:POINT", tradeoff.baseline,
-           "Errors are multiples of this point's; default: none, else the study's first baseline");
-    option(command, "--times MS", tradeoff.times, "Time budgets, or budgets of what --cost counts or estimates")
+           "Point whose error is the unit of all errors; default: none, else the first baseline of the study");
+    option(command, "--times MS", tradeoff.times, "Budgets of time, or of what --cost names")
         ->check(positive())
         ->capture_default_str();
-    option(command, "--factors F", tradeoff.factors, "Fractions of the baseline's error, for the time to reach them")
+    option(command, "--factors F", tradeoff.factors,
+           "Fractions of the baseline's error; the time to reach each is reported")
         ->check(positive())
         ->capture_default_str();
-    option(command, "--leave-out SCENE", tradeoff.left_out, "Scenes or shots to exclude");
+    option(command, "--leave-out SCENE", tradeoff.left_out, "Scene or shot to leave out; may be repeated");
     add_margin(command, tradeoff.margin, "the study's `primary.margin`");
     option(command, "--metric", tradeoff.metric, "Default: that of the study's primary error");
     option(command, "--mask", tradeoff.mask, "Default: that of the study's primary error");
     option(command, "--target", tradeoff.target, "Default: that of the study's primary error");
     option(command, "--cost QUANTITY|CHIP", tradeoff.cost,
-           "A counted quantity of costs.csv, or a chip of estimates.csv, in place of time");
+           "What replaces time: a counted quantity of costs.csv, or the estimated time of a chip in estimates.csv");
     add_reading(command);
     command.callback([&] { line.status = tradeoff_command(tradeoff); });
 }
@@ -182,9 +182,11 @@ void add_tune(Commands& line) {
     TuneOptions& tune = line.keep<TuneOptions>();
     CLI::App& command = line.add(
         "tune",
-        "Search a technique's parameters for the front of error against time, and evaluate them on other scenes");
-    option(command, "config CONFIG.json", tune.config, "A study with \"tune\" (experiments/README.md)")->required();
-    option(command, "--out DIR", tune.out, "Default: results/<name of the config>");
+        "Search the parameters of a technique for the least error within a time, and evaluate them on other scenes");
+    option(command, "config CONFIG.json", tune.config,
+           "Study with the key \"tune\", which `experiments/docs/tune.md` explains")
+        ->required();
+    option(command, "--out DIR", tune.out, "Results folder; default: results/<name of the config>");
     add_device(command, line.common), add_scene_path(command, line.common), add_cache(command, line.common);
     add_reading(command);
     command.callback([&] { line.status = tune_command(tune, run_options(command, line.common)); });

@@ -7,5 +7,5 @@
 
 int figures_command(const std::vector<std::string>& arguments);
 
-/// The figure of a stability.csv: PDF, PNG or SVG by its name.
+/// Draws the figure of a stability.csv: PDF, PNG or SVG by its file name.
 int stability_figure(const std::filesystem::path& csv, const std::filesystem::path& figure);

@@ -178,21 +178,21 @@ void add_shaders(Commands& line) {
         line.keep<ShadersOptions>({.shot = {.scene = "mirror_pillars", .camera = {}, .size = {96, 54}}});
     shaders.chips.assign(default_chips.begin(), default_chips.end());
     CLI::App& command = line.add(
-        "shaders", "Show what compilers of GPUs make of a technique's passes: registers, occupancy, instructions");
+        "shaders", "Show what a GPU's compiler makes of a technique's passes: registers, occupancy, instructions");
     option(command, "technique NAME", shaders.technique,
-           "A technique (see: ssrlab list techniques), or its folder, with a /")
+           "Technique (see: ssrlab list techniques), or its folder, written with a /")
         ->required();
     add_values(command, shaders.preset, shaders.parameters);
     option(command, "--chip NAME", shaders.chips,
-           "GPUs by the names that Mesa's radv has for them (see: ssrlab list chips); default: navi21, gfx1100, vega10")
+           "GPUs, by Mesa's names (see: ssrlab list chips); default: navi21, gfx1100, vega10")
         ->delimiter(',');
     option(command, "--against PRESET|RESULTS", shaders.against,
-           "Also show what differs from another preset, or from a study with \"gpu_compilers\"");
+           "Also show the differences from another preset, or from a study with \"gpu_compilers\"");
     option(command, "--assembly DIR", shaders.assembly, "Write the machine code of each shader into this folder");
     option(command, "--csv FILE.csv", shaders.csv, "Also write the table");
-    CLI::Option* const scene =
-        option(command, "--scene SCENE", shaders.shot.scene,
-               "Leave out what this scene does not need; default: nothing is left out, and mirror_pillars is rendered");
+    CLI::Option* const scene = option(command, "--scene SCENE", shaders.shot.scene,
+                                      "Leave out work that this scene does not need. By default, nothing is left out, "
+                                      "and the scene is mirror_pillars");
     add_device(command, line.common), add_scene_path(command, line.common), add_cache(command, line.common);
     add_reading(command);
     command.callback([&] {

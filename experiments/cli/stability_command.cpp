@@ -186,23 +186,25 @@ static int stability_command(const StabilityOptions& options, const CommonOption
 
 void add_stability(Commands& line) {
     StabilityOptions& stability = line.keep<StabilityOptions>();
-    CLI::App& command =
-        line.add("stability", "Test techniques with extreme inputs: non-finite values and amplification");
-    option(
-        command, "--techniques NAME", stability.techniques,
-        "Techniques, or their folders, or single presets as NAME:PRESET; default: all presets of all, and all tracers")
+    CLI::App& command = line.add(
+        "stability",
+        "Test techniques with extreme inputs: values that are not finite, and small changes that are amplified");
+    option(command, "--techniques NAME", stability.techniques,
+           "Techniques, folders of techniques, or single presets as NAME:PRESET; default: all presets of all "
+           "techniques, and all tracers")
         ->delimiter(',');
-    option(command, "--cases NAME", stability.cases, "Cases or groups of the table; default: all")->delimiter(',');
+    option(command, "--cases NAME", stability.cases, "Cases, or groups of cases, of the table; default: all")
+        ->delimiter(',');
     option(command, "--table FILE.json", stability.table,
-           "A table of cases (experiments/study/stability/README.md); default: ssrlab's own")
+           "Table of cases (`experiments/study/stability/README.md`); default: the included table")
         ->check(CLI::ExistingFile);
     option(command, "--out DIR", stability.out, "Folder of stability.csv")->default_val("results/stability");
     command.add_flag("--all-stages", stability.has_all_stages,
-                     "List every stage in stability_stages.csv, also those that are finite");
-    option(command, "--figure FILE", stability.figure, "Also write the figure: .pdf, .png or .svg");
+                     "List every stage in stability_stages.csv, also finite ones");
+    option(command, "--figure FILE", stability.figure, "Also write a figure as .pdf, .png or .svg");
     command.add_flag("--precision", stability.is_of_precision,
-                     "Instead: formats and arithmetic, in half, float and double, one image and one stage at a time (5 "
-                     "minutes; stability_precision.csv)");
+                     "Test formats and arithmetic instead: half, float and double, one image and one stage at a time. "
+                     "Takes 5 minutes and writes stability_precision.csv");
     add_device(command, line.common), add_scene_path(command, line.common);
     add_cache(command, line.common);
     add_reading(command);

@@ -68,33 +68,34 @@ static void watch_command(const WatchOptions& options, const std::vector<std::st
 
 void add_watch(Commands& line) {
     WatchOptions& watch = line.keep<WatchOptions>();
-    CLI::App& command = line.add(
-        "watch", "Render and judge a technique's folder whenever it is saved, and show it on a page of this machine");
-    option(command, "folder FOLDER", watch.folder, "With technique.json and shaders (ssrlab new makes one)")
+    CLI::App& command = line.add("watch",
+                                 "Render and judge the folder of a technique whenever a file in it is saved, and show "
+                                 "the result on a local web page");
+    option(command, "folder FOLDER", watch.folder, "Folder with technique.json and shaders (`ssrlab new` makes one)")
         ->required();
     option(command, "--scene SCENE...", watch.scenes,
-           "One or more, by name (see: ssrlab list scenes) or path; the first is shown first")
+           "Scenes, one or more, by name (see: ssrlab list scenes) or path; the first is shown first")
         ->required();
     option(command, "--against NAME", watch.against,
-           "Also compare with this technique, NAME or NAME:PRESET, or another folder; best: what errs least in the "
-           "included studies");
-    option(command, "--preset NAME", watch.preset, "One of the technique's presets; default: its defaults");
-    option(command, "--camera NAME", watch.camera, "Default: each scene's first");
+           "Also compare with this technique, as NAME or NAME:PRESET, or with another folder; best: with the preset "
+           "that has the least error in the included studies");
+    option(command, "--preset NAME", watch.preset, "Preset of the technique; default: the default parameters");
+    option(command, "--camera NAME", watch.camera, "Camera of the scenes, by name; default: the first of each scene");
     add_size(command, watch.size);
     option(command, "--frames A-B", watch.frames,
-           "Frames of the camera's path and of the animation, for histories; the last is measured")
+           "Frames of the camera's path and of the animation, which fill histories; the last frame is measured")
         ->capture_default_str();
-    option(command, "--samples N", watch.samples, "Of the truth, per pixel")
+    option(command, "--samples N", watch.samples, "Samples per pixel of the truth")
         ->check(CLI::Range(32, 1 << 20))
         ->capture_default_str();
-    option(command, "--seeds N", watch.seeds, "Of techniques that draw random numbers; default: 8")
+    option(command, "--seeds N", watch.seeds, "Number of seeds for techniques that draw random numbers; default: 8")
         ->check(CLI::Range(1, 1000));
     option(command, "--patience SECONDS", watch.patience,
-           "Seconds without a sign of life after which rendering is ended, as of a loop without end")
+           "Seconds without progress after which rendering is stopped, as in an endless loop")
         ->check(real_in(15, 1e6, "a number from 15, as there is a sign every ten seconds, to 1000000"))
         ->capture_default_str();
     option(command, "--out DIR", watch.out,
-           "Folder of kept versions and of what is rendered; default: results/watch/<name>");
+           "Folder of kept versions and rendered images; default: results/watch/<name>");
     add_device(command, line.common), add_scene_path(command, line.common), add_cache(command, line.common);
     add_reading(command);
     command.callback([&] { watch_command(watch, run_options(command, line.common)); });

@@ -45,11 +45,11 @@ function diffLead(diff) {
 }
 
 const diffNote = diff => [
-    "The largest changes first. Pictures are of the shot's last frame, the first seed and the target " +
-        `${diff.target}; a click opens both in the viewer below.`,
-    diff.without_room ? `The last ${diff.without_room} have no pictures here: a page has room for 30 MB.` : null,
+    "The largest changes come first. Pictures show the shot's last frame, the first seed and the target " +
+        `${diff.target}. Click a picture to open both runs in the viewer below.`,
+    diff.without_room ? `The last ${diff.without_room} points have no pictures here, because a page has room for 30 MB.` : null,
     diff.moved.length ?
-        `Times of ${diff.moved.map(m => m[0]).join(", ")} are of different machines and are not compared.` :
+        `Times of ${diff.moved.map(m => m[0]).join(", ")} come from different machines and are not compared.` :
         null
 ].filter(Boolean).join(" ");
 
@@ -86,7 +86,7 @@ function diffBlock(point) {
 
 const pointSummary = (point, changed) => [
     `${changed.length} numbers changed, ${point.equal} are equal`,
-    {equal: "images are equal", differ: "images differ", none: "a run has no images of it"}[point.images]
+    {equal: "images are equal", differ: "images differ", none: "a run has no images of this point"}[point.images]
 ].join("; ") + ".";
 
 function numberTable(changes) {
@@ -134,7 +134,7 @@ function aloneParts(diff) {
     const columns = ["Shot", "Point"];
     return [["the old run", diff.only_before], ["the new run", diff.only_after]].filter(([, points]) => points.length).map(
         ([where, points]) => folded(
-            `${points.length} points of shots in ${where} alone, which are not compared`,
+            `${points.length} points of shots that only ${where} has: not compared`,
             scroller(table(columns, points.map(([shot, technique, point]) => [shot, pointLabel({technique, point})])))));
 }
 

@@ -78,18 +78,18 @@ function drawWipe() {
 function writeNumbers() {
     const {results, place, replay} = page, frame = frames()[place], recorded = number(frame.error);
     at("error").textContent = isAsRecorded() ?
-        `Error of this frame (relmse): ${number(results.error)}; as recorded on Vulkan: ${recorded}.` :
-        `Error of this frame (relmse): ${number(results.error)}; with the recorded parameters: ${recorded}.`;
+        `Error of this frame (relmse): ${number(results.error)}. Error of the recording on Vulkan: ${recorded}.` :
+        `Error of this frame (relmse): ${number(results.error)}. Error with the recorded parameters: ${recorded}.`;
     const {difference} = results;
     at("difference").textContent = difference ?
-        `Of ${difference.kept} pixels with reflections ${difference.differing} do not have the bits of the recording, ${
-            difference.far} differ by more than 0.01, at most by ${number(difference.largest)}.` :
+        `${difference.differing} of ${difference.kept} pixels with reflections differ from the recording. ${
+            difference.far} pixels differ by more than 0.01, at most by ${number(difference.largest)}.` :
         "";
 }
 
 /// A table of what each pass writes, each on recorded inputs, against what was recorded.
 function writePasses() {
-    const names = ["pass", "image", "pixels", "with other bits", "largest difference", "relative"];
+    const names = ["pass", "image", "pixels", "pixels that differ", "largest difference", "relative"];
     const rows = page.replay.checkPasses(page.place).map(r => [
         r.stage, `${r.image} (${r.format}${r.mip ? `, mip ${r.mip}` : ""})`, String(r.pixels), String(r.differing),
         number(r.largest), number(r.relative)
@@ -106,7 +106,7 @@ export function writeTimes() {
     const sorted = [...times].sort((a, b) => a - b);
     at("time").textContent = !replay.timer ? "This browser has no GPU timer (EXT_disjoint_timer_query_webgl2)." :
         sorted.length                      ? `GPU time of a frame: ${number(sorted[sorted.length >> 1])} ms, median of ${sorted.length}.` :
-                                             "GPU time of a frame: not known yet.";
+                                             "GPU time of a frame: not measured yet.";
 }
 
 function play(isPlaying) {

@@ -24,7 +24,7 @@ async function asked(what, value) {
     try {
         const answer = await fetch(what, {
             method: "POST", headers: {"Content-Type": "application/json"}, body: JSON.stringify(value)});
-        return answer.ok ? (await answer.json()).refusal : "ssrlab refused what this page asked for";
+        return answer.ok ? (await answer.json()).refusal : "ssrlab refused the request of this page";
     } catch {
         return "ssrlab does not answer";
     }

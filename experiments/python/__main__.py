@@ -1,4 +1,4 @@
-"""python3 experiments/python MODULE ARGUMENTS...: runs ssrlab.MODULE of the package beside this file, as commands of `ssrlab` do."""
+"""python3 experiments/python MODULE ARGUMENTS...: runs ssrlab.MODULE of the package in this folder, as commands of `ssrlab` do."""
 
 import runpy
 import sys

@@ -10,9 +10,9 @@ struct ComparedStudy {
     const nlohmann::json& manifest;
 };
 
-/// Writes the page of `ssrlab diff`: of every shot and point whose numbers or images differ the pictures of both runs,
-/// their difference and the numbers with their verdicts, in the order of the largest change, and the report's viewer
-/// with the images of both. It is one file of 30 MB or so: of the points for whose images there is no room the numbers
-/// alone. Fails with Error if an image that a manifest lists is missing or broken.
+/// Writes the page of `ssrlab diff`, ordered by largest change. Each shot and point with different numbers or images
+/// has both runs' pictures, their difference, and the numbers with verdicts; the report's viewer shows the images of
+/// both. The page is one file of about 30 MB: points whose images do not fit have numbers alone. Fails with Error if an
+/// image that a manifest lists is missing or broken.
 void write_diff_page(const std::filesystem::path& page, const StudyDiff& diff, const ComparedStudy& before,
                      const ComparedStudy& after);

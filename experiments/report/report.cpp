@@ -117,7 +117,7 @@ StudyAnswers write_report(const std::filesystem::path& folder, bool links_images
                                                             {"stability", stability_without_scripts(stability)},
                                                             {"tables",
                                                              "stability.csv, stability_cases.csv and "
-                                                             "stability_stages.csv beside it"}}));
+                                                             "stability_stages.csv beside this page"}}));
             return {};
         }
         if (std::filesystem::exists(folder / "study.json"))
@@ -152,7 +152,7 @@ StudyAnswers write_report(const std::filesystem::path& folder, bool links_images
     json values = without_scripts(data, headline, tables.summary, singles);
     values["is_study"] = true;
     values["files"] = data_files(folder);
-    values["tables"] = "and the images as EXR and PNG in images/, beside it";
+    values["tables"] = "and the images as EXR and PNG in images/, beside this page";
     if (!stability.rows.empty()) values["stability"] = stability_without_scripts(stability);
     const json title = manifest.value("title", json());
     const auto page = [&] {

@@ -3,23 +3,25 @@
 
 #include <filesystem>
 
-/// A page is mailed and opened at once: the images of larger ones lie beside it.
+/// Largest page with its images inside: a page is mailed and opened at once. Images of larger pages lie beside the
+/// page.
 inline constexpr size_t page_bytes = 30'000'000;
 
-/// A page of `data` (page/study/data.js) with the scripts of `script`, "report" or "diff". `values`: those of
+/// A page of `data` (page/study/data.js) with the scripts of `script`: "report" or "diff". `values`: for
 /// page/report.html and page/no_scripts.html.
 std::string report_page(const std::string& script, const std::string& title, const nlohmann::json& data,
                         nlohmann::json values);
 
-/// Adds the texts of ReportImages::data to the values of a report_page().
+/// Adds ReportImages::data to the values of report_page().
 void add_images(nlohmann::json& values, const std::vector<std::string>& texts);
 
-/// Reads manifest.json, results.csv, splits.csv, effects.csv, times.csv (these three may be absent) and the EXR images
-/// of a results folder (experiments/RESULTS.md), and writes summary.csv, time_summary.csv and report.html into it, each
-/// atomically. The page needs no network. It is one file with its images in it as long as it stays below 30 MB; else,
-/// or if `links_images`, they lie in report_images/ beside it. Where the folder also holds the tables of `ssrlab
-/// stability`, the page shows them; where it holds these alone, it shows nothing else. Fails with Error, naming the
-/// file, if one is missing or malformed. Returns what the page says first.
+/// Reads a results folder (experiments/docs/results_folder.md) and writes summary.csv, time_summary.csv and report.html
+/// into it, each atomically. Returns the page's first answers. It reads manifest.json, results.csv, splits.csv,
+/// effects.csv and times.csv (the last three may be absent) and the EXR images.
+///
+/// The page needs no network. Below 30 MB it is one file with its images; else, or if `links_images`, they lie in
+/// report_images/ beside it. If the folder has tables of `ssrlab stability`, the page shows them, too, or them alone.
+/// Fails with Error, naming the file, if one is missing or malformed.
 StudyAnswers write_report(const std::filesystem::path& results_folder, bool links_images = false);
 
 /// RunSettings::write_report.

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-/// What the page's scripts read (page/study/data.js): tables as arrays, with texts as indices into `texts`, since few
-/// texts are repeated many times. Of the single changes only what represents a shot, not each of its frames.
+/// The data of the page's scripts (page/study/data.js): tables as arrays, with texts as indices into `texts`, since
+/// texts repeat. Single changes have only the rows that represent a shot, not each frame.
 nlohmann::json report_data(const StudyResults& tables, const StabilityResults& stability,
                            const PointSet& single_changes);

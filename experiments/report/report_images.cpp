@@ -140,7 +140,7 @@ private:
         std::vector<unsigned char> bytes = encode_halves(rgb, clamped, bits);
         if (clamped > 0)
             notes.push_back(entry.shot + ", " + entry.technique + " " + entry.point + ": " + std::to_string(clamped) +
-                            " pixels are brighter than 65504, the largest half float, and are shown as that.");
+                            " pixels are brighter than 65504, the largest half float. They are shown as 65504.");
         return bytes;
     }
 

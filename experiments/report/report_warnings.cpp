@@ -42,8 +42,8 @@ void warn_of_study(std::vector<std::string>& warnings, const json& manifest) {
         warnings.push_back("This study is not finished: some techniques or shots may be missing.");
     if (member(member(member(manifest, "config"), "reference"), "lit_noise") == false)
         warnings.push_back(
-            "This study did not measure what the noise of the lit colour adds to errors: intervals lack it "
-            "(reference.lit_noise).");
+            "This study did not measure what the noise of the lit colour adds to errors (reference.lit_noise). "
+            "Intervals do not hold this noise.");
 }
 
 /// Whether the makers of the cells differ in `part`, in what `shown` says of it.
@@ -70,7 +70,7 @@ void warn_of_hosts(std::vector<std::string>& warnings, const json& clock) {
     if (shots.size() < 2) return;
     const Names list = names_of(shots, [](const auto& of) { return joined(of.second) + " on " + of.first; });
     warnings.push_back(
-        "Times were taken on different machines, so compare them within one shot only: " + joined(list, "; ") + ".");
+        "Times were measured on different machines. Compare times within one shot only: " + joined(list, "; ") + ".");
 }
 
 void warn_of_provenance(std::vector<std::string>& warnings, const json& provenance, const json& clock) {
@@ -89,17 +89,16 @@ void warn_of_provenance(std::vector<std::string>& warnings, const json& provenan
     // Other machines that only rendered do nothing to the times of one; of several, warn_of_hosts() says more.
     const char* const of_times = machines > 1 ? "."
                                  : machines == 1 && are_known && different == Names{"hosts"}
-                                     ? "; all times were taken on one machine."
-                                     : "; compare times within one shot only.";
+                                     ? ". All times were measured on one machine."
+                                     : ". Compare times within one shot only.";
     if (!different.empty())
         warnings.push_back("Parts of this study were made by different " + joined(different) +
                            ": `provenance` in manifest.json says which" + of_times);
     if (std::ranges::any_of(provenance,
                             [](const json& maker) { return is_true(member(member(maker, "ssrlab"), "dirty")); }))
         warnings.push_back(
-            "The program or its shaders are not those of the commit: it does not identify them, `code` in "
-            "manifest.json "
-            "does.");
+            "The program or its shaders differ from the commit. `code` in manifest.json identifies them, the commit "
+            "does not.");
 }
 
 /// One warning for each reason, with all points that have it.
@@ -112,8 +111,8 @@ void warn_of_variation(std::vector<std::string>& warnings, const json& technique
     }
     for (const auto& [what, names] : points)
         warnings.push_back(what.first + " (" + joined(names) +
-                           "): results differ from run to run, and their intervals do not " +
-                           "hold the scatter between runs. The reason: " + ended(what.second));
+                           "): results differ from run to run. Their intervals do not hold the scatter between runs. " +
+                           "The reason: " + ended(what.second));
 }
 
 std::string shots_of(const json& proof) { return joined(names_of(member(proof, "shots"), text)); }
@@ -121,21 +120,20 @@ std::string shots_of(const json& proof) { return joined(names_of(member(proof, "
 void warn_of_clock(std::vector<std::string>& warnings, const json& clock, bool has_times) {
     if (!has_times) return;
     const json& proofs = member(clock, "proofs");
-    if (!proofs.is_array() || proofs.empty()) warnings.push_back("No timer was validated: take times with care.");
+    if (!proofs.is_array() || proofs.empty()) warnings.push_back("No timer was validated: times may be wrong.");
     for (const json& proof : proofs) {
         const json& verdict = member(proof, "verdict");
         if (verdict == "failed")
             warnings.push_back(
-                "Timer validation failed: passes of 1 : 10 : 100 work took other times on a quiet "
-                "machine, so no time can be trusted of " +
+                "Timer validation failed: on a quiet machine, passes of 1 : 10 : 100 work did not take 1 : 10 : 100 of "
+                "the time. Do not trust the times of " +
                 shots_of(proof) + ".");
         else if (verdict != "passed")
-            warnings.push_back(
-                "The timer was not validated, since other programs were at work on the machine, for the times of " +
-                shots_of(proof) + ".");
+            warnings.push_back("The timer was not validated for the times of " + shots_of(proof) +
+                               ", because other programs used the machine.");
     }
     if (member(clock, "aa_floors").empty())
-        warnings.push_back("No A/A pair was measured: the noise floor of the times is not known.");
+        warnings.push_back("No point was timed twice (A/A pair): the noise floor of times is unknown.");
 }
 
 void warn_of_load(std::vector<std::string>& warnings, std::span<const TimeSummary> times) {
@@ -144,8 +142,8 @@ void warn_of_load(std::vector<std::string>& warnings, std::span<const TimeSummar
     for (const auto& [shot, share] : shares)
         if (share > 0)
             warnings.push_back(shot + ": other programs disturbed " + percent_text(share) +
-                               " of the timed frames: its times may be too long. A run on a quiet machine takes them "
-                               "again.");
+                               " of the timed frames. The times of this shot may be too long. Run the study again on "
+                               "a quiet machine to measure them anew.");
 }
 
 void warn_of_shot(std::vector<std::string>& warnings, const json& shot) {
@@ -158,7 +156,7 @@ void warn_of_shot(std::vector<std::string>& warnings, const json& shot) {
     if (target_error > 0 && reached < 1.0)
         warnings.push_back(name + "only " + percent_text(rounded_down(reached)) +
                            " of the reference's pixels reached the relative error of " + percent_text(target_error) +
-                           " that was asked for; the intervals below account for the noise that is left.");
+                           " that the study asks for. Intervals account for the noise that is left.");
     for (const json& of_frame : member(shot, "references"))
         for (const json& warning : member(of_frame, "warnings"))
             if (warning.is_string())
@@ -166,7 +164,7 @@ void warn_of_shot(std::vector<std::string>& warnings, const json& shot) {
                                    ": " + ended(warning.get<std::string>()));
     if (const double bad = number(member(reference, "non_finite_samples"), 0.0); bad > 0)
         warnings.push_back(name + std::to_string(uint64_t(bad)) +
-                           " samples of the reference were not finite and were left out: its mean may be biased.");
+                           " samples of the reference were not finite and were left out. The reference may be biased.");
 }
 
 constexpr double most_lit_noise = 0.1;  ///< share of an error
@@ -185,7 +183,7 @@ void warn_of_light(std::vector<std::string>& warnings, std::span<const MetricSum
             warnings.push_back(shot + ": the noise of the path-traced light that techniques read makes up to " +
                                percent_text(found.first) + " of an error (" + e->technique + " " + e->point + ", " +
                                e->metric + " of " + e->target +
-                               "): intervals allow for it, more samples of the reference lower it.");
+                               "). Intervals allow for this noise. More samples of the reference reduce it.");
 }
 
 constexpr size_t most_pixel_warnings = 12;  ///< the rest is counted: nobody reads a hundred
@@ -202,8 +200,8 @@ std::vector<std::string> pixel_warnings(std::span<const MetricSummary> errors) {
         if (counts.first)
             warnings.push_back(where + std::to_string(counts.first) +
                                (counts.first == 1 ? " pixel is" : " pixels are") +
-                               " NaN or infinite and left out of every mean; where they are more than 1 % of a mask's "
-                               "pixels there is none.");
+                               " NaN or infinite and left out of every mean. A mask with more than 1 % of such pixels "
+                               "has no mean.");
         if (counts.second)
             warnings.push_back(where + std::to_string(counts.second) +
                                (counts.second == 1 ? " pixel is" : " pixels are") + " negative.");
@@ -217,8 +215,8 @@ void warn_of_pixels(std::vector<std::string>& warnings, std::span<const MetricSu
     warnings.insert(warnings.end(), found.begin(), found.begin() + long(shown));
     if (found.size() > shown)
         warnings.push_back(std::to_string(found.size() - shown) +
-                           " more warnings of pixels that are not finite or negative: see the columns non_finite and "
-                           "negative of summary.csv.");
+                           " more warnings about pixels that are negative or not finite: see the columns negative and "
+                           "non_finite of summary.csv.");
 }
 
 }  // namespace

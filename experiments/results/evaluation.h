@@ -2,7 +2,7 @@
 #include "experiments/results/files/comparisons.h"
 #include "experiments/results/verdicts/study_results.h"
 
-/// Decides what a study's numbers say, once for report, tables, figures and commands: of its manifest and measured rows
-/// makes the errors with their intervals and standings, the errors over scenes, the times, and the effects on both. Of
-/// points that the manifest does not name it is taken that they depend on seeds and that runs repeat them.
+/// Evaluates a study's manifest and measured rows, once for report, tables, figures and commands: errors with intervals
+/// and standings, errors over scenes, times, and effects on both. Points that the manifest does not name count as
+/// depending on seeds and repeatable.
 void evaluate(StudyResults& study, const std::vector<ComparedPoint>& compared, const PrimaryComparisons& primary);

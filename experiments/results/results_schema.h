@@ -11,6 +11,6 @@ struct ParameterColumn {
     std::string name, type, unit, doc;
 };
 
-/// What the columns of a results folder's CSV files are: a Data Package
-/// (https://specs.frictionlessdata.io/data-package), with type, unit and meaning of each. `parameters`: the study's.
+/// A Data Package (https://specs.frictionlessdata.io/data-package) of a results folder's CSV files: type, unit and
+/// meaning of each column. `parameters`: the study's.
 nlohmann::json results_schema(const std::vector<ParameterColumn>& parameters);

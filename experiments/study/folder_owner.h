@@ -5,18 +5,17 @@
 #include <functional>
 #include <string>
 
-/// Makes the results folder that of one study, named in study.json: {"config", "keep_all"}. Two studies are the same if
-/// their configs, without comments and `$schema`, and --keep-all are. Any number of processes may fill
-/// the folder of one study.
+/// Ties a results folder to one study by study.json: {"config", "keep_all"}. Two studies are the same if --keep-all and
+/// their configs, without comments and `$schema`, are equal. Any number of processes may fill the folder of one study.
 ///
-/// Fails with Error, before anything is written, if the folder holds another study, unless `replaces`: then the folder
-/// is this study's from now on. A folder of a version without study.json belongs to the config in its manifest.json.
-/// `notice` gets a sentence where a study was replaced.
+/// Fails with Error, before anything is written, if the folder holds another study. With `replaces` the folder changes
+/// to this study instead, and `notice` gets a sentence. A folder without study.json belongs to the config in its
+/// manifest.json.
 class FolderOwner {
 public:
     FolderOwner(const std::filesystem::path& folder, const Config& config, bool keep_all, bool replaces,
                 const std::function<void(const std::string&)>& notice);
-    /// A study that failed before its first cell leaves the folder free for a corrected config.
+    /// Removes study.json if the study failed before its first cell, so that a corrected config can use the folder.
     ~FolderOwner();
     FolderOwner(const FolderOwner&) = delete;
     FolderOwner& operator=(const FolderOwner&) = delete;

@@ -4,15 +4,14 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-// The parts of manifest.json that a study writes, as experiments/RESULTS.md describes them.
+// The parts of manifest.json that a study writes, as experiments/docs/results_folder.md describes them.
 
 /// Facts of the whole study, before any cell is done.
 nlohmann::json study_entry(const Config& config);
 
-/// All that can be said of a shot before anything of it is rendered. `scene_warnings`: warning_sentences() of its
-/// scene.
+/// Facts of a shot that are known before anything is rendered. `scene_warnings`: warning_sentences() of its scene.
 nlohmann::json shot_entry(const Shot& shot, const Config& config, const std::vector<std::string>& scene_warnings,
                           bool keep_all);
-/// Adds to a shot_entry() what is known once its references are there: members replace those of the same name, but
+/// Adds to a shot_entry() what is known once the shot's references exist. Members replace those of the same name;
 /// `needs` and `warnings` are joined.
 void complete_shot_entry(nlohmann::json& entry, const nlohmann::json& rendered);

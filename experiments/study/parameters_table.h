@@ -3,6 +3,6 @@
 
 #include <filesystem>
 
-/// Writes parameters.csv, a row for each point with its label, group, preset and the values of all its parameters, and
-/// schema.json (results_schema.h).
+/// Writes schema.json (results_schema.h) and parameters.csv: one row for each point, with label, group, preset and all
+/// parameter values.
 void write_parameters(const std::filesystem::path& folder, const std::vector<PointConfig>& techniques);

@@ -3,16 +3,16 @@
 #include <optional>
 #include <string>
 
-/// How far work is and how long the rest takes, as it is shown: what was done stays done, and the rest shrinks by the
-/// time that passes, but for what new estimates change, which enters over `smoothing` seconds.
+/// Share done and time left, smoothed for display. The share never falls. The time left shrinks by the time that
+/// passes; new estimates enter over `smoothing` seconds.
 class ProgressEstimate {
 public:
-    /// `elapsed`: seconds since the start, not less than the last time; `share_done` in [0, 1].
+    /// `elapsed`: seconds since the start, never decreasing; `share_done` in [0, 1].
     void update(double elapsed, double share_done);
 
     double share() const { return share_; }               ///< never less than before
     std::optional<double> left() const { return left_; }  ///< seconds; none before two per cent are done
-    bool takes_longer() const { return takes_longer_; }   ///< the rest takes clearly longer than it says yet
+    bool takes_longer() const { return takes_longer_; }   ///< the rest clearly takes longer than left() states
 
     static constexpr double smoothing = 30;
 
@@ -22,14 +22,14 @@ private:
     bool takes_longer_ = false;
 };
 
-/// One line on the terminal that says how far long work is and when it will end; on a pipe a line every ten seconds.
-/// Results printed meanwhile with say() stay above it.
+/// Shows progress and the expected end of long work: one line on a terminal; on a pipe a line every ten seconds.
+/// Results printed with say() stay above it.
 class Progress {
 public:
     explicit Progress(double total_work);
     ~Progress();
 
-    /// `work` is in the units of the constructor's total; `what` says what is being done.
+    /// `done_work` is in the units of the constructor's total; `what` says what is being done.
     void update(double done_work, const std::string& what);
 
     /// Prints a line of results above the progress line.

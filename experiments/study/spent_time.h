@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-/// What a run spends its time on, by name. Spans nest: the time of an inner one is not the outer's. One thread.
+/// The time of a run by named spans. Spans nest: an outer span does not include the time of an inner one. For one
+/// thread.
 class SpentTime {
 public:
     class Span {
@@ -18,14 +19,14 @@ public:
         SpentTime& spent_;
     };
 
-    /// Seconds by name; of open spans up to now.
+    /// Seconds by name; open spans count up to now.
     std::map<std::string, double> seconds() const;
 
 private:
     using Clock = std::chrono::steady_clock;
     void begin(const std::string& what);
     void end();
-    void count();  ///< what passed since `since_` belongs to the innermost span
+    void count();  ///< adds the time since `since_` to the innermost span
 
     std::vector<std::string> open_;
     Clock::time_point since_ = Clock::now();

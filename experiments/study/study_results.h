@@ -1,8 +1,7 @@
 #pragma once
 #include "experiments/study/study_session.h"
 
-/// Writes manifest, tables and report of the cells that are finished (experiments/RESULTS.md). `is_complete`: all cells
-/// of the plan are; then what earlier versions of the study left is listed, or removed if the settings say so.
-/// `before`: the manifest that the folder held when the run began; null if none. Returns what the report says
-/// first.
+/// Writes manifest, tables and report of the finished cells (experiments/docs/results_folder.md). `is_complete`: all
+/// cells of the plan are finished; then files of earlier versions of the study are listed, or removed if the settings
+/// say so. `before`: the folder's manifest when the run began; null if none. Returns the report's first answers.
 StudyAnswers write_results(StudySession& study, bool is_complete, const nlohmann::json& before);

@@ -9,16 +9,16 @@
 #include "experiments/study/spent_time.h"
 #include "experiments/study/workload.h"
 
-/// What SpentTime calls the compilation of all points' shaders before the first cell.
+/// SpentTime's name for compiling all points' shaders before the first cell.
 inline constexpr const char* compiling = "compiling";
 
-/// As Workload knows kinds of cells: of one point and size all shots are alike.
+/// The kind of a cell in Workload: one kind for a point and image size in all shots.
 inline std::string kind_of_work(const PlannedCell& cell) {
     const std::string size = std::to_string(cell.pixels);
     return cell.technique ? cell.technique->technique + " " + cell.technique->point + " " + size : size;
 }
 
-/// A study on its way: all that it needs. `config` and `settings` must outlive it.
+/// The state of a running study. `config` and `settings` must outlive it.
 struct StudySession {
     StudySession(const Config& config, const RunSettings& settings)
         : config(config),
@@ -32,13 +32,13 @@ struct StudySession {
     Progress progress{1.0};
     Device device;
     CellStore cells;
-    nlohmann::json maker;  ///< of cells, see provenance.h
+    nlohmann::json maker;  ///< maker of cells, see provenance.h
     StudyPlan plan;
     Workload work;
     SpentTime spent;
     std::optional<ClockProof> clock;  ///< made when first needed
     std::vector<Cell> finished;       ///< in the order of the plan
-    size_t made = 0;                  ///< cells that were not found done
+    size_t made = 0;                  ///< cells that this run made
     bool is_rehearsed = false;
 
     void report(double share, const std::string& what) {

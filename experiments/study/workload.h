@@ -3,22 +3,22 @@
 #include <map>
 #include <string>
 
-/// What a long run has to do, by kinds of work whose units take about equally long, and how long they took so far: from
-/// it the share done and hence the time left. Kinds belong to families (all points' renders): one that has not been met
-/// yet is judged by a first guess, corrected as its family was, or else all that was met.
+/// Estimates the share done of a long run. Work has kinds, whose units take about equally long, and families of kinds
+/// (all points' renders). A kind that has not run yet counts with a first guess, corrected as its family was, or else
+/// as all measured kinds were.
 class Workload {
 public:
-    /// `units` more of a kind; `guess`: seconds per unit.
+    /// Adds `units` of a kind; `guess`: seconds per unit.
     void plan(const std::string& family, const std::string& kind, double units, double guess);
 
-    /// The units that follow are done now, until finish() or found(). `share` of them is done.
+    /// Starts these units; they last until finish() or found(). update() sets the share of them that is done.
     void start(const std::string& family, const std::string& kind, double units);
     void update(double share) { share_ = share; }
-    void finish();  ///< they took the time since start()
-    /// They turned out to be done already, in so many seconds, which tell the time of others; 0: that is not known.
+    void finish();  ///< the units took the time since start()
+    /// The units were already done, in `seconds`, which inform later estimates; 0: unknown.
     void found(double seconds);
 
-    /// Time that went into none of the planned kinds: it is spent, and tells nothing of what is left.
+    /// Adds time spent outside the planned kinds. It does not affect the estimate of what is left.
     void add_overhead(double seconds) { overhead_ += seconds; }
 
     /// In [0, 1]: time spent / (time spent + time expected).
@@ -30,7 +30,7 @@ private:
         double done = 0, seconds = 0;    ///< in this run
         double found = 0, found_in = 0;  ///< units of earlier runs, and their seconds
     };
-    /// Measured seconds over guessed ones, of what was met.
+    /// Measured seconds / guessed seconds of the kinds that have run.
     struct Correction {
         double measured = 0, guessed = 0;
         void add(const Kind& kind);

@@ -2,10 +2,10 @@
 #include "core/scene/scene.h"
 #include "groundtruth/sampling/alias_table.h"
 
-/// Draws directions of an environment, part by part: a part is a connected region of the sky, of which a window shows
-/// some and hides others. Within a part directions are drawn in proportion to luminance, from a table over latitude and
-/// longitude (Pharr, Jakob and Humphreys 2023, "Physically Based Rendering", section 12.5); a constant and a gradient
-/// are drawn evenly.
+/// Draws directions of an environment by parts. A part is a connected region of the sky: a window may show some parts
+/// and hide others. Within a part the density is proportional to luminance, from a table over latitude and longitude
+/// (Pharr, Jakob and Humphreys 2023, "Physically Based Rendering", section 12.5). Constants and gradients are drawn
+/// evenly.
 class EnvironmentTable {
 public:
     EnvironmentTable() = default;

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-/// What one light sample found, for a group that was chosen with the probability that it has before learning.
+/// What one light sample found. Its group was chosen with the group's probability before learning.
 struct LightObservation {
     vec3 position;  ///< where the light arrives (m)
     vec3 normal;    ///< geometric, on the side where it arrives
@@ -13,15 +13,15 @@ struct LightObservation {
     float contribution;  ///< luminance that it added to the pixel, weights and visibility included
 };
 
-/// With which probability a light sample chooses each group of lights, depending on where the light is to arrive: in
-/// proportion to what arrives from each on average, so that choosing adds the least variance. It is learnt from light
-/// samples of paths that a render does not use, in cells of space and of the normal's direction: unlike power, it knows
-/// what is hidden, far, or behind. (In proportion to the root of the mean square, which is best for independent
-/// samples, the rare bright ones decide, and stratified samples gain less.) Every group keeps a share everywhere, so
-/// that no render's mean depends on what was learnt.
+/// The probabilities with which a light sample chooses groups of lights, by the place where light arrives. They are
+/// proportional to the light that arrives from each group on average, so that choosing adds the least variance. They
+/// are learnt in cells of space and normal direction, from light samples of paths that a render does not use. Unlike
+/// power, they account for lights that are hidden, far, or behind. (The root of the mean square is best for independent
+/// samples, but follows rare bright ones, and stratified samples gain less.) Every group keeps a share everywhere, so
+/// that no render's mean depends on the learning.
 class LightChoice {
 public:
-    /// Nothing is learnt: each group has its share everywhere. `shares`: of each group, > 0; they add up to 1.
+    /// Before learning: each group has its share everywhere. `shares`: one per group, > 0, with a sum of 1.
     explicit LightChoice(std::vector<double> shares = {1.0});
 
     /// `low`, `high`: bounds of the scene (m). The same observations in the same order give the same choice to the bit.

@@ -8,13 +8,14 @@
 /// Directions in which light may arrive at a point per lane, before visibility is known.
 struct LightLanes {
     LanesVec3 direction;  ///< unit, towards the light
-    LanesVec3 radiance;   ///< of a delta light: irradiance at normal incidence; W sr^-1 m^-2 else
-    Lanes<float> pdf;  ///< sr^-1, times the probability of the choice; of a delta light: that probability; 0: no sample
+    LanesVec3 radiance;   ///< for a delta light: irradiance at normal incidence; else W sr^-1 m^-2
+    Lanes<float>
+        pdf;  ///< sr^-1, times the probability of the choice; for a delta light: that probability; 0: no sample
     LanesVec3 position, error,
-        normal;  ///< of the point on the light, if not infinite; a punctual light has no error and no normal
+        normal;  ///< of the point on the light, unless infinite; a punctual light has neither error nor normal
     Lanes<uint32_t> is_delta, is_infinite;
-    Lanes<uint32_t> group;  ///< of lights, as LightChoice numbers them
-    // Of the rays that test visibility, filled in by aim_shadow_rays():
+    Lanes<uint32_t> group;  ///< group number of LightChoice
+    // Rays that test visibility, filled in by aim_shadow_ray():
     LanesVec3 shadow_origin, shadow_direction;
     Lanes<float> shadow_far;  ///< in units of shadow_direction
 };
@@ -23,9 +24,9 @@ struct LightLanes {
 struct PunctualArrival {
     glm::vec3 direction;   ///< unit, towards the light; not a number if the point is the light's own
     glm::vec3 irradiance;  ///< at normal incidence (W m^-2)
-    bool is_infinite;      ///< the light is at no place
+    bool is_infinite;      ///< the light has no place
 };
-/// `point`: m, world space. Range and cone as KHR_lights_punctual has them.
+/// `point`: m, world space. Range and cone follow KHR_lights_punctual.
 PunctualArrival arrival(const PunctualLight& light, glm::vec3 point);
 
 /// Chooses among emissive triangles, punctual lights and the environment: a group by LightChoice, and within it in
@@ -33,8 +34,8 @@ PunctualArrival arrival(const PunctualLight& light, glm::vec3 point);
 /// parts of the environment.
 class LightSampler {
 public:
-    /// `sample_environment`: also where it is constant or a gradient, which BSDF sampling finds as well.
-    /// `compensate`: see EnvironmentTable.
+    /// `sample_environment`: also sample a constant or gradient one, which BSDF sampling finds as well. `compensate`:
+    /// see EnvironmentTable.
     LightSampler(const Scene& scene, const ScenePose& pose, const EmbreeScene& geometry, const MaterialTable& materials,
                  bool sample_environment, bool compensate);
 
@@ -46,7 +47,7 @@ public:
     uint32_t cell(glm::vec3 position, glm::vec3 normal) const { return choice_.cell(position, normal); }
     glm::vec3 low() const { return low_; }  ///< bounds of the scene (m)
     glm::vec3 high() const { return high_; }
-    const std::vector<PunctualLight>& punctual_lights() const { return lights_; }  ///< that shine
+    const std::vector<PunctualLight>& punctual_lights() const { return lights_; }  ///< those that shine
     bool has_environment_table() const { return environment_.part_count() > 0; }
 
     /// `x`, `y`: 2-D uniform, 32-bit fixed point. `point`: where the light arrives; `cell`: its cell. The sampler must
@@ -58,7 +59,7 @@ public:
     /// from a point of `cell`.
     float triangle_pdf(uint32_t cell, uint32_t instance, uint32_t triangle, glm::vec3 normal, glm::vec3 direction,
                        float distance) const;
-    /// The same (sr^-1) of a unit direction to the environment; 0 where it is not sampled.
+    /// The same (sr^-1) for a unit direction to the environment; 0 if the environment is not sampled.
     float environment_pdf(uint32_t cell, glm::vec3 direction) const;
 
 private:

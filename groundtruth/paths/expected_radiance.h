@@ -8,20 +8,20 @@
 struct RadianceObservation {
     vec3 position;   ///< of the vertex (m)
     vec3 normal;     ///< geometric, on the side that was met
-    float radiance;  ///< luminance that the path still brought, over the luminance of its throughput beyond the vertex
+    float radiance;  ///< luminance that the path brought beyond the vertex, over the luminance of its throughput there
 };
 
-/// The radiance that a path is to expect where it goes on, by cells: with it Russian roulette ends paths that promise
-/// little to their pixel, keeps dark ones on their way to bright places, and splits those that promise much (Vorba and
-/// Krivanek 2016, "Adjoint-Driven Russian Roulette and Splitting in Light Transport Simulation"). It is learnt from
-/// paths that a render does not use, and decides with which probability a path goes on, or into how many parts, which
-/// its weight makes up for: no mean depends on it.
+/// The radiance that a path can expect where it goes on, by cells. Russian roulette ends paths that promise little to
+/// their pixel, keeps dark paths that lead to bright places, and splits paths that promise much (Vorba and Krivanek
+/// 2016, "Adjoint-Driven Russian Roulette and Splitting in Light Transport Simulation"). It is learnt from paths that a
+/// render does not use. It decides the probability that a path goes on, or the number of parts; weights compensate for
+/// both, so no mean depends on it.
 class ExpectedRadiance {
 public:
     /// `low`, `high`: bounds of the scene (m). The same observations in the same order give the same bits.
     void learn(std::span<const RadianceObservation> observations, vec3 low, vec3 high);
 
-    /// 0 everywhere until something is learnt.
+    /// The expected radiance; 0 everywhere until something is learnt.
     float at(vec3 position, vec3 normal) const;
 
 private:

@@ -10,7 +10,7 @@ inline constexpr uint32_t diffuse_stream = 1u << 16;  ///< pairs of the paths th
 
 /// A path that leaves the first hit.
 struct PathStart {
-    PixelEstimate* estimate;  ///< that it is added to; outlives PathLanes::finish()
+    PixelEstimate* estimate;  ///< gets the path's light; outlives PathLanes::finish()
     SobolSequence sequence;   ///< of its batch
     glm::vec3 origin, direction;
     glm::vec3 weight;          ///< f mu_i / pdf of its lobe
@@ -18,15 +18,15 @@ struct PathStart {
     uint32_t light_cell;       ///< of the first hit: see LightSampler::cell()
     uint32_t reversed_sample;  ///< the index of the sample, bits reversed
     bool is_specular;          ///< it leaves along the specular lobe, else the diffuse one
-    /// 1 / luminance that the pixel is thought to hold of this lobe: roulette ends what promises little of it; 0: by
+    /// 1 / expected luminance of this lobe in the pixel: roulette ends paths that promise little of it. 0: roulette by
     /// throughput.
     float per_estimate;
 };
 
-/// What paths estimate.
+/// The outputs that paths estimate.
 enum class PathGoal {
-    reflection,  ///< what they reflect at the first hit: `specular` and `incident`, or `diffuse`
-    lit_color    ///< the lit colour of what they meet first: `camera_radiance` and `on_screen`
+    reflection,  ///< light that the first hit reflects: `specular` and `incident`, or `diffuse`
+    lit_color    ///< the lit colour of the surface that the path meets first: `camera_radiance` and `on_screen`
 };
 
 /// Paths in flight, of any batches. A lane whose path has ended takes the next one, so that all lanes stay busy until
@@ -76,10 +76,10 @@ private:
     uint32_t busy_ = 0;                       ///< bit per lane: it holds a path
     uint32_t resumed_ = 0;                    ///< bit per lane: its path is a branch that stands at its vertex
     std::vector<Branch> branches_;            ///< that wait for a lane
-    bool records_ = false;                    ///< what paths find is taken down
+    bool records_ = false;                    ///< observations of paths are recorded
     std::vector<std::vector<Visit>> visits_;  ///< of each lane, while it is
 
-    // Of each path:
+    // The path of each lane:
     PixelEstimate* estimate_[lane_count] = {};
     Lanes<uint32_t> seed_a_, seed_b_;  ///< of its sequence
     LanesVec3 origin_, direction_, throughput_, radiance_, weight_;
@@ -88,14 +88,14 @@ private:
     Lanes<uint32_t> depth_, pair_, reversed_sample_, is_specular_;
     Lanes<float> per_estimate_;
     Lanes<uint32_t> is_on_screen_;  ///< what it met first
-    // Of the vertex that it has reached:
+    // The vertex that each path has reached:
     Lanes<uint32_t> continues_;  ///< 1 if there is one, and later if the path goes on from it, else 0
     LanesVec3 position_, error_, geometric_normal_, normal_, base_color_, dielectric_f0_;
     Lanes<float> metalness_, roughness_, specular_;
     LightLanes lights_;
     LanesVec3 direct_;  ///< what the light sample adds, if it is visible
     Lanes<float>
-        promise_;  ///< what a path of weight 1 is expected to bring beyond it, in parts of the pixel's; 0: unknown
-    Lanes<float> part_;  ///< of the path that goes on in this lane: less than 1 if it was split here
-    LanesVec3 cut_;      ///< throughput with which the path would go on, were it not for max_depth
+        promise_;  ///< expected light of a path of weight 1 beyond the vertex, relative to the pixel's; 0: unknown
+    Lanes<float> part_;  ///< part of the path that goes on in this lane: below 1 if it was split here
+    LanesVec3 cut_;      ///< throughput of the path beyond max_depth, if it went on
 };

@@ -10,19 +10,19 @@
 #include <vector>
 
 struct PathTracerSettings {
-    unsigned max_depth = 64;  ///< reflections per path, at most; light that needs more is missing from the estimate
+    unsigned max_depth = 64;  ///< most reflections per path; light that needs more is missing from the estimate
     LightStrategy strategy = LightStrategy::power;
     bool russian_roulette = true;
-    bool splitting = true;  ///< of paths that promise much, once the tracer knows what to expect, see expect()
+    bool splitting = true;  ///< of paths that promise much, after expect()
     ReflectionModel model = ReflectionModel::gltf;
     bool diffuse = true, specular = true;  ///< which parts of a pixel are estimated; `specular` includes `incident`
     bool learns_lights =
-        true;               ///< which lights reach which places, see LightChoice; else their groups share the samples
+        true;  ///< learns which lights reach which places (LightChoice); else groups of lights share the samples
     bool ladder = false;    ///< also estimate the lower rungs of the truth ladder, see PixelEstimate: twice the rays
-    bool keep_all = false;  ///< trace and evaluate also what left_out() names: the same image, slower
+    bool keep_all = false;  ///< also trace and evaluate what left_out() names: the same image, slower
 };
 
-/// The surface that a camera ray through a pixel centre meets: what the G-buffer holds of it.
+/// The surface that a camera ray through a pixel centre meets, with the quantities of the G-buffer.
 struct FirstHit {
     bool is_hit = false;
     glm::vec3 position{0.0f};          ///< m, world space
@@ -37,7 +37,7 @@ struct FirstHit {
     unsigned material = 0, instance = 0;  ///< indices into the scene
     glm::vec3 emitted{0.0f};              ///< towards the camera; where nothing is hit, the environment
     glm::vec3 position_error{0.0f};       ///< half extent of the box that holds the exact hit (m)
-    glm::vec3 ray_origin{0.0f};           ///< of rays that leave it, before their offset along the normal (m)
+    glm::vec3 ray_origin{0.0f};           ///< of rays that leave the hit, before their offset along the normal (m)
     bool is_unlit = false;
     glm::vec3 highlight{0.0f};  ///< radiance of the punctual lights that it reflects specularly, without any noise
     unsigned shadow_rays = 0;   ///< traced for `highlight`
@@ -59,9 +59,8 @@ struct PixelEstimate {
     // With PathTracerSettings::ladder:
     glm::dvec3 camera_radiance{0.0};  ///< / lobe_samples: `incident`, with the lit colour of what the lobe meets
     glm::dvec3 on_screen{0.0};  ///< / lobe_samples: the same, with nothing for what the camera's image does not show
-    uint64_t on_screen_samples = 0;  ///< samples of the lobe that meet what the image shows
-    /// / samples: throughput, first reflection included, with which paths would have gone on after max_depth
-    /// reflections
+    uint64_t on_screen_samples = 0;  ///< samples of the lobe that meet surfaces in the image
+    /// / samples: throughput, with the first reflection, that paths had left after max_depth reflections
     glm::dvec3 cut{0.0};
     uint64_t samples = 0;
     uint64_t lobe_samples = 0;  ///< samples of the visible-normal lobe that were above the horizon
@@ -69,32 +68,32 @@ struct PixelEstimate {
     uint64_t non_finite = 0;
     uint64_t rays = 0;        ///< traced, of both kinds
     uint64_t paths = 0;       ///< rays that left the first hit along a lobe
-    bool has_diffuse = true;  ///< false: samples are of the specular light alone, and `diffuse` stays as it is
-    // Take down what each light sample found, and what each path beyond each vertex, if given.
+    bool has_diffuse = true;  ///< false: samples are of specular light only, and `diffuse` does not change
+    // If given, records of each light sample, and of each path beyond each vertex.
     std::vector<LightObservation>* light_record = nullptr;
     std::vector<RadianceObservation>* radiance_record = nullptr;
 };
 
-/// Samples of a pixel with a scramble of their own, and their sums.
+/// Samples of a pixel with their own scramble, and their sums.
 struct SampleBatch {
     uint64_t seed = 0;
     PixelEstimate estimate;
 };
 
 /// Unbiased path tracer over Embree (next-event estimation and BSDF sampling combined by multiple importance sampling)
-/// for one frame of one camera. Building it builds the BVH, with all cores; afterwards all members are const and may be
-/// called from any number of threads, whose results do not depend on how the work is split.
+/// for one frame of one camera. The constructor builds the BVH on all cores. After that, const members may be called
+/// from any number of threads, and results do not depend on how the work is split.
 ///
-/// `specular` and `incident` leave out what punctual lights send to the first hit itself: they are deltas, which a mean
-/// over directions cannot hold, which no ray ever meets, and which engines shade in closed form. That highlight is
-/// FirstHit::highlight. `diffuse` includes them, and all outputs do at later vertices.
+/// `specular` and `incident` leave out light that punctual lights send directly to the first hit. Such lights are
+/// deltas: no mean over directions can hold them, no ray meets them, and engines shade them in closed form.
+/// FirstHit::highlight has this light. `diffuse` includes it, and so do all outputs at later vertices.
 ///
-/// Surfaces are seen from both sides, but for backs that the scene hides (Scene::hides_backs_of()): camera rays,
-/// reflections and shadow rays pass these. Normals are turned to the side of the viewer; the geometric normal says
-/// which side that is. Camera rays see what lies between the camera's planes; no other ray knows of planes.
+/// Surfaces are seen from both sides, except backs that the scene hides (Scene::hides_backs_of()): camera rays,
+/// reflections and shadow rays pass these. Normals are turned to the viewer's side, which the geometric normal decides.
+/// Camera rays see surfaces between the camera's planes; other rays ignore the planes.
 ///
-/// Where the viewer is below the horizon of the shading normal the surface reflects nothing. Directions below
-/// the horizon of the shading normal reflect nothing and are no part of the lobe; directions above it but below the
+/// Where the viewer is below the horizon of the shading normal the surface reflects nothing. Directions below the
+/// horizon of the shading normal reflect nothing and are no part of the lobe; directions above it but below the
 /// geometric one meet the surface itself and carry no light. Unlit surfaces radiate their base colour and reflect
 /// nothing.
 class PathTracer {
@@ -106,28 +105,27 @@ public:
     PathTracer(const PathTracer&) = delete;
     PathTracer& operator=(const PathTracer&) = delete;
 
-    /// From now on Russian roulette ends paths by what they are expected to bring to their pixel and not by their
-    /// throughput, and paths that are expected to bring much are split. `diffuse`, `specular`: about what each pixel
-    /// holds (RGB), from other samples than those that will be traced. The means stay the same. To be called before
-    /// trace() is.
+    /// Makes Russian roulette end paths by the light that they are expected to bring to their pixel, not by throughput;
+    /// paths that promise much are split. `diffuse`, `specular`: estimates of each pixel (RGB), from other samples than
+    /// the traced ones. Means stay the same. Call it before trace().
     void expect(const HostImage& diffuse, const HostImage& specular);
 
     /// The hit of the ray through the centre of pixel (x, y), y down.
     FirstHit first_hit(unsigned x, unsigned y) const;
 
-    /// Adds to each batch samples [first_sample, first_sample + count) of the Owen-scrambled Sobol' sequence that
-    /// (x, y, seed of the batch) selects. Different seeds give independent scrambles; the error falls fastest when
-    /// count is a power of two that divides first_sample. Unlit hits and the background have nothing to estimate: only
-    /// `samples` grows. Paths of all batches are in flight together, so that several batches take less time in one
-    /// call; each batch gets what it gets alone, but for the order in which its sums are added. `batches`: one
-    /// at least, all with the diffuse light or all without.
+    /// Adds to each batch samples [first_sample, first_sample + count) of the Owen-scrambled Sobol' sequence that (x,
+    /// y, seed of the batch) selects. Different seeds give independent scrambles; the error falls fastest when count is
+    /// a power of two that divides first_sample. Unlit hits and the background have nothing to estimate: only `samples`
+    /// grows. Paths of all batches are in flight together, so one call with several batches takes less time. Each batch
+    /// gets the same samples as alone, but sums may be added in another order. `batches`: at least one, all with the
+    /// diffuse light or all without.
     void trace(unsigned x, unsigned y, const FirstHit& hit, unsigned first_sample, unsigned count,
                std::span<SampleBatch> batches) const;
-    /// The same of one batch.
+    /// The same for one batch.
     void trace(unsigned x, unsigned y, const FirstHit& hit, uint64_t seed, unsigned first_sample, unsigned count,
                PixelEstimate& estimate) const;
 
-    /// What this scene does not need; nothing with PathTracerSettings::keep_all.
+    /// Parts that this scene does not need; none with PathTracerSettings::keep_all.
     const std::vector<LeftOut>& left_out() const;
 
 private:

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-/// A lanes' worth of samples.
+/// At most one sample per lane.
 struct SampleLanes {
     int count = 0;
     Lanes<uint32_t> seed_a, seed_b;  ///< of each one's sequence
@@ -17,8 +17,8 @@ struct SampleLanes {
     SobolSequence sequence(int lane) const { return {seed_a[lane], seed_b[lane]}; }
 };
 
-/// The same samples of each of a pixel's batches, by lanes: those of one batch after those of another, so that batches
-/// of few samples fill the lanes together.
+/// The same samples of each batch of a pixel, by lanes. Samples of one batch follow those of another, so that small
+/// batches fill the lanes together.
 class PixelSamples {
 public:
     PixelSamples(unsigned x, unsigned y, unsigned first, unsigned count, std::span<SampleBatch> batches)

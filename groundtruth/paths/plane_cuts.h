@@ -2,12 +2,12 @@
 #include "core/scene/camera.h"
 #include "core/scene/scene.h"
 
-/// Pixels of an image whose nearest surface the camera's planes cut away: they show what lies behind it, or nothing.
+/// Numbers of pixels whose nearest surface the camera's planes cut away: such pixels show what lies behind, or nothing.
 struct PlaneCuts {
     size_t before_near = 0, beyond_far = 0;
 
     size_t count() const { return before_near + beyond_far; }
 };
 
-/// One ray a pixel, at its centre.
+/// Traces one ray a pixel, at its centre.
 PlaneCuts count_plane_cuts(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent);

@@ -7,7 +7,7 @@
 
 #include <limits>
 
-/// All that paths read of one frame: geometry, materials, lights, settings, and what its camera sees.
+/// All data of one frame that paths read: geometry, materials, lights, settings, and the camera's view.
 struct TracedScene {
     const Scene& scene;
     CameraView camera;
@@ -16,20 +16,21 @@ struct TracedScene {
     EmbreeScene geometry;
     MaterialTable materials;
     LightSampler lights;
-    bool has_environment;  ///< that is not black
+    bool has_environment;  ///< an environment that is not black
     ExpectedRadiance expected;
 
     TracedScene(const Scene& scene, const ScenePose& pose, const CameraView& camera,
                 const PathTracerSettings& settings);
 };
 
-/// What the scene does not need and is not traced or evaluated for it; nothing with PathTracerSettings::keep_all.
+/// Parts that the scene does not need, so that they are not traced or evaluated; none with
+/// PathTracerSettings::keep_all.
 std::vector<LeftOut> left_out_features(const TracedScene& traced);
 
 inline constexpr float infinite_distance = std::numeric_limits<float>::infinity();
 
-/// On a hit, instID[0] is the index of the instance, whether it was baked or not. Nothing before `near` (in units of
-/// `direction`) is met.
+/// The nearest hit beyond `near` (in units of `direction`). On a hit, instID[0] is the index of the instance, baked or
+/// not.
 inline bool intersect(RTCScene scene, glm::vec3 origin, glm::vec3 direction, RTCRayHit& ray, float near = 0.0f) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
@@ -64,8 +65,8 @@ inline bool is_occluded(RTCScene scene, glm::vec3 origin, glm::vec3 direction, f
     return ray.tfar < 0;
 }
 
-/// What a camera shows along one of its rays (camera_ray()): the nearest surface between its planes. What the planes
-/// cut is met by camera rays alone: reflections and shadows know of none.
+/// The nearest surface between the camera's planes along a camera ray (camera_ray()). Only camera rays know the planes:
+/// reflections and shadows ignore them.
 inline bool intersect_from_camera(RTCScene scene, const CameraView& camera, glm::vec3 origin, glm::vec3 direction,
                                   RTCRayHit& ray) {
     const float cosine = camera.cosine(direction);
@@ -75,8 +76,8 @@ inline bool intersect_from_camera(RTCScene scene, const CameraView& camera, glm:
     return ray.ray.tfar * cosine < camera.far();  // on the plane it is no nearer than the depth buffer's clear value
 }
 
-/// Whether a camera that looks at a point finds something before it, behind its near plane. `error`, `normal`: of the
-/// point, which frames() has; `normal` on the side of the eye.
+/// Whether something between the camera's near plane and a point hides the point. `error`, `normal`: of the point,
+/// which camera.frames() contains; `normal` is on the side of the eye.
 inline bool is_hidden_from_camera(RTCScene scene, const CameraView& camera, glm::vec3 position, glm::vec3 error,
                                   glm::vec3 normal) {
     const glm::vec3 to_eye = camera.to_eye(position);
@@ -86,13 +87,13 @@ inline bool is_hidden_from_camera(RTCScene scene, const CameraView& camera, glm:
     return is_occluded(scene, origin, direction, far, 0.0f, Viewer::at_end);
 }
 
-/// Relative error of a point along a ray from one point to another: the difference, its product with t, the sum, and as
-/// many in Embree's distance to a plane.
+/// Relative error of a point on a ray between two points: the roundings of the difference, its product with t and the
+/// sum, and as many in Embree's distance to a plane.
 inline constexpr float shadow_ray_rounding = rounding_bound(6);
 
-/// Aims a shadow ray from a point to the light of a lane, offset at both ends. At the light's end the ray's own
-/// rounding errors, which grow with the places of both ends, add to the light's; a punctual light may lie in a surface,
-/// which must not hide it, so the ray ends before all of them. Branchless, for vector loops.
+/// Aims a shadow ray from a point to the light of a lane, offset at both ends. At the light's end the ray's rounding
+/// errors, which grow with the coordinates of both ends, add to the light's. A punctual light may lie in a surface that
+/// must not hide it, so the ray ends before all these errors. Branchless, for vector loops.
 inline void aim_shadow_ray(glm::vec3 position, glm::vec3 error, glm::vec3 normal, int lane, LightLanes& lights) {
     const glm::vec3 direction = lights.direction.get(lane);
     const glm::vec3 origin = offset_origin(position, error, normal, direction);
@@ -118,5 +119,5 @@ inline bool is_visible(const TracedScene& scene, const LightLanes& lights, int l
 /// Whether the image of the camera shows a point on the side that `normal` (unit, geometric) points to.
 bool is_on_screen(const TracedScene& scene, glm::vec3 position, glm::vec3 error, glm::vec3 normal,
                   PixelEstimate& estimate);
-/// Whether it shows the environment in a direction (unit).
+/// Whether the image shows the environment in a direction (unit).
 bool is_on_screen(const TracedScene& scene, glm::vec3 direction, PixelEstimate& estimate);

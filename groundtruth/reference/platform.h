@@ -1,6 +1,6 @@
 #pragma once
 #include <string>
 
-/// What the bits of a reference depend on besides, at run time: Embree's version, the processor's level of
-/// instructions, by which Embree and the C library choose their code, and that library's version.
+/// What the bits of a reference depend on at run time: the versions of Embree and of the C library, and the processor's
+/// instruction set, by which both choose their code.
 std::string render_platform();

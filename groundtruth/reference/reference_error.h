@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-/// Radiances below this share of the image's mean are judged against it and not against themselves.
+/// Errors of radiances below this share of the image's mean are relative to this share, not to the radiance.
 inline constexpr double relative_error_floor = 0.01;
 
 /// relative_error_floor times the mean of `output` over RGB and over the pixels that are not background.
@@ -15,8 +15,8 @@ double radiance_floor(const Reference& reference, const ReferenceOutput& output)
 /// `mean`, radiance_floor()). One channel; 0 where the variance is 0.
 HostImage relative_error(const Reference& reference, const ReferenceOutput& output);
 
-/// Share of the pixels, without the background, whose relative_error() of `specular` is at most `target`; 1 if there
-/// are none. A pixel that is above it is not truth to that precision: weigh it by its variance, or mask it.
+/// Share of the pixels, without background, whose relative_error() of `specular` is at most `target`; 1 without pixels.
+/// Weigh other pixels by their variance, or mask them.
 float reached_share(const Reference& reference, float target);
 
 struct ErrorSummary {

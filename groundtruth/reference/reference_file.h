@@ -1,7 +1,7 @@
 #pragma once
 #include "groundtruth/reference/reference.h"
 
-/// A render between its passes or within one: the pixels whose sample_count has not reached their goal are to be done.
+/// A render between or within passes: pixels whose sample_count is below their goal remain to be done.
 struct ReferenceState {
     Reference reference;
     ReferenceSettings settings;
@@ -9,7 +9,7 @@ struct ReferenceState {
     /// Samples of the pixels with the most of them, at the end of the pass under way.
     uint64_t level = 0;
     HostImage guide_variance;  ///< RGB, of reference.guide.specular; only with a target
-    // Of a render with a target, once its pixels have different goals:
+    // For a render with a target, once its pixels have different goals:
     HostImage earlier;  ///< two channels: before each pixel's last pass, sample_count and the variance of `specular`
     HostImage rays_per_sample;  ///< one channel, of each pixel's last pass; only with a time limit
 };

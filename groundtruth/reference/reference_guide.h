@@ -6,14 +6,14 @@ struct RenderedGuide {
     HostImage specular_variance;  ///< RGB, of means.specular
 };
 
-/// The guide of one frame: the means over `samples` (a multiple of batch_count) of each pixel from a set of their own,
-/// independent of the reference's seed and of its settings except max_depth, which `tracer` has. Reports to
+/// The guide of one frame: means over `samples` (a multiple of batch_count) per pixel, from a separate set of samples.
+/// It is independent of the reference's seed and settings, except max_depth, which `tracer` has. Reports to
 /// `run.progress`.
 ///
-/// By default they are a quarter of the reference's. relmse of reflective pixels with a guide's weights over that with
-/// the truth's own (roughness_gradient, mirror_pillars, fence, firefly at 48x27, with the environment alone, with all
-/// that the image shows, and with noise as the tested image; means of 6 guides): 1.003 to 1.057 of 64 samples, 1.003 to
-/// 1.287 of 32, 1.007 to 1.604 of 16. Non-local means over the guide (7x7 pixels of one surface, halves that weigh each
-/// other, distances in standard deviations) bring it no nearer: within 0.003 of that in three of the scenes, and to
-/// 1.068 in the fourth, where they spread what is bright and rare.
+/// By default it has a quarter of the reference's samples. The relmse of reflective pixels with a guide's weights is
+/// 1.003 to 1.057 times that with the truth's weights for 64 samples. It is 1.003 to 1.287 times for 32 samples, and
+/// 1.007 to 1.604 times for 16. (Means of 6 guides; roughness_gradient, mirror_pillars, fence, firefly at 48x27; tested
+/// images: the environment alone, all that the image shows, and noise.) Non-local means over the guide (7x7 pixels of
+/// one surface, halves that weigh each other, distances in standard deviations) do not help: three scenes change by
+/// less than 0.003, and the fourth reaches 1.068, as rare bright pixels spread.
 RenderedGuide render_guide(const PixelTracer& tracer, glm::uvec2 extent, unsigned samples, const ReferenceRun& run);

@@ -5,8 +5,8 @@
 #include <functional>
 #include <span>
 
-/// What a pass needs of the path tracer, so that the statistics can also be proved on integrands with known moments.
-/// Both are called from any thread; `trace` is PathTracer::trace() of several batches.
+/// What a pass needs of the path tracer. Tests replace it by integrands with known moments. Both are called from any
+/// thread; `trace` is PathTracer::trace() of several batches.
 struct PixelTracer {
     std::function<FirstHit(unsigned x, unsigned y)> first_hit;
     std::function<void(unsigned x, unsigned y, const FirstHit& hit, unsigned first_sample, unsigned count,
@@ -20,10 +20,10 @@ struct PixelCost {
     uint64_t rays = 0, non_finite = 0;
 };
 
-/// Which of the independent sets of samples a pass draws from.
+/// The independent sets of samples that passes draw from.
 enum class SampleSet : uint64_t { reference, guide };
 
-/// What is added to a pixel.
+/// The samples to add to a pixel.
 struct SampleRequest {
     uint64_t seed = 0;
     SampleSet set = SampleSet::reference;
@@ -31,8 +31,7 @@ struct SampleRequest {
     uint64_t most_lit = 0;  ///< samples of `diffuse` that the pixel may have, a multiple of batch_count; 0: no limit
 };
 
-/// Adds samples to the outputs of one pixel that `reference` has, and writes its first-hit layers.
-/// The scrambles depend on seed, set, and how many samples the pixel has already, and so on nothing that threads or
-/// time decide.
+/// Adds samples to one pixel in all outputs of `reference`, and writes its first-hit layers. Scrambles depend on seed,
+/// set and the pixel's number of samples so far, but not on threads or time.
 PixelCost add_samples(Reference& reference, const PixelTracer& tracer, unsigned x, unsigned y,
                       const SampleRequest& request);

@@ -3,38 +3,37 @@
 
 #include <vector>
 
-/// How many samples a pixel gets is decided by the samples of other pixels, its informers, and never by its own: a
-/// pixel that stops when its own error looks small is more often one that has not yet met its rare bright paths, and
-/// its mean comes out too small (by up to a third where one path in 10^4 carries a third of the light).
+/// The samples of other pixels, the informers, decide how many samples a pixel gets; its own samples never do. A pixel
+/// that stops when its own error looks small has often missed its rare bright paths, and its mean is too small (by up
+/// to a third if one path in 10^4 carries a third of the light).
 ///
-/// Informing runs one way: pixels are ranked, each is informed by pixels of lower rank only, and so no chain of
-/// decisions leads from a pixel's samples back to its own count, over any number of passes. Given the count, a pixel's
-/// samples are thus as independent as if it had been fixed beforehand: the means of both halves are without bias, and
-/// so is their product. (If neighbours informed each other, a pixel that met a rare path would give them more
-/// samples, and they it.) The rank is the lattice on which a pixel lies, coarse ones first, then the order of rows: so
-/// three pixels out of four have informers that touch them on all sides.
+/// Information flows one way: only pixels of lower rank inform a pixel. Over any number of passes, no chain of
+/// decisions leads from a pixel's samples back to its own count. Given the count, a pixel's samples are thus as
+/// independent as with a fixed count: the means of both halves have no bias, nor has their product. (If neighbours
+/// informed each other, a pixel that met a rare path would give them more samples, and they the pixel.) The rank is the
+/// lattice of the pixel, coarse lattices first, then the order of rows. Three of four pixels so have informers that
+/// touch them on all sides.
 ///
-/// A pixel whose informers see another light than it does (the reflection of an edge, or a small mirror) would keep too
-/// few samples for ever. So its guide informs it too: samples of the pixel itself, but of a set of their own, of which
-/// nothing is kept. It never lowers what informers ask for, since it has few samples.
+/// A pixel whose informers see other light (the reflection of an edge, or a small mirror) would always get too few
+/// samples. So the guide informs the pixel, too: it has separate samples of the pixel itself, which are not kept. The
+/// guide never lowers the informers' number, since it has few samples.
 ///
-/// Some pixels miss the target even so, since what is estimated scatters. While time is left, more samples go to all
-/// pixels of those lattices before which, in the order of rank, too many have missed it: a pixel's own error never
-/// gives it more.
+/// Some pixels still miss the target, since estimates scatter. While time is left, a lattice gets more samples if too
+/// many pixels of coarser lattices missed the target. A pixel's own error never gives the pixel more.
 ///
-/// Three quantities are of the whole image, to which a pixel contributes one part in the number of pixels: the radiance
-/// floor of relative errors, and, with a time limit, what all pixels cost, and by which factor those get more.
+/// Three quantities belong to the whole image, where each pixel has a small share: the radiance floor of relative
+/// errors and, with a time limit, the cost of all pixels and the factor of additional samples.
 
-/// The informers of pixel (x, y): those of lower rank and of its material within a window of its lattice; where these
-/// are fewer than 4, within wider windows; then those of any material that is hit, and none where even the widest
-/// window holds none of lower rank. `found` is replaced: indices of pixels.
+/// Replaces `found` by the informers of pixel (x, y), as indices of pixels. They have lower rank and the same material,
+/// within a window of the pixel's lattice. If these are fewer than 4, wider windows are searched, then surfaces of any
+/// material. There are none if the widest window holds no pixel of lower rank.
 void find_informers(const HostImage& material_id, unsigned x, unsigned y, std::vector<size_t>& found);
 
 /// Samples that each pixel needs for the target of the state's settings, estimated from its informers and its guide;
 /// one channel, 0 where noise is unknown. state.earlier has the rate at which errors fall.
 HostImage needed_samples(const ReferenceState& state);
 
-/// By which factor a pixel may get more than needed_samples() says while time is left; one channel. Any factor where
-/// more than 0.5 % of the pixels on coarser lattices than its own miss the target by their stated error; up to 4 where
-/// those are fewer than 200; else 1.
+/// The largest factor by which a pixel may exceed needed_samples() while time is left; one channel. 4 if coarser
+/// lattices than the pixel's have fewer than 200 pixels; unlimited if more than 0.5 % of those pixels miss the target
+/// by their stated error; else 1.
 HostImage largest_factors(const ReferenceState& state);

@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
-/// Draws an index with probability proportional to its weight in constant time (Walker 1977; Vose 1991). The unused
-/// part of the random number is handed back, so that one number both chooses a light and places a point on it: a
-/// separate number for the choice would cost most of what a low-discrepancy sequence gains.
+/// Draws an index with probability proportional to its weight in constant time (Walker 1977; Vose 1991). Returns the
+/// unused part of the random number, so that one number chooses a light and places a point on it. A separate number for
+/// the choice would lose most of the gain of a low-discrepancy sequence.
 class AliasTable {
 public:
     AliasTable() = default;

@@ -1,8 +1,8 @@
 #pragma once
 #include <xmmintrin.h>
 
-/// Denormals count as zero while it lives: Embree recommends it, and arithmetic on them is slow. The mode belongs to a
-/// thread.
+/// Makes denormals count as zero in this thread while it lives. Embree recommends it, and arithmetic on denormals is
+/// slow.
 class FlushDenormals {
 public:
     FlushDenormals() { _mm_setcsr(before_ | 0x8040); }  // FTZ and DAZ

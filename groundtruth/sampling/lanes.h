@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-/// Paths are advanced side by side: the rays of all lanes are traced one after the other, which lets the processor
-/// begin one while it waits for another, and the arithmetic of all lanes is written as plain loops over them, which the
+/// Paths advance side by side, one per lane. The rays of all lanes are traced one after the other, so that the
+/// processor can begin one while it waits for another. Arithmetic is written as loops over all lanes, which the
 /// compiler turns into vector instructions. Such loops are marked FOR_EACH_LANE and hold no calls, no early exits and
 /// no stores in branches.
 inline constexpr int lane_count = 16;

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
-/// What is learnt of a scene is kept in cells: cubes over the scene's bounds, times the six directions that a normal
-/// may be nearest to. Around them lie coarser cells, for where little was seen.
+/// The cells for values that are learnt of a scene: cubes over the scene's bounds, times the six directions nearest to
+/// the normal. Coarser cells around them serve where little was observed.
 struct LearningGrid {
     LearningGrid() = default;
     /// `low`, `high`: bounds of the scene (m), not in one point.
@@ -17,7 +17,7 @@ struct LearningGrid {
 
     size_t size() const { return size_t(extent_[0]) * extent_[1] * extent_[2] * 6; }
 
-    /// The cell of a point (m) with a unit normal; of points outside the nearest.
+    /// The cell of a point (m) with a unit normal; the nearest one for points outside.
     size_t index(vec3 position, vec3 normal) const {
         size_t cube = 0;
         int axis = 0;
@@ -30,7 +30,7 @@ struct LearningGrid {
         return cube * 6 + size_t(axis) * 2 + (normal[axis] < 0);
     }
 
-    /// The coarser cell around a cell; not above its index.
+    /// The coarser cell around a cell; its index is at most `index`.
     size_t coarse_index(size_t index) const {
         const size_t cube = index / 6;
         size_t wide = cube / extent_[2] / extent_[1] / coarse_width;

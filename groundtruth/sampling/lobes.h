@@ -14,7 +14,7 @@ enum class ReflectionModel { gltf, lambert, constant_fresnel };
 struct Lobes {
     vec3 diffuse_over_pi;
     vec3 f0, fresnel_rise;                 ///< F = f0 + fresnel_rise w, w = (1 - o.m)^5
-    float dielectric_f0, dielectric_rise;  ///< the same of Fd, which the diffuse lobe loses
+    float dielectric_f0, dielectric_rise;  ///< the same for Fd, which the diffuse lobe loses
     float alpha;
     vec3 o;                      ///< towards the viewer, local frame
     float root_o, pdf_scale;     ///< smith_root(o.z); pdf = D pdf_scale
@@ -60,9 +60,9 @@ inline Lobes make_lobes(vec3 base_color, float metalness, float roughness, float
     return lobes;
 }
 
-/// The same of a dielectric with any reflectances at normal incidence, at most 1, which `specular` scales. The code
-/// above stands apart, since what compilers share with other code they round in another way: images of scenes that need
-/// no more keep their bits.
+/// The same for a dielectric with any reflectances at normal incidence, at most 1, which `specular` scales. It is
+/// separate from the code above, which would be rounded differently if compilers shared parts: images of other scenes
+/// keep their bits.
 inline Lobes make_lobes(vec3 base_color, float metalness, float roughness, float specular, vec3 dielectric_f0, vec3 o,
                         ReflectionModel model) {
     Lobes lobes = make_lobes(base_color, metalness, roughness, specular, o, model);

@@ -59,7 +59,7 @@ struct SobolSequence {
 
     explicit SobolSequence(uint64_t seed)
         : seed_a(uint32_t(hash_bits_64(seed))), seed_b(uint32_t(hash_bits_64(seed) >> 32)) {}
-    /// That of a lane which keeps both halves apart.
+    /// The sequence of a lane, which stores both halves separately.
     SobolSequence(uint32_t seed_a, uint32_t seed_b) : seed_a(seed_a), seed_b(seed_b) {}
 
     /// 32-bit fixed-point coordinates of pair `pair` of a sample whose index has its bits reversed.
@@ -74,7 +74,7 @@ struct SobolSequence {
         const glm::uvec2 b = bits(reversed_sample, index);
         return {unit_float(b.x), unit_float(b.y)};
     }
-    /// A number that is merely random, in a stream of its own.
+    /// A plain random number in [0, 1), from a separate stream.
     float random(uint32_t reversed_sample, uint32_t index) const {
         return unit_float(hash_bits(hash_bits(reversed_sample + seed_b) ^ hash_bits(seed_a + 0xc2b2ae35u * index)));
     }

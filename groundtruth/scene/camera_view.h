@@ -1,13 +1,14 @@
 #pragma once
 #include "core/scene/camera.h"
 
-/// Which points a camera's image can show: those between its clip planes, within its borders. Its rays start at the
-/// eye, an orthographic camera's on the plane through it, as camera_ray() has them.
+/// The points that a camera's image can show: between the clip planes, within the borders. Rays start at the eye, or on
+/// the plane through it for an orthographic camera, as those of camera_ray().
 class CameraView {
 public:
     CameraView(const CameraPose& pose, glm::uvec2 extent);
 
-    /// From a point to where a camera ray towards it starts (m), world space. Branchless, for vector loops.
+    /// The vector (m, world space) from a point to the start of the camera ray towards it. Branchless, for vector
+    /// loops.
     glm::vec3 to_eye(glm::vec3 position) const {
         const glm::vec3 to_eye = eye_ - position;
         const float along_axis = glm::dot(to_eye, backward_);
@@ -19,12 +20,12 @@ public:
     float near() const { return near_; }  ///< m, along the axis
     float far() const { return far_; }
     float depth(glm::vec3 position) const { return glm::dot(eye_ - position, backward_); }  ///< m, along the axis
-    /// How much depth a unit step of this direction takes.
+    /// The depth of a unit step in this direction.
     float cosine(glm::vec3 direction) const { return -glm::dot(direction, backward_); }
 
     bool frames(glm::vec3 position) const;  ///< world space (m); hidden or not
-    /// Whether the image shows what is infinitely far along `direction`. An orthographic camera shows one direction at
-    /// most, which no sample ever has.
+    /// Whether the image shows points infinitely far along `direction`. An orthographic camera shows at most one
+    /// direction, which no sample has.
     bool frames_direction(glm::vec3 direction) const;
 
 private:

@@ -6,12 +6,11 @@
 #include <memory>
 #include <vector>
 
-/// What shading reads of a triangle, side by side so that a hit costs two cache lines. The order of the corners makes
-/// cross(p1 - p0, p2 - p0) point to the front, also under transforms of negative determinant.
+/// The data of a triangle that shading reads, in two cache lines. The order of the corners makes cross(p1 - p0, p2 -
+/// p0) point to the front, also under transforms of negative determinant.
 struct alignas(64) TriangleRecord {
     glm::vec3 position[3];
-    glm::vec3
-        normal[3];  ///< as the normal matrix leaves it: it is normalised after interpolation, as by the rasteriser
+    glm::vec3 normal[3];     ///< as the normal matrix gives it; normalised after interpolation, as in the rasteriser
     glm::vec3 front_normal;  ///< unit geometric normal
     uint32_t corner[3];      ///< vertices of the mesh, for its other attributes
 };
@@ -28,20 +27,21 @@ struct InstanceRecord {
     glm::mat3 normal_matrix{1.0f};  ///< see NormalTransform
 };
 
-/// A point on a surface in world space, from barycentrics: it is closer to the triangle than origin + t direction.
+/// A point on a surface in world space. It comes from barycentrics, which are closer to the triangle than origin + t
+/// direction.
 struct SurfacePoint {
     glm::vec3 position, error;  ///< m; `error` is the half extent of a box that holds the exact point
     glm::vec3 front_normal;     ///< unit geometric normal of the front side
     glm::vec3 normal;           ///< interpolated vertex normal, of any length
 };
 
-/// Who looks along a ray, kept in RTCRay::id: where a scene hides the backs of surfaces, a ray from a point to the eye
-/// is stopped by those that face the eye.
+/// At which end of a ray the viewer is; RTCRay::id holds it. If a scene hides backs, a ray from a point to the eye
+/// stops only at surfaces that face the eye.
 enum class Viewer : unsigned { at_origin, at_end };
 
-/// Embree's view of one frame: a mesh drawn once is baked into the top level, one drawn more often becomes a BVH of its
-/// own. Embree moves rays into an instance by the inverse of its transform: where there is none, it is baked too, and
-/// so is what joints or morph targets deform.
+/// Embree's view of one frame. A mesh drawn once is baked into the top level; a mesh drawn more often gets its own BVH.
+/// Embree moves rays into an instance by the inverse of its transform: instances without an inverse are baked, too, and
+/// so are instances that joints or morph targets deform.
 class EmbreeScene {
 public:
     /// Geometry ids are indices of Scene::instances. Fails with MachineError if Embree cannot build it.
@@ -55,7 +55,7 @@ public:
     bool has_alpha_tests() const { return has_alpha_tests_; }
     bool hides_backs() const { return hides_backs_; }  ///< of any surface
 
-    /// Of a hit. `u`, `v`: barycentrics of the second and the third corner, as Embree gives them.
+    /// The point of a hit. `u`, `v`: barycentrics of the second and the third corner, as Embree gives them.
     SurfacePoint point(uint32_t instance, uint32_t triangle, float u, float v) const;
     void prefetch(uint32_t instance, uint32_t triangle) const {
         const char* record = reinterpret_cast<const char*>(&instances_[instance].triangles[triangle]);
@@ -69,7 +69,7 @@ private:
     RTCScene scene_ = nullptr;
     std::vector<std::vector<TriangleRecord>> triangles_;  ///< of each mesh, then of each baked instance
     std::vector<InstanceRecord> instances_;
-    std::vector<std::vector<Vertex>> deformed_;  ///< of each instance that is
+    std::vector<std::vector<Vertex>> deformed_;  ///< of each deformed instance
     std::vector<std::unique_ptr<HitTest>> hit_tests_;
     bool has_alpha_tests_ = false, hides_backs_ = false;
     std::vector<RTCScene> mesh_scenes_;
@@ -83,11 +83,11 @@ private:
 /// Bound of the relative error of n float operations in a row (Higham 2002, section 3.1).
 constexpr float rounding_bound(int n) { return float(n) * 0x1p-24f / (1.0f - float(n) * 0x1p-24f); }
 
-/// By how many times its error step_back() moves a point: enough for surfaces that the ray is inclined to by more than
-/// asin(1 / step_back_errors), 7 degrees.
+/// step_back() moves a point by its error times this: enough if the ray is inclined to the surface by more than asin(1
+/// / step_back_errors), 7 degrees.
 inline constexpr float step_back_errors = 8.0f;
 
-/// Without the branches of glm::abs.
+/// glm::abs without its branches.
 inline glm::vec3 magnitude(glm::vec3 v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
 
 inline SurfacePoint EmbreeScene::point(uint32_t instance_index, uint32_t triangle, float u, float v) const {
@@ -109,10 +109,10 @@ inline glm::vec3 unit_normal(glm::vec3 normal, glm::vec3 fallback) {
             is_known ? normal.z * scale : fallback.z};
 }
 
-/// `position` stepped back along the ray that came to it, towards `view` (unit), by what its place along the surface is
-/// uncertain: the rounding errors of its barycentrics grow with the way `distance` (m) that the ray came. At a concave
-/// edge they may put it behind the other surface, from where the next ray would leave the scene; the way that the ray
-/// came is known to be free. At most half of it, which is in front of where it started.
+/// `position` stepped back along its ray, towards `view` (unit), by the uncertainty of its place along the surface. The
+/// rounding errors of its barycentrics grow with the length `distance` (m) of the ray. At a concave edge they may put
+/// it behind the other surface, from where the next ray would leave the scene; the ray's way is known to be free. The
+/// step is at most half that way.
 inline glm::vec3 step_back(glm::vec3 position, glm::vec3 error, glm::vec3 view, float distance) {
     const float step = step_back_errors * (error.x + error.y + error.z + rounding_bound(7) * distance);
     return position + view * (step < 0.5f * distance ? step : 0.5f * distance);

@@ -6,11 +6,11 @@
 
 #include <vector>
 
-/// What the path tracer knows of a point once its material is evaluated: the same quantities as a pixel of the
-/// G-buffer.
+/// A point with its evaluated material: the same quantities as a pixel of the G-buffer.
 struct ShadedPoint {
-    glm::vec3 position, error;   ///< m; see SurfacePoint
-    glm::vec3 origin;            ///< of rays that leave it, m; see step_back(): offset_origin() still has to move it
+    glm::vec3 position, error;  ///< m; see SurfacePoint
+    glm::vec3
+        origin;  ///< m; origin of rays that leave the point, from step_back(); offset_origin() still has to move it
     glm::vec3 geometric_normal;  ///< unit, on the viewer's side
     glm::vec3 normal;            ///< shading normal, of any length; see unit_normal()
     glm::vec3 base_color;
@@ -32,16 +32,16 @@ public:
     void shade(uint32_t instance, uint32_t triangle, float u, float v, glm::vec3 view, float distance,
                const Take& take) const;
 
-    /// Both ask the processor for what shade() will read of a textured surface, the second one for what the first one's
-    /// answer leads to.
+    /// Both prefetch data of a textured surface for shade(): first the corners, then the texels that the corners lead
+    /// to.
     void prefetch_corners(uint32_t instance, uint32_t triangle) const;
     void prefetch_texels(uint32_t instance, uint32_t triangle, float u, float v) const;
 
-    /// Radiance (W sr^-1 m^-2) that the material emits at barycentrics (u, v), on a side that emits; none where a mask
-    /// cuts it out.
+    /// Radiance (W sr^-1 m^-2) that the material emits at barycentrics (u, v), on a side that emits; 0 where a mask
+    /// cuts the surface out.
     glm::vec3 emission(uint32_t instance, uint32_t triangle, float u, float v) const;
 
-    /// What emission() cannot exceed but by vertex colours above 1.
+    /// The upper bound of emission(), unless vertex colours exceed 1.
     glm::vec3 greatest_emission(uint32_t material) const { return constants_[material].surface.emitted; }
 
     bool emits(uint32_t material) const { return constants_[material].emits; }
@@ -50,7 +50,7 @@ public:
     /// Whether any material has textures or vertex colours.
     bool any_varies() const { return any_varies_; }
 
-    /// Whether ShadedPoint::dielectric_f0 is ever another than 0.04.
+    /// Whether ShadedPoint::dielectric_f0 is ever different from 0.04.
     bool any_dielectric_f0() const { return any_dielectric_f0_; }
 
 private:

@@ -9,20 +9,19 @@
 /// nearest, with colours decoded from sRGB before filtering. RGBA in [0, 1], linear.
 glm::vec4 sample_texture(const Texture& texture, glm::vec2 uv);
 
-/// The textures that shading reads, copied for paths, which come from anywhere to any texel: in tiles of 4x4 texels, a
-/// cache line each (two of 16 bits), of which a bilinear lookup touches 1.6 in the mean, and 2.1 lines of rows; and in
-/// huge pages where the system gives them, for a row of 1024 texels is a page of 4 KiB.
+/// A copy of the textures that shading reads, for paths that access texels in random order. Tiles of 4x4 texels fill a
+/// cache line (two with 16 bits). A bilinear lookup touches 1.6 such lines on average, and 2.1 lines of plain rows. The
+/// copy uses huge pages if the system has them: a row of 1024 texels is a page of 4 KiB.
 class TiledTextures {
 public:
-    /// Of the textures of `scene` those of base colours, metalness and roughness, normals and emission; texels that
-    /// several show are held once. They take the memory of the scene's own, which stay: alpha masks read those. Fails
-    /// with std::bad_alloc.
+    /// Copies the scene's textures that texture_slots() lists; shared texels are copied once. The copy takes as much
+    /// memory as the scene's textures, which remain for alpha masks. Fails with std::bad_alloc.
     explicit TiledTextures(const Scene& scene);
 
-    /// sample_texture() of a texture of the scene. `texture`: its index, of one that was copied.
+    /// sample_texture() of a copied texture. `texture`: its index in the scene.
     glm::vec4 sample(int texture, glm::vec2 uv) const;
 
-    /// Asks the processor for the texels that sample() will read.
+    /// Prefetches the texels that sample() will read.
     void prefetch(int texture, glm::vec2 uv) const;
 
 private:
@@ -36,7 +35,7 @@ private:
         bool is_srgb, is_nearest;
         const uint32_t* texels = nullptr;  ///< tile after tile, each row by row
 
-        /// Of a texel among all: in `texels`, times `words`.
+        /// Index of a texel; times `words` an index into `texels`.
         size_t index(int x, int y) const {
             const unsigned column = unsigned(x), row = unsigned(y);
             const size_t tile = size_t(row / tile_side) * tiles_in_row + column / tile_side;

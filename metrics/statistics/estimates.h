@@ -29,43 +29,43 @@ Jackknifed jackknifed_mean(std::span<const double> values);
 struct RatioEstimate {
     double value;
     std::optional<double> low, high;  ///< 95 % interval
-    std::optional<double> p_value;    ///< two-sided, of "the ratio is 1": below 0.05 where the interval excludes 1
+    std::optional<double> p_value;    ///< two-sided, for "the ratio is 1"; below 0.05 where the interval excludes 1
     // Of ln(value), where there is an interval:
     double standard_error = 0, degrees = 1;   ///< of Student's t
-    double excess_of_a = 0, excess_of_b = 0;  ///< by which either end is extended, in logarithms
+    double excess_of_a = 0, excess_of_b = 0;  ///< extensions of the two ends, in logarithms
 
-    /// The interval of another probability of error than 0.05, in (0, 1): it excludes 1 where p_value is below
-    /// `error`. Only where there is one at 0.05.
+    /// The interval with `error` in (0, 1) as the probability of error; it excludes 1 where p_value is below `error`.
+    /// Call it only if `low` and `high` are known.
     std::pair<double, double> interval(double error) const;
 
-    /// Of "the ratio is not between 1 / (1 + margin) and 1 + margin": the larger p of two one-sided tests (Schuirmann
-    /// 1987, "A Comparison of the Two One-Sided Tests Procedure and the Power Approach"). Only where there is an
-    /// interval; `margin` is above 0.
+    /// The p-value of "the ratio is not between 1 / (1 + margin) and 1 + margin": the larger p of two one-sided tests
+    /// (Schuirmann 1987, "A Comparison of the Two One-Sided Tests Procedure and the Power Approach"). Call it only if
+    /// `low` and `high` are known; `margin` is above 0.
     double p_beyond(double margin) const;
 };
 
-/// The larger p of two one-sided tests of "`value` is not between -limit and limit", Student's t with `degrees`; `down`
-/// and `up`: by which a bias may reach further to either side.
+/// The larger p of two one-sided tests of "`value` is not between -limit and limit", Student's t with `degrees`.
+/// `down`, `up`: how much further a bias may reach to either side.
 double p_beyond_limits(double value, double limit, double standard_error, double degrees, double down = 0,
                        double up = 0);
 
-/// Uncertainty of ln(a / b) in addition to the scatter of the seeds, and independent of it: its variance with its
-/// degrees of freedom, and the shares of themselves by which a and b may be too large, below 1.
+/// Uncertainty of ln(a / b) beside the scatter of the seeds, and independent of it: a variance with its degrees of
+/// freedom. `excess_of_a`, `excess_of_b`: shares by which a and b may be too large, below 1.
 struct SharedScatter {
     double variance = 0, degrees = 1;
     double excess_of_a = 0, excess_of_b = 0;
 };
 
-/// a / b, both estimated from the same N seeds, so that common random numbers cancel. The interval is the jackknife's
-/// of ln(a / b) with Student's t of N - 1 degrees (Tukey 1958, "Bias and Confidence in Not-Quite Large Samples"; Miller
-/// 1974, "The Jackknife - A Review"). None for a single seed, and where an estimate without one of the seeds is not
-/// above 0 or the interval is unbounded. `shared` is added: variances add up, with Satterthwaite's degrees of freedom
-/// (1946, "An Approximate Distribution of Estimates of Variance Components"). Two single values, whose `without` are
-/// empty, have the interval of `shared` alone, if any. A possible excess of a or b extends the interval on its side,
-/// and p is that of the difference which the excess does not explain. Fails if a or b is not above 0, or if they have
-/// unequal numbers of seeds. metrics/README.md has the measured coverage.
+/// a / b, both estimated from the same N seeds, so that common random numbers cancel. The interval is that of a
+/// jackknife of ln(a / b) with Student's t of N - 1 degrees (Tukey 1958, "Bias and Confidence in Not-Quite Large
+/// Samples"; Miller 1974, "The Jackknife - A Review"). There is none for a single seed, if an estimate without one seed
+/// is not above 0, or if the interval is unbounded. The variance of `shared` is added, with Satterthwaite's degrees of
+/// freedom (1946, "An Approximate Distribution of Estimates of Variance Components"). Two single values, whose
+/// `without` are empty, have the interval of `shared` alone, if any. An excess of a or b extends the interval on one
+/// side, and p tests the difference that no excess explains. Fails if a or b is not above 0, or if they have unequal
+/// numbers of seeds. metrics/coverage.md has the measured coverage.
 RatioEstimate jackknifed_ratio(const Jackknifed& a, const Jackknifed& b, const SharedScatter& shared = {});
 
 /// p-values adjusted for their number, in the order given (Holm 1979, "A Simple Sequentially Rejective Multiple Test
-/// Procedure"). `others`: members of their family that stay undecided, whatever these say.
+/// Procedure"). `others`: number of further members of the family, which stay undecided.
 std::vector<double> holm_adjusted(std::span<const double> p_values, size_t others = 0);

@@ -12,5 +12,6 @@ double chi_squared_quantile(double probability, double degrees);
 /// quadrature.
 double studentised_range_tail(double range, size_t count, double degrees);
 
-/// Of (normal + noncentrality) / sqrt(chi squared / degrees): Student's t where the mean is not 0, in standard errors.
+/// Distribution of (normal + noncentrality) / sqrt(chi squared / degrees): Student's t with a mean of `noncentrality`
+/// standard errors.
 double noncentral_t_cdf(double t, double degrees, double noncentrality);

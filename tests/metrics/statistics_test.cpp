@@ -152,7 +152,7 @@ TEST(Statistics, IntervalOfTheRatioCoversIt) {
     };
     const auto heavy = [&] { return std::pair(1.5 * std::exp(normal(random)), std::exp(normal(random))); };
     const auto one_heavy = [&] { return std::pair(1.5 * std::exp(normal(random) - 0.5), 1 + 0.05 * normal(random)); };
-    // metrics/README.md has the long-run figures. 2000 studies scatter by 0.5 to 0.7 % (binomial); four of that
+    // metrics/coverage.md has the long-run figures. 2000 studies scatter by 0.5 to 0.7 % (binomial); four of that
     // fail falsely once in 16000, so less than once in 1700 for the nine together.
     for (const size_t seeds : {4, 8, 16}) {
         EXPECT_NEAR(coverage(seeds, 1.5, similar), 0.95, 0.020) << seeds;

@@ -276,7 +276,7 @@ TEST_F(Meshopt, RefusesWhatDoesNotFitAndTakesTheFallback) {
     writer.json.erase("extensionsRequired");
     const Scene scene = load_compressed();
     EXPECT_EQ(scene.meshes.at(0).vertices.at(80).position, positions[80]);
-    EXPECT_TRUE(mentions(scene.warnings, "buffer view 0 cannot be decoded; what the file has in its place is shown"));
+    EXPECT_TRUE(mentions(scene.warnings, "buffer view 0 cannot be decoded; the file's fallback is shown"));
 }
 
 TEST_F(Draco, DecodesBothMethods) {

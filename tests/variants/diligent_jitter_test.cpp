@@ -1,5 +1,5 @@
 // What half a pixel of jitter costs the reflection of a mirror floor, by the size of the scene: the figures of
-// variants/diligent_ssr/README.md.
+// variants/diligent_ssr/document.md.
 #include "tests/variants/diligent_hits.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Whether a pixel traces a ray, takes that of a neighbour in its 2x2 quad, or needs none.
+// Whether a pixel traces a ray, takes the ray of a neighbour in its 2x2 quad, or needs none.
 #ifndef AMD_SSSR_CLASSIFICATION_GLSL
 #define AMD_SSSR_CLASSIFICATION_GLSL
 #include "amd_sssr/lists.glsl"

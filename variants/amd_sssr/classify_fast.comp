@@ -1,6 +1,6 @@
-// The classification with the output of classify.comp: a thread classifies a tile, since on a CPU barriers and shared
-// memory cost more than the pixels themselves. Rays are listed tile by tile. Quads are not unrolled, which took a second
-// more to compile.
+// The classification, with the same output as classify.comp. A thread classifies a tile: on a CPU, barriers and shared
+// memory cost more than the pixels. Rays are listed tile by tile. Quads are not unrolled: that would take a second more
+// to compile.
 #extension GL_EXT_control_flow_attributes : require
 #include "amd_sssr/classification.glsl"
 

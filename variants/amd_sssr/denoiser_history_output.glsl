@@ -1,4 +1,4 @@
-// What the reprojection writes, and how pixels count in the averages of 8x8 tiles.
+// The output of the reprojection, and the weights of pixels in the averages of 8x8 tiles.
 #ifndef AMD_SSSR_DENOISER_HISTORY_OUTPUT_GLSL
 #define AMD_SSSR_DENOISER_HISTORY_OUTPUT_GLSL
 #include "amd_sssr/denoiser_history.glsl"

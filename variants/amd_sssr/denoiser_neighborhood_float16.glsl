@@ -1,8 +1,8 @@
-// Moments of the 9x9 pixels in shared memory around one, summed in half floats, of which GPUs take two at a time: of
-// differences from the pixel, so that neither its brightness nor the rounding of squares of nearly the same colours
-// matters. Weights are an eighth: squares of differences above 145 are no halves, and variance is infinite there, so that
-// history is not clipped. Squares of differences below 0.15 may be denormals. Where a device keeps those, variance is off
-// by less than the square of the 0.001 that clip_to_box() adds; where it flushes them, which it may, it is too small.
+// Moments of the 9x9 pixels in shared memory around one, summed in half floats, of which GPUs take two at a time.
+// Differences from the pixel are summed: its brightness, and rounding of squares of nearly equal colours, then do not
+// matter. Weights are an eighth. Squares of differences above 145 overflow halves: variance is then infinite, and
+// history is not clipped. Squares of differences below 0.15 may be denormals. If a device keeps denormals, variance is
+// off by less than the square of the 0.001 that clip_to_box() adds. If it flushes them, variance is too small.
 #ifndef AMD_SSSR_DENOISER_NEIGHBORHOOD_FLOAT16_GLSL
 #define AMD_SSSR_DENOISER_NEIGHBORHOOD_FLOAT16_GLSL
 #extension GL_EXT_shader_explicit_arithmetic_types_float16 : require

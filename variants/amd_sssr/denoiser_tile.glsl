@@ -1,4 +1,4 @@
-// The tile of 8x8 pixels that is denoised at once, and what all passes ask of a pixel.
+// The tile of 8x8 pixels that is denoised at once, and the data of a pixel that all passes need.
 #ifndef AMD_SSSR_DENOISER_TILE_GLSL
 #define AMD_SSSR_DENOISER_TILE_GLSL
 #include "amd_sssr/lists.glsl"

@@ -1,4 +1,4 @@
-// What classification hands to the passes after it; see AmdWork in passes.h.
+// What classification hands to the later passes; see the buffers in technique.json.
 #ifndef AMD_SSSR_LISTS_GLSL
 #define AMD_SSSR_LISTS_GLSL
 #include "amd_sssr/mirror.h"

@@ -1,6 +1,6 @@
-// The prefilter with the output of prefilter.comp, from strips of pixels. Normals and variances are shared, since making
-// halves of them costs more than sharing them; all else is fetched, once for all pixels of a strip that look at the same
-// neighbour. With float_histories there are no halves to be made, and nothing is shared.
+// The prefilter, with the same output as prefilter.comp, from strips of pixels. Normals and variances are shared, since
+// converting them to halves costs more than sharing. All else is fetched once for all pixels of a strip that look at
+// the same neighbour. With float_histories there is no conversion, and nothing is shared.
 #extension GL_EXT_control_flow_attributes : require
 #include "amd_sssr/denoiser_prefilter.glsl"
 #include "amd_sssr/denoiser_strip.glsl"

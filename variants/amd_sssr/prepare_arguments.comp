@@ -1,4 +1,4 @@
-// Numbers of groups for the passes that work through the lists.
+// Writes the numbers of groups for the passes that work through the lists.
 #include "amd_sssr/lists.glsl"
 #include "common/indirect_groups.glsl"
 

@@ -1,4 +1,4 @@
-// The reprojection with the output of reproject.comp, from strips of pixels.
+// The reprojection, with the same output as reproject.comp, from strips of pixels.
 #include "amd_sssr/denoiser_history_output.glsl"
 #include "amd_sssr/denoiser_shared_average.glsl"
 #include "amd_sssr/denoiser_strip_moments.glsl"

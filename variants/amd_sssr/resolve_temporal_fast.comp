@@ -1,4 +1,4 @@
-// The temporal resolve with the output of resolve_temporal.comp, from strips of pixels.
+// The temporal resolve, with the same output as resolve_temporal.comp, from strips of pixels.
 #include "amd_sssr/denoiser_average_lookup.glsl"
 #include "amd_sssr/denoiser_resolve.glsl"
 #include "amd_sssr/denoiser_strip_moments.glsl"

@@ -10,17 +10,17 @@ struct NamedCondition;
 /// The facts as conditions name them, `shot.max_roughness`.
 nlohmann::json facts_by_name(const SceneFacts& facts);
 
-/// What conditions can ask for: values of parameters, facts of the shot that is rendered (facts_by_name()),
-/// whether the device takes the forms of shaders for GPUs (`device.is_gpu`), and conditions with a name.
+/// The values that conditions can use: parameters, facts of the rendered shot (facts_by_name()), whether the device
+/// takes GPU forms of shaders (`device.is_gpu`), and named conditions.
 class KnownValues {
 public:
-    /// Nothing is known of the shot: it may show anything.
+    /// The shot is unknown: it may show anything.
     explicit KnownValues(const ParameterSet& params);
     KnownValues(const ParameterSet& params, const std::optional<SceneFacts>& facts);
 
     const nlohmann::json& by_name() const { return values_; }
     void set(const std::string& name, nlohmann::json value) { values_[name] = std::move(value); }
-    /// Sets each named condition by the values that there are.
+    /// Sets each named condition from the known values.
     void derive(const std::vector<NamedCondition>& conditions);
 
     bool knows_shot() const { return knows_shot_; }
@@ -31,22 +31,22 @@ private:
     bool knows_shot_ = false;
 };
 
-/// A condition of a technique.json, {"mode": ["stochastic", "temporal"], "blur_width": {"above": 0}}: all of its
-/// members hold (core/value_condition.h). Of an array of them any holds. A limit may be the name of a parameter of
-/// numbers: {"shot.min_roughness": {"at_least": "rough_from"}}.
+/// A condition of a technique.json, {"mode": ["stochastic", "temporal"], "blur_width": {"above": 0}}: holds if all its
+/// members hold (core/value_condition.h). An array of conditions holds if one of them does. A limit may be the name of
+/// a numeric parameter: {"shot.min_roughness": {"at_least": "rough_from"}}.
 class Condition {
 public:
-    Condition() = default;  ///< that always holds
-    /// A member of `object`; without one it always holds. Fails where it names no known value, or compares it with what
-    /// it cannot be.
+    Condition() = default;  ///< always holds
+    /// The condition under `key` of `object`; always holds without the key. Fails if it names an unknown value, or
+    /// compares a value with something that it cannot be.
     Condition(JsonObject& object, const std::string& key, const KnownValues& known);
     static Condition never();
-    /// The same of a member that may also be true or false, and is false where it is not there.
+    /// The same for a member that may also be true or false; false without the key.
     static Condition or_truth(JsonObject& object, const std::string& key, const KnownValues& known);
 
     bool holds(const KnownValues& known) const;
     bool is_always() const { return any_.empty() && !is_never_; }
-    /// Objects of members, of which one must hold.
+    /// The objects of members, one of which must hold.
     const nlohmann::json& alternatives() const { return any_; }
     /// "shot.max_roughness is 0": the first member that does not hold, and the value.
     std::string failing_member(const KnownValues& known) const;
@@ -56,7 +56,7 @@ private:
     bool is_never_ = false;
 };
 
-/// Of `conditions`: what others call by its name, as if it were a parameter that is true or false.
+/// An entry of `conditions`: other conditions use its name like a parameter that is true or false.
 struct NamedCondition {
     std::string name;
     Condition condition;

@@ -2,17 +2,17 @@
 #define COMMON_GGX_LOBE_H
 #include "core/shared/brdf.h"
 
-// Directions of a GGX lobe whose tail is cut off: `bias` in [0, 1) is the share of it that goes, and what is left is
-// drawn with the density of the whole lobe over 1 - bias. Stachowiak and Uludag 2015, "Stochastic Screen-Space
-// Reflections", pull a random number towards the peak (0.7); which number that is depends on the mapping. Local frame
-// as in core/shared/brdf.h; o: towards the viewer, unit, o.z > 0.
+// Directions of a GGX lobe without its tail. `bias` in [0, 1) is the share that is cut off; the rest is drawn with the
+// density of the whole lobe over 1 - bias. Stachowiak and Uludag 2015, "Stochastic Screen-Space Reflections", pull a
+// random number towards the peak (0.7); which number that is depends on the mapping. Local frame as in
+// core/shared/brdf.h; o: towards the viewer, unit, o.z > 0.
 
-/// Which distribution half vectors are drawn from.
+/// The distribution of half vectors.
 const uint lobe_of_normals = 0u;
 const uint lobe_of_visible_normals = 1u;
 
-/// A normal (unit) with tan^2 = alpha^2 u.x / (1 - u.x) (Walter et al. 2007, eq. 35), of which u.x < 1 - bias are left:
-/// the cone about +z with tan = alpha sqrt((1 - bias) / bias). u in [0, 1)^2.
+/// A normal (unit) with tan^2 = alpha^2 u.x / (1 - u.x) (Walter et al. 2007, eq. 35), restricted to u.x < 1 - bias: the
+/// cone about +z with tan = alpha sqrt((1 - bias) / bias). u in [0, 1)^2.
 SHARED vec3 sample_truncated_normal(float alpha, float bias, vec2 u) {
     float share = (1.0f - bias) * u.x;
     float tangent = alpha * sqrt(share / (1.0f - share));
@@ -23,10 +23,10 @@ SHARED vec3 sample_truncated_normal(float alpha, float bias, vec2 u) {
 /// Where the normal +z, which mirrors o, lies on the unit disk of sample_truncated_visible_normal(). v: o stretched.
 SHARED vec2 mirror_on_disk(vec3 v) { return vec2(-v.x, -v.y) / (1.0f + v.z); }
 
-/// A visible normal (unit). A point of the unit disk is a point of the spherical cap of Dupuy and Benyoub 2023,
-/// "Sampling Visible GGX Normals with Spherical Caps", by the map that keeps areas. Drawing the disk together by sqrt(1
-/// - bias) towards +z's place on it leaves a disk of 1 - bias of its area, which holds +z for every bias and view;
-/// about the centre of the disk, oblique views would lose their peak. u in [0, 1)^2.
+/// A visible normal (unit). The area-preserving map takes the unit disk to the spherical cap of Dupuy and Benyoub 2023,
+/// "Sampling Visible GGX Normals with Spherical Caps". Shrinking the disk by sqrt(1 - bias) towards the place of +z
+/// leaves 1 - bias of its area, with +z inside for every bias and view. Shrunk towards its centre, oblique views would
+/// lose their peak. u in [0, 1)^2.
 SHARED vec3 sample_truncated_visible_normal(vec3 o, float alpha, float bias, vec2 u) {
     vec3 v = normalize(vec3(alpha * o.x, alpha * o.y, o.z));
     vec2 p = mix(mirror_on_disk(v), sqrt(u.x) * unit_circle(u.y), sqrt(1.0f - bias));
@@ -43,8 +43,8 @@ SHARED float density_of_reflection(uint lobe, vec3 o, vec3 m, float alpha) {
     return distribution * m.z / (4.0f * max(abs(dot(o, m)), 1e-7f));
 }
 
-/// Density (sr^-1) of the direction i, unit, in the whole lobe. Over all directions it integrates to 1: those below the
-/// horizon have a density, too.
+/// Density (sr^-1) of the unit direction i in the whole lobe. It integrates to 1 over all directions, also those below
+/// the horizon.
 SHARED float lobe_density(uint lobe, vec3 o, vec3 i, float alpha) {
     vec3 sum = o + i;
     if (dot(sum, sum) < 1e-12f) return 0.0f;  // straight on through the surface

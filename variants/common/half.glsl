@@ -1,5 +1,5 @@
-// Numbers for targets of 16 bits. What a device stores of one above the largest half is up to it: that half, as on the
-// device that the original was recorded on; infinity; or, as SwiftShader, not a number, which then spreads by the filters.
+// Numbers for targets of 16 bits. Devices differ in what they store for a number above the largest half. The original's
+// device stored the largest half; others store infinity; SwiftShader stores NaN, which filters then spread.
 #ifndef COMMON_HALF_GLSL
 #define COMMON_HALF_GLSL
 

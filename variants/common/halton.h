@@ -2,7 +2,7 @@
 #define COMMON_HALTON_H
 #include "core/shared/language.h"
 
-/// Four words that look random for each four given: Jarzynski and Olano 2020, "Hash Functions for GPU Rendering", JCGT
+/// Four random-looking words for each four given: Jarzynski and Olano 2020, "Hash Functions for GPU Rendering", JCGT
 /// 9(3), pcg4d.
 SHARED uvec4 pcg4d(uvec4 v) {
     v = v * 1664525u + 1013904223u;
@@ -28,18 +28,17 @@ SHARED float radical_inverse(uint index, uint base) {
     return min(inverse, 0.99999994f);  // the largest float below 1, to which sums of many digits round
 }
 
-/// A point of [0, 1)^2 for every key, as if drawn at random: pcg4d's first two words, of which float32 takes 24 bits.
+/// A point of [0, 1)^2 for every key, as if drawn at random: the upper 24 bits of pcg4d's first two words.
 SHARED vec2 random_point(uvec4 key) {
     uvec4 words = pcg4d(key);
     return vec2(float(words.x >> 8u), float(words.y >> 8u)) * (1.0f / 16777216.0f);
 }
 
 /// Point `index` of sequence `sequence`, in [0, 1)^2: Halton's in bases 2 and 3, rotated (Cranley and Patterson 1976)
-/// by random_point(key) and by steps that depend on `sequence`. One point of each key is uniform and independent of
-/// those of other keys; points of one key are not independent but fill the square more evenly than random ones do. So
-/// do those of its first sequences together: their rotations are Roberts' sequence (2018, "The Unreasonable
-/// Effectiveness of Quasirandom Sequences"), whose irrational steps put no point of one sequence on one of another, as
-/// steps of radical inverses would.
+/// by random_point(key) and by steps that depend on `sequence`. A point of one key is uniform and independent of points
+/// of other keys. Points of one key fill the square more evenly than random ones, and so do its first sequences
+/// together. Their rotations are Roberts' sequence (2018, "The Unreasonable Effectiveness of Quasirandom Sequences"):
+/// its irrational steps put no point of one sequence on a point of another, as radical inverses would.
 SHARED vec2 rotated_halton(uint index, uint sequence, uvec4 key) {
     vec2 steps = vec2(0.7548777f, 0.5698403f);  // 1 / p and 1 / p^2 of p^3 = p + 1
     vec2 point = random_point(key) + float(sequence) * steps;

@@ -16,7 +16,7 @@ private:
     float bias_ = 0;
 };
 
-/// Column = cosine of the viewer, row = perceptual roughness, both at texel centres (i + 0.5) / 64. Read between texels
-/// its error is below 0.01, but for views within 3 degrees of grazing, where it reaches 0.1. Made once per process for
-/// each lobe and bias: its 4096 integrals would be most of what a technique takes to start, and every seed starts one.
+/// Column = cosine of the viewer, row = perceptual roughness, both at texel centres (i + 0.5) / 64. Interpolated, its
+/// error is below 0.01, or 0.1 for views within 3 degrees of grazing. Made once per process for each lobe and bias: its
+/// 4096 integrals would dominate the start of a technique, and every seed starts one.
 const HostImage& horizon_table(unsigned lobe, float bias);

@@ -1,5 +1,5 @@
-// Positions on the screen as marches use them: uv of the G-buffer's images, whose texels hold what the samples saw,
-// and device depth. With TAA jitter the samples lie beside the pixel centres, and so does this screen.
+// Positions on the screen as marches use them: uv of the G-buffer's images, whose texels hold the samples, and device
+// depth. With TAA jitter the samples lie beside the pixel centres, and this screen moves with them.
 #ifndef COMMON_IMAGE_SPACE_GLSL
 #define COMMON_IMAGE_SPACE_GLSL
 #include "core/shaders/view.glsl"

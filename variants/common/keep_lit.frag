@@ -1,4 +1,4 @@
-// For the next frame.
+// Keeps the lit image for the next frame.
 uniform sampler2D lit;
 layout(location = 0) out vec4 kept_lit;
 

@@ -1,4 +1,4 @@
-// How far what a pixel shows has moved since the frame before.
+// How far a pixel's surface has moved since the previous frame.
 #ifndef COMMON_MOTION_GLSL
 #define COMMON_MOTION_GLSL
 uniform sampler2D motion;

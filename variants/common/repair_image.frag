@@ -1,4 +1,5 @@
-// One image of the G-buffer without values that are not finite, depths outside of [0, 1] and directions that are not unit.
+// Copies one image of the G-buffer and repairs values that are not finite, depths outside [0, 1] and directions that
+// are not unit.
 #include "core/shaders/view.glsl"
 
 uniform sampler2D given, surface_depth;

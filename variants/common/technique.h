@@ -42,8 +42,8 @@ public:
     /// the parameters are set.
     virtual bool uses_scene_data() const { return false; }
 
-    RayProbe* ray_probe = nullptr;  ///< connects experiments with its tracers
+    RayProbe* ray_probe = nullptr;  ///< connects an experiment with the tracers
 
     ParameterSet params;
-    Limits limits = Limits::none;  ///< of the passes that render() adds; who calls it opens a LimitScope with them
+    Limits limits = Limits::none;  ///< of the passes that render() adds; its caller opens a LimitScope with them
 };

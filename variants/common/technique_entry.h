@@ -11,20 +11,21 @@ struct Preset {
     nlohmann::json parameters;
 };
 
-/// The API whose limits a technique obeys, so that it runs there. `lifted_by` holds values of parameters; each of them
-/// asks for more than the API has and lifts the limits.
+/// The API whose limits a technique obeys, so that it runs there. Each of the parameters' values in `lifted_by` needs
+/// more than the API has, and lifts the limits.
 struct TechniqueLimits {
     Limits api = Limits::none;
     nlohmann::json lifted_by = nlohmann::json::object();
 };
 
-/// The folder of a technique that its technique.json declares (variants/declared), as it was read.
+/// The folder, as read, of a technique that technique.json declares (variants/declared).
 struct TechniqueFolder {
     std::filesystem::path path;
-    bool is_ssrlabs = false;                   ///< one of variants/, else somebody's
-    std::map<std::string, std::string> files;  ///< content of those that take part, by their paths in the folder
+    bool is_ssrlabs = false;  ///< under variants/, not outside ssrlab
+    std::map<std::string, std::string>
+        files;                         ///< content of the files that the technique uses, by their paths in the folder
     std::vector<std::string> sources;  ///< ssrlab's own shaders that it names or includes, by their paths from the root
-    std::string content_hash;          ///< of what can change a pixel: neither of texts for readers nor of presets
+    std::string content_hash;          ///< of all that can change a pixel, so not of texts for readers or presets
 };
 
 /// One row of the table of techniques.
@@ -33,8 +34,8 @@ struct TechniqueEntry {
     std::vector<Preset> presets;
     TechniqueLimits limits{};
     std::function<std::unique_ptr<Technique>()> create;
-    std::shared_ptr<const TechniqueFolder> folder{};  ///< of one that a folder declares; else none
+    std::shared_ptr<const TechniqueFolder> folder{};  ///< if a folder declares the technique
 
-    /// Whether it is one of variants/, not of somebody's own folder.
+    /// Whether the technique is one of variants/.
     bool is_ssrlabs() const { return !folder || folder->is_ssrlabs; }
 };

@@ -1,4 +1,4 @@
-// Colours as luma, which weighs green twice, and two differences: orange to blue, green to violet. w stays.
+// Colours as luma, which weighs green twice, and two differences: orange to blue, green to violet. w is unchanged.
 #ifndef COMMON_YCOCG_GLSL
 #define COMMON_YCOCG_GLSL
 

@@ -1,5 +1,6 @@
-// The mean of what a pixel's own rays see, by the lobe of visible normals over their densities: of mirror rays, which
-// have none, alike. With half_resolution the rays are those of the traced pixel of the same 2x2 pixels.
+// The mean of what a pixel's own rays see, weighed by the lobe of visible normals over their densities; mirror rays
+// have no density and equal weights. With half_resolution the rays are those of the traced pixel of the same 2x2
+// pixels.
 #include "common/ggx_lobe.h"
 #include "denoisers/seen.glsl"
 

@@ -1,4 +1,4 @@
-// Where on the previous frame's images something was.
+// Places on the previous frame's images.
 #ifndef DENOISERS_PLACE_BEFORE_GLSL
 #define DENOISERS_PLACE_BEFORE_GLSL
 #include "common/mirror_ray.glsl"

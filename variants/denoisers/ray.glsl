@@ -1,4 +1,4 @@
-// What is kept of each ray: TracedRays of traced_rays.h. Needs the `camera` block, and the parameters of ray_draw.h.
+// The data of each ray: TracedRays of denoiser.h. Needs the `camera` block, and the parameters of ray_draw.json.
 #ifndef DENOISERS_RAY_GLSL
 #define DENOISERS_RAY_GLSL
 #include "denoisers/traced_pixel.glsl"

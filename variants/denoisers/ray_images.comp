@@ -1,4 +1,5 @@
-// One ray of each pixel as an image: RayImages of denoiser.h. With several rays per pixel another one every frame.
+// One ray of each pixel as images: ray_radiance and ray_direction of denoiser.h. With several rays per pixel, another
+// one every frame.
 #include "denoisers/seen.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

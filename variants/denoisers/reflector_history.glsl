@@ -1,4 +1,4 @@
-// What was reflected at a place of the frame before.
+// The reflection at a place of the previous frame.
 #ifndef DENOISERS_REFLECTOR_HISTORY_GLSL
 #define DENOISERS_REFLECTOR_HISTORY_GLSL
 #include "denoisers/place_before.glsl"

@@ -1,4 +1,4 @@
-// Whether a place of the frame before showed the same surface.
+// Whether a place of the previous frame showed the same surface.
 #ifndef DENOISERS_SAME_REFLECTOR_GLSL
 #define DENOISERS_SAME_REFLECTOR_GLSL
 #include "frostbite_sssr/previous_view.glsl"

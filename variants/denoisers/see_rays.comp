@@ -1,4 +1,4 @@
-// What each ray sees, asked once for all pixels that reuse it.
+// Finds what each ray sees, once for all pixels that reuse the ray.
 #include "denoisers/seen.glsl"
 #include "denoisers/seen_rays.glsl"
 

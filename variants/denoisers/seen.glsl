@@ -1,4 +1,4 @@
-// What a pixel's ray sees. Needs the parameters of ray_draw.h, misses and previous_frame.
+// What a pixel's ray sees. Needs the parameters of ray_draw.json, misses and previous_frame.
 #ifndef DENOISERS_SEEN_GLSL
 #define DENOISERS_SEEN_GLSL
 #include "common/mirror_ray.glsl"

@@ -1,4 +1,4 @@
-// What the two filters of the last pass share: how far they reach, over what, and what becomes of their result.
+// Shared by the two filters of the last pass: their reach, their input, and the use of their result.
 #ifndef DILIGENT_SSR_CLEANUP_GLSL
 #define DILIGENT_SSR_CLEANUP_GLSL
 #include "common/image_space.glsl"

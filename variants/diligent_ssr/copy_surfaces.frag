@@ -1,4 +1,4 @@
-// The depth of surfaces alone: of the farthest ones background is none, and stands as the near plane.
+// The depth of surfaces alone, for the farthest ones: background becomes the near plane.
 #include "core/shaders/view.glsl"
 uniform sampler2D copied;
 layout(location = 0) out float copied_depth;

@@ -1,6 +1,6 @@
-// The GGX distribution of normals as the original computes it, from a cosine in single precision: near the peak of
-// smooth surfaces it is rounded, and floored, so that core/shared/brdf.h would weight rays differently. Density of rays
-// and reuse of them take the same function, in which these errors cancel.
+// The GGX distribution of normals as the original computes it, from a cosine in single precision. Near the peak of
+// smooth surfaces it is rounded, and floored, so that core/shared/brdf.h would weigh rays differently. Density and
+// reuse of rays take this same function, so that the errors cancel.
 #ifndef DILIGENT_SSR_DISTRIBUTION_GLSL
 #define DILIGENT_SSR_DISTRIBUTION_GLSL
 #include "core/shared/brdf.h"

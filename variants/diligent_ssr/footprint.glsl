@@ -1,4 +1,4 @@
-// What a texel of an image of half the size, rounded down, stands for.
+// The pixels that a texel of an image of half the size, rounded down, stands for.
 #include "common/image_space.glsl"
 
 // Columns and rows of a texel's footprint. Those that an odd size leaves over belong to the last texel; as in the

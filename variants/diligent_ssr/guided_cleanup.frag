@@ -1,5 +1,4 @@
-// Second half of the guided filter (He et al. 2010, eq. 8): the mean of what the lines of all windows that hold the pixel
-// say of it.
+// Second half of the guided filter (He et al. 2010, eq. 8): the mean over the lines of all windows that hold the pixel.
 #include "diligent_ssr/cleanup.glsl"
 
 layout(location = 0) out vec4 reflections;

@@ -1,5 +1,5 @@
-// Keeps the blocks of 2x2 pixels, and what odd sizes leave over, whose roughest pixel is smooth enough. As in the
-// original this reads the extracted roughness, which pixels outside of the mask do not write.
+// Keeps the blocks of 2x2 pixels (smaller at the border of odd sizes) whose roughest pixel is smooth enough. As in the
+// original, this reads the extracted roughness, which pixels outside the mask do not write.
 #include "diligent_ssr/footprint.glsl"
 uniform sampler2D depth, roughness;
 

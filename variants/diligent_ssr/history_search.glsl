@@ -1,4 +1,4 @@
-// What the previous frame knew of a surface, unless something else was in front of it then: near its position, too.
+// The previous frame's result for a surface, at or near its position, unless something else was in front of it.
 #include "diligent_ssr/history_taps.glsl"
 #include "core/shaders/view.glsl"
 

@@ -1,4 +1,4 @@
-// History between its texels, as the previous frame left it.
+// Interpolates history between its texels.
 #include "core/shaders/view.glsl"
 
 uniform sampler2D previous_accumulated_radiance, previous_accumulated_variance;

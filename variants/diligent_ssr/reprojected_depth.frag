@@ -1,5 +1,4 @@
-// Device depth of the point that each pixel shows, as the previous camera saw it. Also of the background, as a point on
-// the far plane.
+// Device depth, in the previous camera, of the point that each pixel shows. Background is a point on the far plane.
 #include "common/mirror_ray.glsl"
 layout(location = 0) out float reprojected_depth;
 

@@ -1,4 +1,4 @@
-// What a neighbour's ray counts for a pixel, by the ratio estimator of Stachowiak and Uludag 2015 ("Stochastic
+// The weight of a neighbour's ray for a pixel, by the ratio estimator of Stachowiak and Uludag 2015 ("Stochastic
 // Screen-Space Reflections"): the lobe of the pixel over the density with which the neighbour drew the ray.
 #ifndef DILIGENT_SSR_REUSE_GLSL
 #define DILIGENT_SSR_REUSE_GLSL

@@ -1,5 +1,5 @@
-// Third pass of DiligentFX's denoising: blends with history, which it takes from where the surface or from where its
-// mirror image was.
+// Third pass of DiligentFX's denoising: blends with history, from the previous place of the surface or of its mirror
+// image.
 #include "diligent_ssr/history_search.glsl"
 #include "common/luminance.glsl"
 #include "common/motion.glsl"

@@ -1,2 +1,2 @@
-// The original's where history is missing: large enough for the cleanup.
+// The original's variance without history: large enough to start the cleanup.
 const float unknown_variance = 1.0;

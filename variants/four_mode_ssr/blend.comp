@@ -1,4 +1,4 @@
-// Blends each pixel with what it showed in the frame before ("Temporal Accumulation").
+// Blends each pixel with the previous frame's result ("Temporal Accumulation").
 #include "common/mirror_ray.glsl"
 #include "common/motion.glsl"
 

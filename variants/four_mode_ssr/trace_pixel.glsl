@@ -1,5 +1,5 @@
-// A pixel's rays, their colours and the fades of the composite that do not depend on them. Whoever includes this says
-// how rays march.
+// A pixel's rays, their colours, and the composite's fades that do not depend on rays. The including file decides how
+// rays march.
 #include "common/ggx_lobe.h"
 #include "common/half.glsl"
 #include "common/halton.h"

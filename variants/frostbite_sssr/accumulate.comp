@@ -1,4 +1,4 @@
-// Blends what each pixel reflects with what was reflected there in the frame before.
+// Blends each pixel's reflection with the previous frame's reflection.
 #include "common/half.glsl"
 #include "frostbite_sssr/history.glsl"
 #include "frostbite_sssr/surface.glsl"

@@ -1,5 +1,5 @@
-// Lists the rays of every traced pixel for the tracer of its roughness. The order of the lists changes from
-// run to run; each ray has a place of its own to write to, so that nothing else does.
+// Lists the rays of every traced pixel for the tracer of its roughness. The order of the lists changes from run to run,
+// but each ray writes to its own place, so results do not.
 #include "frostbite_sssr/counters.glsl"
 #include "frostbite_sssr/draw_ray.glsl"
 #include "denoisers/ray.glsl"

@@ -1,5 +1,5 @@
-// One level of the colour pyramid: each texel is the mean of the finer image over the texel's area. That of an odd number
-// of rows or columns spans two of them and parts of a third.
+// One level of the colour pyramid: each texel is the mean of the finer image over the texel's area. With an odd number
+// of rows or columns, a texel spans two of them and parts of a third.
 layout(local_size_x = 8, local_size_y = 8) in;
 
 uniform sampler2D finer;

@@ -1,5 +1,5 @@
-// How many rays each tile gets, from its probes: none if none of them hits, else the more the more they differ, or hit.
-// That hits and perceptual variance decide is published (slides), the rule is ours.
+// Decides from its probes how many rays each tile gets: none without a hit, else more rays for more difference or hits.
+// The slides say that hits and perceptual variance decide; the rule is ssrlab's.
 #include "frostbite_sssr/tile.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -1,4 +1,4 @@
-// How many rays are listed, and how the tracers go through them; see FrostbiteWork of passes.h.
+// How many rays are listed, and how the tracers go through them; see the buffers in technique.json.
 #ifndef FROSTBITE_SSSR_COUNTERS_GLSL
 #define FROSTBITE_SSSR_COUNTERS_GLSL
 

@@ -1,4 +1,4 @@
-// Where a pixel's reflection was in the frame before. Needs the parameter misses.
+// Where a pixel's reflection was in the previous frame. Needs the parameter misses.
 #ifndef FROSTBITE_SSSR_HISTORY_GLSL
 #define FROSTBITE_SSSR_HISTORY_GLSL
 #include "denoisers/reflector_history.glsl"

@@ -1,4 +1,4 @@
-// Draws that go below the horizon.
+// The share of draws that go below the horizon.
 #ifndef FROSTBITE_SSSR_HORIZON_GLSL
 #define FROSTBITE_SSSR_HORIZON_GLSL
 #include "core/shaders/gbuffer/lobe_table.glsl"

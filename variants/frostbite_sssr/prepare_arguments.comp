@@ -1,4 +1,4 @@
-// Numbers of groups for the two tracers.
+// Writes the numbers of groups for the two tracers.
 #include "common/indirect_groups.glsl"
 #include "frostbite_sssr/counters.glsl"
 

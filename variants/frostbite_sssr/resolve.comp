@@ -1,4 +1,4 @@
-// What every pixel makes of its own and its neighbours' rays.
+// Combines each pixel's own and neighbouring rays.
 #include "frostbite_sssr/estimators.glsl"
 #include "frostbite_sssr/taps.glsl"
 

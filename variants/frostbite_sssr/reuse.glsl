@@ -1,4 +1,4 @@
-// A traced ray as the pixels see it that resolve it.
+// A traced ray as seen by the pixels that reuse it.
 #ifndef FROSTBITE_SSSR_REUSE_GLSL
 #define FROSTBITE_SSSR_REUSE_GLSL
 #include "frostbite_sssr/previous_view.glsl"

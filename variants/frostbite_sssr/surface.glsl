@@ -1,4 +1,4 @@
-// What a pixel's lobe is made of.
+// The surface values that make a pixel's lobe.
 #ifndef FROSTBITE_SSSR_SURFACE_GLSL
 #define FROSTBITE_SSSR_SURFACE_GLSL
 #include "common/ggx_lobe.h"

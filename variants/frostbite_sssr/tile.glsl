@@ -1,4 +1,4 @@
-// Tiles of the classification and the blocks of pixels, a probe each, that they are made of; as in passes.h.
+// Tiles of the classification, and their blocks of pixels with one probe each.
 #ifndef FROSTBITE_SSSR_TILE_GLSL
 #define FROSTBITE_SSSR_TILE_GLSL
 

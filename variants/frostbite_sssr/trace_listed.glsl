@@ -1,4 +1,4 @@
-// A listed ray, from its draw to where it is kept. Whoever includes this says how it marches.
+// A listed ray, from its draw to its stored result. The including file decides how it marches.
 #ifndef FROSTBITE_SSSR_TRACE_LISTED_GLSL
 #define FROSTBITE_SSSR_TRACE_LISTED_GLSL
 #include "frostbite_sssr/horizon.glsl"

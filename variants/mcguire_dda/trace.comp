@@ -1,4 +1,5 @@
-// hit: uv (un-jittered screen) of the point that each pixel's mirror ray meets, its distance (m), confidence (0: none).
+// Writes `hit`: uv (un-jittered screen) of the point that each pixel's mirror ray meets, its distance (m), confidence
+// (0: no hit).
 #include "tracer"
 #include "common/halton.h"
 

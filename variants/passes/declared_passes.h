@@ -9,7 +9,7 @@
 /// in their order.
 class DeclaredPasses {
 public:
-    /// What lies outside of the declaration. Tracers: null where no pass traces.
+    /// What the declaration does not hold. `tracers`: null if no pass traces.
     struct Around {
         PassList& pass_list;
         const GBuffer& gbuffer;
@@ -18,8 +18,8 @@ public:
         RayProbe* ray_probe = nullptr;
     };
 
-    /// `params`: the pass_list's. `known`: of them and of the shot, if that is known. Images and buffers that are
-    /// `given` stand in place of the declared ones of their names. All outlive this.
+    /// `params`: the pass_list's. `known`: values of parameters and, if known, of the shot. Images and buffers in
+    /// `given` and `given_buffers` replace declared ones of their names. All references must outlive this.
     DeclaredPasses(const Declaration& declaration, const ParameterSet& params, KnownValues known, const Around& around,
                    std::map<std::string, Image> given = {}, std::map<std::string, Buffer> given_buffers = {});
 
@@ -27,7 +27,7 @@ public:
     void run(const DeclaredPass& pass);
     Reflections result();
 
-    /// Own ones, given ones and provided ones, which are made where they are first asked for.
+    /// An own, given or provided image; provided ones are made at their first use.
     Image image(const std::string& name, NoiseStage stage = NoiseStage::compute);
     const Buffer& buffer(const std::string& name) const { return buffers_.at(name); }
     const KnownValues& known() const { return known_; }
@@ -50,7 +50,7 @@ private:
     Around around_;
     std::map<std::string, Image> images_;
     std::map<std::string, Buffer> buffers_;
-    std::map<std::string, const DeclaredImage*> declared_;  ///< those that are in use
+    std::map<std::string, const DeclaredImage*> declared_;  ///< the images in use
     std::map<std::string, bool> is_cleared_;
     std::optional<Tracers::Images> pyramids_;
 };
@@ -58,12 +58,12 @@ private:
 /// The slots of the tracers that passes include.
 std::vector<std::string> slots_of(const std::vector<const DeclaredPass*>& passes);
 
-/// One way to make pyramids of depth, that a technique can choose: its stage, and what it draws with.
+/// A way to make depth pyramids that a technique can choose: its stage and its shaders.
 struct NamedPyramidMaker {
     std::string name, stage;
     std::vector<std::string> shaders;
     PyramidMaker make;
 };
 std::span<const NamedPyramidMaker> pyramid_makers();
-/// That of the technique's; the first of pyramid_makers() where it names none.
+/// The technique's maker; the first of pyramid_makers() if it names none.
 const NamedPyramidMaker& pyramid_maker(const Declaration& declaration, const KnownValues& known);

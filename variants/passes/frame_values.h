@@ -1,7 +1,7 @@
 #pragma once
 #include "variants/passes/declaration.h"
 
-/// Values of all that the conditions of a technique ask for.
+/// The values that a technique's conditions use, for one frame.
 class FrameValues {
 public:
     explicit FrameValues(KnownValues known) : known_(std::move(known)) {}
@@ -9,7 +9,7 @@ public:
     void set(const std::string& name, const nlohmann::json& value);
     void derive(const std::vector<NamedCondition>& conditions) { known_.derive(conditions); }
     const KnownValues& known() const { return known_; }
-    /// ", where mode is "hiz"": what was set to another value than it had; "" if nothing was.
+    /// The values that set() changed, as ", where mode is 'hiz'"; "" if there are none.
     std::string text() const;
 
 private:
@@ -17,6 +17,6 @@ private:
     std::map<std::string, std::string> changed_;
 };
 
-/// For each way in which the technique's conditions can hold or not one frame, the defaults first; of more than a
-/// thousand a thousand.
+/// One frame for each combination in which the technique's conditions can hold, the defaults first; of more than 1000
+/// only 1000.
 std::vector<FrameValues> representative_frames(const Declaration& declaration, const ParameterSet& params);

@@ -27,13 +27,13 @@ public:
     static std::vector<std::string> names();
     static bool has(const std::string& name);
 
-    /// The stage that makes it; "" where none does.
+    /// The stage that makes the image; "" if none does.
     static std::string stage_of(const std::string& name);
 
-    /// Whether it is of the layers of depth behind the visible surfaces (Technique::needs_depth_layers()).
+    /// Whether the image is a layer of depth behind the visible surfaces (Technique::needs_depth_layers()).
     static bool is_depth_layer(const std::string& name);
 
-    /// The image of that name, made at its first use of a frame, for a pass of `stage`. `params`: of the technique.
+    /// The image of that name, made at its first use in a frame, for a pass of `stage`. `params`: of the technique.
     Image image(PassList& pass_list, const GBuffer& gbuffer, const std::string& name, const ParameterSet& params,
                 NoiseStage stage = NoiseStage::compute);
 

@@ -8,6 +8,6 @@ inline constexpr int most_bytes = 1 << 28;
 glm::uvec2 read_size(JsonObject& object, const std::string& key);
 /// `divisor`, `round`, `margin`, `times` and `size`.
 ScreenShare read_share(JsonObject& object);
-/// One of `images`, of `buffers`.
+/// Read one entry of `images`, or of `buffers`.
 DeclaredImage read_image(JsonObject object, const KnownValues& known);
 DeclaredBuffer read_buffer(JsonObject object, const KnownValues& known);

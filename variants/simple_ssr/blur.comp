@@ -1,4 +1,4 @@
-// One axis of the mean over a square, whose size depends on the roughness of the pixel in its middle alone.
+// One axis of the mean over a square. Only the roughness of the pixel in the middle decides the square's size.
 #include "common/mirror_ray.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

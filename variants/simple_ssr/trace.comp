@@ -1,4 +1,4 @@
-// traced: the mean of what each pixel's rays hit, and the share of them that hit something, by their weights.
+// Writes `traced`: the mean of what each pixel's rays hit, and the share of rays that hit something, both weighted.
 #include "tracer"
 #include "common/motion.glsl"
 #include "simple_ssr/draw.glsl"

@@ -1,4 +1,4 @@
-// What sources of tracers take off the confidence of hits.
+// The factors by which the tracers' sources reduce the confidence of hits.
 #ifndef TRACERS_FADES_GLSL
 #define TRACERS_FADES_GLSL
 #include "tracers/trace.glsl"

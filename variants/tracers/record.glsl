@@ -1,5 +1,5 @@
-// Keeps what a tracer got and what it said, for core/ray_probe.h. The include that a pass decides (tracers.cpp) defines
-// `recorded_rays_per_pixel` before.
+// Keeps a tracer's input and result, for core/ray_probe.h. The include that a pass decides (tracers.cpp) defines
+// `recorded_rays_per_pixel` before this file.
 #ifndef TRACERS_RECORD_GLSL
 #define TRACERS_RECORD_GLSL
 #include "tracers/trace.glsl"

@@ -1,4 +1,4 @@
-// The cells of a depth pyramid that a line on the screen crosses. They are determined by integers: no rounding can put a line
+// The cells of a depth pyramid that a line on the screen crosses. Integers determine them: no rounding can put a line
 // on the wrong side of a wall.
 #ifndef TRACERS_SCREEN_CELLS_GLSL
 #define TRACERS_SCREEN_CELLS_GLSL

@@ -1,5 +1,5 @@
-// What techniques and tracers say to each other. A technique writes `#include "tracer"` and calls trace(); the pass says
-// which tracer that is (variants/tracers/tracers.h). All global names of a tracer begin with its own.
+// The interface between techniques and tracers. A technique writes `#include "tracer"` and calls trace(); the pass
+// decides the tracer (variants/tracers/tracers.h). All global names of a tracer begin with the tracer's name.
 #ifndef TRACERS_TRACE_GLSL
 #define TRACERS_TRACE_GLSL
 #include "common/image_space.glsl"

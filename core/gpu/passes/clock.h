@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-/// What can be said of a clock. On a busy machine work takes longer than it is: then its times prove nothing, for or
-/// against the clock.
+/// What a check says of a clock. Times on a busy machine prove nothing for or against the clock.
 enum class ClockVerdict { passed, failed, not_judged };
 /// As in manifest.json: "passed", "failed", "not_judged".
 const char* name_of(ClockVerdict verdict);
@@ -18,7 +17,7 @@ struct ClockCheck {
     std::vector<double> expected{1, 10, 100};
     std::vector<double> measured_ms;     ///< shortest of several, less that of the same pass without work
     std::vector<double> ratio;           ///< measured_ms over that of the largest work, times 100
-    std::optional<double> foreign_load;  ///< meanwhile, see foreign_load(); none where the system does not report it
+    std::optional<double> foreign_load;  ///< during the check, see foreign_load(); none if not reported
     unsigned attempts = 0;               ///< up to clock_attempts
     ClockVerdict verdict = ClockVerdict::not_judged;
 };
@@ -28,7 +27,7 @@ struct ClockProof {
     std::string method;          ///< "host_fence" or "gpu_timestamp"
     double empty_submit_ms = 0;  ///< what submitting no work and waiting takes: the floor of every stage on a CPU
     std::vector<ClockCheck> checks;
-    ClockVerdict verdict() const;  ///< failed if one check has, else not judged if one is not
+    ClockVerdict verdict() const;  ///< failed if a check failed, else not_judged if a check is not judged
 };
 
 /// A ratio may be off by this factor either way. A stamp that misses the work, or encloses the neighbour's, is off by
@@ -39,11 +38,11 @@ inline constexpr double clock_tolerance = 1.2;
 /// passes.
 inline constexpr unsigned clock_attempts = 3;
 
-/// The verdict on one attempt: its times pass if their ratios are those of the work. If they are not, that is the
-/// clock's fault unless others took more than disturbing_load of the machine. Sets `ratio` and `verdict` from
-/// `measured_ms`, `expected` and `foreign_load`.
+/// Judges one attempt. It passes if the ratios of its times are those of the work. Else the clock fails, unless other
+/// programs took more than disturbing_load of the machine. Sets `ratio` and `verdict` from `measured_ms`, `expected`
+/// and `foreign_load`.
 void judge(ClockCheck& check);
 
-/// Of the clock that suits the device, or of `clock`. Takes about five seconds, three times that if it has to repeat.
+/// Checks the clock that suits the device, or `clock`. Takes about 5 s, and up to 15 s if it has to repeat.
 ClockProof prove_clock(Device& device, const CpuTimesReader& cpu_times = read_cpu_times);
 ClockProof prove_clock(Device& device, Clock clock, const CpuTimesReader& cpu_times = read_cpu_times);

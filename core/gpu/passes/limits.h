@@ -9,7 +9,7 @@ class PassList;
 ///   No compute shaders, storage images or storage buffers, no meshes (their vertices lie in storage buffers).
 /// - 4 colour targets, 16 textures. Formats: the table in format.cpp.
 /// - No pass reads an image that it draws to. OpenGL ES 3.0 (section 4.4.3) allows it for mips that the texture's base
-///   and maximum level exclude; drivers have failed there, so techniques copy, and so do we.
+///   and maximum level exclude; drivers have failed there, so techniques copy.
 /// - An image is read with all its mips: there are no views of some of them.
 /// - Depth and stencil test use one image.
 ///

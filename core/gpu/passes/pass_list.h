@@ -56,25 +56,24 @@ struct Draw {
 /// Called for each added pass with its stage and the images that it writes, for PassList::download().
 using PassObserver = std::function<void(const std::string& stage, std::span<const Image> written)>;
 
-/// What a study changes about the passes of a pass_list, without their knowing. An empty function changes nothing.
+/// Changes that a study makes to passes of a pass_list, unknown to the passes. An empty function changes nothing.
 struct PassChanges {
-    /// The format in which an image is made that is asked for as `image` (histories: without their "#0" and "#1").
+    /// The format of an image that was requested as `image` (histories: without their "#0" and "#1").
     std::function<Format(const std::string& image, Format asked)> format_of;
-    /// What becomes of the shader of a compute or fragment pass; nullopt: nothing.
+    /// The change of a compute or fragment pass's shader; nullopt: none.
     std::function<std::optional<GlslChange>(const std::string& stage)> glsl_of;
 };
 
-/// A list of GPU passes, executed in the order in which they are added. Images, buffers and shader resources meet by
-/// name; the pass_list creates the images, compiles the shaders, binds, separates the passes by barriers and times each
-/// of them.
+/// A list of GPU passes, executed in the order in which they are added. Images, buffers and shader resources are
+/// matched by name. The pass_list creates images, compiles shaders, binds resources, puts barriers between passes and
+/// times each pass.
 ///
-/// Shader files hold plain GLSL without #version, bindings or locations of inputs. In front of each the pass_list puts
-/// the `camera` block, `#include` (from the project's root) and the parameters of the technique. A sampler2D, an
-/// image2D or a buffer block is bound to the image or buffer of its name; a fragment output is written to the image of
-/// its name.
+/// Shader files hold plain GLSL without #version, bindings or locations of inputs. The pass_list adds the `camera`
+/// block, `#include` (from the project's root) and the parameters of the technique. A sampler2D, an image2D or a buffer
+/// block is bound to the image or buffer of its name; a fragment output is written to the image of its name.
 class PassList {
 public:
-    /// `extent`: of images made without one. Without `clock` the one that suits the device.
+    /// `extent`: of images requested without one. Without `clock` the device decides it.
     PassList(Device& device, glm::uvec2 extent);
     PassList(Device& device, glm::uvec2 extent, Clock clock);
     ~PassList();
@@ -96,7 +95,7 @@ public:
     struct History {
         Image current, previous;  ///< named `name` and `previous_<name>`
     };
-    /// Of the pass_list's extent, or of `extent`.
+    /// Has the pass_list's extent, or `extent`.
     History history(const std::string& name, Format format);
     History history(const std::string& name, Format format, glm::uvec2 extent);
 
@@ -104,38 +103,38 @@ public:
     Pass compute(const std::string&
                      shader);  ///< "mcguire_dda/trace.comp", found under variants/, core/shaders/ or the project's root
     Pass fragment(const std::string& shader);  ///< over the whole of its outputs
-    /// Meshes one after the other, which the vertex shader places.
+    /// Draws meshes one after the other; the vertex shader places them.
     Pass draw(const std::string& vertex_shader, const std::string& fragment_shader, std::vector<Draw> draws);
 
     /// Starts a frame: forgets the times of the last one and exchanges histories. Every pass may use `camera`, `params`
     /// and `inputs` by name. `params` must outlive the frame.
     void begin_frame(const CameraData& camera, const ParameterSet& params, std::span<const Image> inputs);
 
-    /// From now to the end of the frame these specialization constants (parameters with Use::constant, or
-    /// scene_constants()) have these values in place of the parameters' own: the work that they switch off is not
-    /// compiled into the passes that follow. Replaces those of the last call.
+    /// Sets specialization constants (parameters with Use::constant, or scene_constants()) for the rest of the frame,
+    /// instead of the parameters' values. Later passes are compiled without the work that they switch off. Replaces the
+    /// constants of the last call.
     void set_constants(Constants constants);
 
-    /// From now on `observer` is called for each pass ({}: none), and images begin as zeros, so that it never sees
-    /// unwritten memory.
+    /// Calls `observer` for each later pass ({}: none). Images then begin as zeros, so that it never sees unwritten
+    /// memory.
     void observe(PassObserver observer);
 
-    /// Whether passes that are written in one form for CPUs and in another for GPUs take the latter: as the device is,
-    /// until it is set.
+    /// Whether passes with one form for CPUs and another for GPUs take the form for GPUs. The device decides until it
+    /// is set.
     bool uses_gpu_forms() const;
     void use_gpu_forms(bool uses_them);
 
-    /// Of passes and images requested from now on.
+    /// Applies to passes and images requested later.
     void set_changes(PassChanges changes);
-    /// The name by which `image` was requested; "" of another pass_list's.
+    /// The name by which `image` was requested; "" for an image of another pass_list.
     std::string asked_name(const Image& image) const;
 
-    /// In place of those that begin_frame() was given, for the passes that follow: of a part that keeps its own, whose
-    /// shaders name them without it. `params` must outlive the frame, and not change until it ends.
+    /// Replaces the parameters of begin_frame() for later passes. For parts with their own parameters, whose shaders
+    /// name them without the part's name. `params` must outlive the frame, and not change until it ends.
     void set_params(const ParameterSet& params);
     const ParameterSet& params() const;
 
-    /// In place of those that begin_frame() was given, for the passes that follow.
+    /// Replaces the inputs of begin_frame() for later passes.
     void set_inputs(std::span<const Image> inputs);
     /// Whether there is an input of that name.
     bool has_input(const std::string& name) const;
@@ -156,7 +155,7 @@ public:
     /// ms, from the first to the last command of the frame; the sum of stages on a CPU.
     double frame_milliseconds();
 
-    /// From now on `watcher` hears of all that the pass_list does (nullptr: nobody); it must outlive that.
+    /// Reports all that the pass_list does to `watcher` (nullptr: nobody), which must live as long.
     void watch(PassWatcher* watcher);
 
     Clock clock() const;
@@ -177,14 +176,15 @@ public:
     Pass& read_linear(const Image& image) { return read(image, {.is_linear = true}); }
     Pass& write(const Image& image);  ///< a storage image of a compute pass, else an output of the fragment shader
     Pass& use(const Buffer& buffer);  ///< to read or to write
-    Pass& stencil(Stencil stencil);   ///< of fragment passes and draws; none without it, and so for depth()
+    Pass& stencil(Stencil stencil);  ///< for fragment passes and draws; without it no stencil test, and without depth()
+                                     ///< no depth test
     Pass& depth(DepthTest test);
     Pass& set(const std::string& name, float value);  ///< a member of the shader's push_constant block
     Pass& set(const std::string& name, int value);
     Pass& set(const std::string& name, unsigned value);
     Pass& set(const std::string& name, glm::vec4 value);
     Pass& include(const std::string& name, std::string glsl);  ///< what `#include "name"` stands for in this pass
-    Pass& label(std::string stage);                            ///< in place of the shader's path
+    Pass& label(std::string stage);                            ///< name of the stage; else the shader's path
     const std::string& stage() const { return label_; }
 
     /// Compute: one invocation per pixel of the first written image, or of `extent`; fragment, draw: over the outputs.

@@ -10,10 +10,10 @@
 
 // The inside of PassList: pass_list.cpp makes resources, frame.cpp submits and times, pass.cpp describes and runs
 // passes, binding.cpp finds what their shaders ask for, limits.cpp refuses what an API does not have, pass_watcher.cpp
-// shows them to who watches.
+// shows passes to a watcher.
 
-// The uniform buffer: the camera block, then the blocks of parameters that a frame's passes read, one for each set of
-// them, at offsets that suit every device's alignment (256 at most).
+// The uniform buffer: the camera block, then one block for each set of parameters that a frame's passes read. Offsets
+// suit every device's alignment (256 at most).
 inline constexpr size_t params_offset = 2048, params_size = 4096, max_params_of_frame = 4;
 inline constexpr size_t uniforms_size = params_offset + max_params_of_frame * params_size;
 static_assert(sizeof(CameraData) <= params_offset);
@@ -58,7 +58,8 @@ struct PassList::Impl {
 
     /// Records the commands of a pass with a pipeline.
     using Recording = std::function<void(const vk::raii::CommandBuffer&, const Pipeline&)>;
-    /// Shows the pass to the watcher, and runs it as the watcher wants; false: it has not run, and is to run as it is.
+    /// Shows the pass to the watcher, and runs it as the watcher wants. false: the pass has not run, and must run
+    /// unchanged.
     bool run_watched(Pass& pass, ShaderChanges changes, const PipelineState& state, const std::vector<Image>& targets,
                      const std::function<glm::uvec3()>& groups, const Recording& record);
 
@@ -71,7 +72,7 @@ struct PassList::Impl {
     void run(Pass& pass, std::optional<glm::uvec3> groups, const Buffer* arguments, size_t arguments_offset);
     void check(const Pass& pass, const ShaderInterface& interface);
     void require(const Image& image, vk::FormatFeatureFlagBits feature, const char* what);
-    /// Of what the pass stores to and draws to; before its commands are recorded.
+    /// allow_use() for all that the pass stores to and draws to; call it before recording its commands.
     void allow_uses(const Pass& pass, const ShaderInterface& interface, const std::vector<Image>& targets);
     void check_limits(const Pass& pass, const Shader& shader, const std::vector<Image>& targets);
     void check_resources(const Pass& pass, const ShaderInterface& interface, const std::vector<Image>& drawn);
@@ -83,7 +84,7 @@ struct PassList::Impl {
     [[noreturn]] void fail_missing(const Pass& pass, const std::string& name);
     const Image* find_image(const Pass& pass, const Draw* draw, const std::string& name, Sampling& sampling);
     const Buffer* find_buffer(const Pass& pass, const Draw* draw, const std::string& name);
-    /// Where the block of `params` is, in the uniform buffer.
+    /// Offset of the block of `params` in the uniform buffer.
     size_t params_place() const;
     void write_params();
 };

@@ -15,36 +15,36 @@ struct PassRun {
     const ShaderIncludes& includes;
     const Constants& constants;          ///< of PassList::set_constants()
     PipelineRecipe recipe;               ///< in the form for GPUs
-    std::vector<BoundImage> samplers;    ///< all that its shader declares; of meshes those of the first
+    std::vector<BoundImage> samplers;    ///< all that its shader declares; for meshes, of the first one
     std::vector<BoundImage> images;      ///< storage images, the same
     std::vector<Buffer> buffers;         ///< the same
     std::vector<Image> targets;          ///< by location; each one mip
     glm::uvec2 area{0};                  ///< pixels of a fragment pass or of drawn meshes
-    std::function<glm::uvec3()> groups;  ///< of a compute pass; waits for the device where it decides them
+    std::function<glm::uvec3()> groups;  ///< of a compute pass; waits for the device if a buffer holds them
     DepthTest depth;                     ///< without an image: no test
     Stencil stencil;
     std::vector<std::byte> push;  ///< content of its push_constant block
-    /// Of a compute pass that ran for the watcher, where the device counts them.
+    /// Invocations of a compute pass that ran for the watcher, if the device counts them.
     std::optional<uint64_t> device_invocations;
 };
 
-/// A pipeline that runs in place of a pass's own and has one storage buffer more.
+/// A pipeline that replaces a pass's own and has one storage buffer more.
 struct InstrumentedPipeline {
     PipelineRecipe recipe;         ///< names the buffer among its resources
     std::string buffer;            ///< block name in the shader
     size_t bytes = 0;              ///< of the buffer
-    std::vector<std::byte> begin;  ///< of its content when the pass starts; zeros follow
+    std::vector<std::byte> begin;  ///< first bytes when the pass starts; zeros follow
 };
 
-/// Hears of all that changes the images of a pass_list, in its order: of clears and uploads after they were done.
-/// Watched passes give the same bits, in other times.
+/// Is told of all that changes the images of a pass_list, in order; of clears and uploads afterwards. Watched passes
+/// give the same bits, but take other times.
 class PassWatcher {
 public:
     virtual ~PassWatcher() = default;
     virtual void begin_frame() {}
-    /// What the watcher wants of the text of each compute or fragment shader; null: nothing.
+    /// The change that the watcher wants in each compute or fragment shader; null: none.
     virtual const GlslChange* glsl_change() const { return nullptr; }
-    /// Before a pass runs. Without a pipeline in return it runs as it is, and after() is not called.
+    /// Called before a pass runs. If it returns no pipeline, the pass runs unchanged and after() is not called.
     virtual std::optional<InstrumentedPipeline> before(const PassRun&) { return {}; }
     /// `content`: what the pass left in the buffer.
     virtual void after(const PassRun&, std::vector<std::byte> /*content*/) {}

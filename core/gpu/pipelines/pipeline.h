@@ -21,17 +21,18 @@ class PipelineCache {
 public:
     explicit PipelineCache(Device::Impl& gpu) : gpu_(gpu) {}
 
-    /// That of the device, shared by all graphs: compiling costs 0.1 s and more per shader.
+    /// The cache of the device, shared by all pass_lists: compiling takes 0.1 s or more per shader.
     static PipelineCache& of(Device::Impl& gpu);
 
-    /// `params`: the technique's; their declarations are part of the shader, the values of constants part of the
-    /// pipeline, the includes that the pass decides part of both. `constants` take the place of parameters' values.
+    /// `params`: the technique's. Their declarations are part of the shader, values of constants part of the pipeline,
+    /// and `includes` part of both. `constants` replace values of parameters.
     const Shader& shader(const std::string& file, const std::string& vertex_file, const ParameterSet& params,
                          const ShaderIncludes& includes, const ShaderChanges& changes = {});
-    /// Fails with Error unless the fragment shader, which shader() gave for `file`, is valid as GLSL ES 3.00.
+    /// Fails with Error unless the fragment shader is valid as GLSL ES 3.00. `shader`: the result of shader() for
+    /// `file`.
     void require_webgl2(const Shader& shader, const std::string& file, const ParameterSet& params,
                         const ShaderIncludes& includes);
-    /// What pipeline() makes one of. `shader`: what shader() gave for `file`.
+    /// The recipe of pipeline(). `shader`: the result of shader() for `file`.
     static PipelineRecipe recipe(const Shader& shader, const std::string& file, const ParameterSet& params,
                                  const Constants& constants, const PipelineState& state);
     Pipeline& pipeline(const std::string& file, const std::string& vertex_file, const ParameterSet& params,

@@ -34,8 +34,8 @@ struct PipelineState {
     std::optional<Depth> depth;
 };
 
-/// All that a driver's compiler is given for one pipeline. It belongs to no device: the one that renders makes it, and
-/// so can one that only compiles.
+/// All that a driver's compiler needs for one pipeline. It belongs to no device, so that a device that only compiles
+/// can use it, too.
 struct PipelineRecipe {
     std::vector<std::vector<unsigned>> spirv;  ///< compute: one module; else vertex and fragment
     bool is_compute = false;
@@ -46,7 +46,7 @@ struct PipelineRecipe {
     PipelineState state;                          ///< of vertex and fragment
 };
 
-/// For a file between two programs of one build: equal recipes have equal bytes.
+/// Recipes as bytes, for another program of the same build. Equal recipes have equal bytes.
 std::string bytes_of(const std::vector<PipelineRecipe>& recipes);
 /// Fails with Error if `bytes` are not those of bytes_of().
 std::vector<PipelineRecipe> recipes_of(const std::string& bytes);

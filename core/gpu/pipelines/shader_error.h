@@ -1,7 +1,7 @@
 #pragma once
 #include "core/error.h"
 
-/// What glslang says of one of ssrlab's own shaders: the only message of several lines, which is printed as it is.
+/// glslang's message about one of ssrlab's own shaders. It is the only message of several lines, and printed unchanged.
 struct ShaderError : Error {
     using Error::Error;
 };

@@ -11,14 +11,13 @@ const std::vector<std::filesystem::path>& shader_roots();
 /// Shaders by their paths in a folder.
 using ShaderTexts = std::map<std::string, std::string>;
 
-/// From now on what is called `folder`/NAME is `texts`[NAME], whatever lies under shader_roots(), and what these
-/// shaders include is looked for among them first. Replaces the texts that were given for that folder before. Of
-/// techniques that come from anywhere: what was read and judged is what is compiled, even if someone edits it
-/// meanwhile.
+/// Makes `texts`[NAME] the shader `folder`/NAME, whatever lies under shader_roots(). Includes of these shaders are
+/// looked for in `texts` first. Replaces the folder's earlier texts. For techniques from outside ssrlab: the text that
+/// was checked is compiled, even if someone edits the file meanwhile.
 void set_shader_folder(const std::string& folder, ShaderTexts texts);
 
-/// How often the texts of a shader's folder have changed: what was compiled before holds for an earlier number. 0 of
-/// shaders under shader_roots(), which are read once in a process.
+/// How often the texts of a shader's folder have changed, to recognise outdated compiled shaders. 0 for shaders under
+/// shader_roots(), which are read once per process.
 unsigned shader_version(const std::string& name);
 
 struct ShaderFile {
@@ -36,5 +35,5 @@ struct ShaderInclude {
 };
 /// "x" of a line `#include "x"`; "" of all others.
 std::string included_by(const std::string& line);
-/// All of them in a text.
+/// All includes of a text.
 std::vector<ShaderInclude> includes_of(const std::string& text);

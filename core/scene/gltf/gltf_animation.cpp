@@ -148,7 +148,7 @@ void add_animation(GltfFile& file, const std::vector<int>& node_of, const std::s
             const Target& target = targets[i][k];
             if (!target.beside.empty())
                 file.warn("Animation '" + shortened(scene.clips[i].name) + "' also moves '" + shortened(target.beside) +
-                          "', which stands still.");
+                          "', which ssrlab does not move.");
             if (target.node < 0 || !target.property()) continue;  // outside the scene that is shown
             if (target.property() == Property::weight && scene.nodes[size_t(target.node)].weights.empty()) continue;
             const auto& samplers = animations[i].samplers;

@@ -45,7 +45,7 @@ void BufferReader::read(size_t index) {
     const auto length = buffers_[index]["byteLength"].get<uint64_t>();
     if (file_.buffers[index].size() < length)
         fail(what, " has ", file_.buffers[index].size(), " bytes, fewer than its byteLength of ", length,
-             ": the file is cut, or another one than the glTF means");
+             ": the file is cut, or not the file that the glTF names");
 }
 
 std::span<const uint8_t> BufferReader::bytes_of(json& buffer, size_t index, const std::string& what) {

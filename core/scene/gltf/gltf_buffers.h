@@ -10,11 +10,11 @@ public:
     /// `root`: the whole document, whose data URIs are taken out as they are decoded.
     BufferReader(nlohmann::json& root, std::optional<std::span<const uint8_t>> binary, GltfFile& file);
 
-    /// What the buffer views show, and no other buffer. Fails with Error if a buffer is missing or shorter than its
-    /// byteLength, or if a view passes the end of its buffer.
+    /// Reads the buffers that buffer views show, and no others. Fails with Error if a buffer is missing or shorter than
+    /// its byteLength, or if a view passes the end of its buffer.
     void read_what_views_show();
 
-    /// Whether there is such a buffer, and bytes of it in the file or beside it.
+    /// Whether the buffer exists and has bytes in the file or beside it.
     bool has_data(size_t index) const;
 
     /// One buffer, if it was not read yet.

@@ -212,7 +212,7 @@ void warn_of_targets(GltfFile& file, size_t mesh, size_t primitive) {
         for (const auto& [attribute, accessor] : target)
             if (attribute.starts_with("TEXCOORD_") || attribute.starts_with("COLOR_"))
                 file.warn("The morph targets of mesh '" + shortened(source.name) + "' also move " + attribute +
-                          ", which stands still.");
+                          ", which ssrlab does not move.");
 }
 
 size_t target_count(const GltfFile& file, size_t mesh) {

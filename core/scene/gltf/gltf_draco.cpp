@@ -172,7 +172,7 @@ void decode_draco(json& root, GltfFile& file) {
             put_into(root, file, job, std::move(results[i]));
         } else if (has_fallback(root, job)) {
             file.warn("The KHR_draco_mesh_compression of mesh " + std::to_string(job.mesh) + " primitive " +
-                      std::to_string(job.primitive) + " cannot be decoded; what the file has in its place is shown.");
+                      std::to_string(job.primitive) + " cannot be decoded; the file's fallback is shown.");
         } else {
             fail(job.what, ": ", results[i].problem,
                  "; `gltf-transform copy IN.glb OUT.glb` writes a file that does without the extension");

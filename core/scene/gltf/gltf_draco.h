@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-/// Decodes the primitives that KHR_draco_mesh_compression has compressed into buffers of their own, with buffer views
-/// and accessors behind those of `root`, and makes the primitives name these. Where the data cannot be decoded, the
-/// accessors of the file are read, with a warning, if all of them have data. Else fails with Error.
+/// Decodes primitives of KHR_draco_mesh_compression into new buffers. Appends buffer views and accessors to `root`, and
+/// makes the primitives name these. If the data cannot be decoded, warns and reads the file's own accessors, if all
+/// have data. Else fails with Error.
 void decode_draco(nlohmann::json& root, GltfFile& file);

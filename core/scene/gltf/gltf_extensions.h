@@ -3,11 +3,10 @@
 
 #include <nlohmann/json.hpp>
 
-/// Fails with Error, which names the program that converts such files where there is one, if extensionsRequired has an
-/// extension that ssrlab cannot do.
+/// Fails with Error if extensionsRequired has an extension that ssrlab does not support. The message names a program
+/// that converts such files, if there is one.
 void check_required_extensions(const nlohmann::json& root, const std::string& file);
 
-/// Warns of extensions that stand in a part of the file and are passed by there, whether extensionsUsed lists them or
-/// not. Those that change nothing that ssrlab shows are not mentioned, nor are those whose part says itself what is
-/// missing.
+/// Warns of extensions in the file that ssrlab ignores, whether extensionsUsed lists them or not. Leaves out extensions
+/// that change nothing in the picture, and those whose readers warn themselves.
 void warn_of_extensions(const nlohmann::json& root, GltfFile& file);

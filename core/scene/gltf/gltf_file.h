@@ -14,25 +14,25 @@
 
 /// A property that KHR_animation_pointer moves.
 struct AnimatedProperty {
-    std::string animation, pointer;  ///< its name; a JSON pointer (RFC 6901)
+    std::string animation, pointer;  ///< name of the animation; JSON pointer (RFC 6901) to the property
 };
 
 /// A parsed glTF file. The files gltf_*.cpp turn its parts into those of a Scene.
 struct GltfFile {
     std::filesystem::path path;
-    tinygltf::Model model;  ///< whose buffers and images have no bytes: those are in `buffers` and read_image_file()
+    tinygltf::Model model;  ///< without the bytes of buffers and images, for which see `buffers` and read_image_file()
     std::vector<std::span<const uint8_t>> buffers;          ///< of model.bufferViews; empty where no view shows one
     std::vector<std::shared_ptr<const std::string>> bytes;  ///< what `buffers` point into
-    std::vector<std::array<unsigned, 2>> uv_sets;           ///< per material: n of the TEXCOORD_n that Vertex::uv are
+    std::vector<std::array<unsigned, 2>> uv_sets;           ///< per material: n of the TEXCOORD_n in Vertex::uv
     std::set<SceneWarning> warnings;
     std::vector<AnimatedProperty> animated_properties;
     MemoryShare memory = {};  ///< of the file and its buffers, until they are a Scene
 
     std::string name() const { return path.string(); }
     std::filesystem::path folder() const { return path.parent_path().empty() ? "." : path.parent_path(); }
-    /// Keeps the bytes as long as the file is there.
+    /// Keeps the bytes as long as this GltfFile lives.
     std::span<const uint8_t> keep(std::string text);
-    /// As another buffer, behind those of the file.
+    /// Adds another buffer, after those of the file.
     void add_buffer(std::string text) { buffers.push_back(keep(std::move(text))); }
     void warn(const std::string& text, int material = -1, int node = -1) { warnings.insert({text, material, node}); }
 };
@@ -44,7 +44,7 @@ GltfFile read_gltf(const std::filesystem::path& path);
 
 /// The encoded bytes of an image, from its file, data URI or buffer view.
 struct ImageFile {
-    std::string owned;  ///< those of a file or data URI
+    std::string owned;  ///< bytes of a file or data URI
     std::span<const uint8_t> bytes;
     MemoryShare memory = {};
 

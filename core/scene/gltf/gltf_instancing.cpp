@@ -33,7 +33,7 @@ bool add_mesh_copies(const GltfFile& file, const tinygltf::Node& source, const s
     const auto translations = read_copies(file, attributes, "TRANSLATION", 3, what, count);
     const auto rotations = read_copies(file, attributes, "ROTATION", 4, what, count);
     const auto scales = read_copies(file, attributes, "SCALE", 3, what, count);
-    if (!count) fail(file.name(), ": ", what, " says of no copy where it is; give TRANSLATION, ROTATION or SCALE");
+    if (!count) fail(file.name(), ": ", what, " does not place its copies; give TRANSLATION, ROTATION or SCALE");
     scene.memory.add(double(*count) * (sizeof(Node) + double(meshes.size()) * sizeof(Instance)),
                      file.name() + ": " + what + " of " + std::to_string(*count) + " copies");
     for (size_t i = 0; i < *count; ++i) {

@@ -50,7 +50,7 @@ void say_occlusion(GltfFile& file, const Scene& scene) {
     if (count == 0) return;
     if (count > 3) names += " and " + std::to_string(count - 3) + " more";
     file.warn("Occlusion textures (of " + names +
-              ") are left out: the path tracer finds what keeps light away, and direct light has none of it.");
+              ") are left out: the path tracer computes occlusion, and direct light has none.");
 }
 
 void say_image_based_light(GltfFile& file) {

@@ -146,8 +146,9 @@ void cut_blended_materials(GltfFile& file, Scene& scene, const GltfChoices& choi
         }
         material.alpha_mode = AlphaMode::mask;
         material.alpha_cutoff = 0.5f;
-        file.warn(sentence + "drawn where its alpha is at least 0.5" +
-                      (alpha.y < 0.5f ? ", which it is nowhere: nothing of it is seen." : ", as if it were a mask."),
-                  int(i));
+        file.warn(
+            sentence + "drawn where its alpha is at least 0.5" +
+                (alpha.y < 0.5f ? ", but its alpha is lower everywhere: it is invisible." : ", as if it were a mask."),
+            int(i));
     }
 }

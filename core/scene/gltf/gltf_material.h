@@ -2,7 +2,7 @@
 #include "core/scene/gltf/gltf_texture.h"
 #include "core/scene/gltf/gltf_value.h"
 
-/// A material while it is read: where from, and where to.
+/// A material while it is read: its source and its place in the scene.
 struct MaterialSource {
     GltfFile& file;
     const tinygltf::Material& gltf;
@@ -13,18 +13,18 @@ struct MaterialSource {
     /// "The material 'glass' " and the rest of the sentence.
     void warn(const std::string& rest) const { file.warn("The " + what + " " + rest, index); }
 
-    /// Of a textureInfo. `channel`: such as "base colour".
+    /// The slot of a textureInfo. `channel`: such as "base colour".
     template <class Info>
     TextureSlot slot(const Info& info, bool is_srgb, const char* channel) const {
         return textures.slot(info.index, info.texCoord, info.extensions, is_srgb,
                              std::string(channel) + " texture of " + what);
     }
-    /// Of the textureInfo that an extension has under `key`; empty if it has none.
+    /// The slot of an extension's textureInfo under `key`; empty without one.
     TextureSlot slot(const tinygltf::Value& extension, const char* key, bool is_srgb, const char* channel) const;
 };
 
-/// Reads what extensions say of the material, and says what of it is left out and changes the picture.
+/// Reads the material's extensions, and warns of ignored ones that change the picture.
 void read_material_extensions(const MaterialSource& source, Material& material);
 
-/// Textures of roughness that glTF has as glossiness: made of the file's, once these are decoded.
+/// Makes roughness textures from the file's glossiness textures, once these are decoded.
 void make_roughness_textures(const GltfFile& file, Scene& scene);

@@ -117,6 +117,6 @@ void MeshoptViews::decode(json& root, BufferReader& buffers, GltfFile& file) con
         buffers.read(buffer),
             buffers.check_view(uncompressed, file.name() + ": bufferViews[" + std::to_string(index) + "]");
         file.warn("The " + extension + " of buffer view " + std::to_string(index) +
-                  " cannot be decoded; what the file has in its place is shown.");
+                  " cannot be decoded; the file's fallback is shown.");
     }
 }

@@ -5,11 +5,11 @@
 /// compressed.
 class MeshoptViews {
 public:
-    /// Makes these views of `root` show the compressed bytes, for read_buffers().
+    /// Makes these views of `root` show the compressed bytes, for BufferReader.
     MeshoptViews(nlohmann::json& root, const std::string& file);
 
-    /// Decodes the bytes into buffers of their own, which the views then show. What cannot be decoded is taken from the
-    /// fallback that the file may have, with a warning. Fails with Error where there is none.
+    /// Decodes the bytes into new buffers, which the views then show. If bytes cannot be decoded, warns and takes the
+    /// file's fallback. Fails with Error if there is none.
     void decode(nlohmann::json& root, BufferReader& buffers, GltfFile& file) const;
 
 private:

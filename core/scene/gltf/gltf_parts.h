@@ -13,15 +13,15 @@ void add_materials(GltfFile& file, Scene& scene);
 /// meshes.
 std::vector<std::vector<unsigned>> add_meshes(GltfFile& file, Scene& scene, const GltfChoices& choices);
 
-/// The index of a variant of KHR_materials_variants, -1 for "". An Error lists those of the file if it is not among
-/// them.
+/// The index of a variant of KHR_materials_variants; -1 for "". Fails with Error, which lists the file's variants, if
+/// the name is unknown.
 int find_material_variant(const GltfFile& file, const std::string& name);
 
 /// The glTF material of a primitive under that variant; -1: the default one.
 int material_of(const tinygltf::Primitive& primitive, int variant);
 
-/// What is blended (alphaMode BLEND) becomes a mask that cuts below 0.5, the nearest to it that one layer of a G-buffer
-/// can show, unless its alpha is 1 everywhere or the choices say that it is opaque.
+/// Turns blended materials (alphaMode BLEND) into masks that cut below 0.5: a G-buffer has one layer. Materials whose
+/// alpha is 1 everywhere, or that `choices` draw opaque, become opaque.
 void cut_blended_materials(GltfFile& file, Scene& scene, const GltfChoices& choices);
 
 /// The nodes of the file's scene, parents first, with their instances, lights and cameras. Returns the index of each
@@ -33,9 +33,9 @@ std::vector<int> add_nodes(GltfFile& file, const std::vector<std::vector<unsigne
 bool add_mesh_copies(const GltfFile& file, const tinygltf::Node& source, const std::vector<unsigned>& meshes,
                      unsigned node, const std::string& what, Scene& scene);
 
-/// Warns of what changes the picture and is not read, beside materials, meshes and nodes: animated properties other
-/// than those of nodes, light of images, units of lights.
+/// Warns of ignored parts that change the picture, beside materials, meshes and nodes: animated properties other than
+/// those of nodes, light of images, units of lights.
 void say_what_is_left_out(GltfFile& file, const std::vector<int>& node_of, const Scene& scene);
 
-/// The clips, and the channels of those that are played (load_gltf.h).
+/// Adds the clips, and the channels of played clips (load_gltf.h).
 void add_animation(GltfFile& file, const std::vector<int>& node_of, const std::string& wanted, Scene& scene);

@@ -2,9 +2,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-/// Fails with Error, which names the key's path, where a key that glTF 2.0 knows has a value of another type than it
-/// says, one that it lists no such value for, or none although it must, and where the file is of another version.
-/// tinygltf takes many of these for absent. What numbers may be is checked where they are used.
+/// Fails with Error, which names the key's path, if a key of glTF 2.0 has a value of the wrong type, a value that glTF
+/// does not list, or none although it must. Also fails for another version of glTF. tinygltf takes many such values for
+/// absent. Ranges of numbers are checked where they are used.
 void check_gltf_schema(const nlohmann::json& root, const std::string& file);
 
 /// Makes numbers whose fractional part is 0 integers where glTF 2.0 has integers: they may be written 1.0 or 1e0

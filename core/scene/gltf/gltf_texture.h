@@ -11,7 +11,7 @@ class GltfTextures {
 public:
     GltfTextures(GltfFile& file, Scene& scene) : file_(file), scene_(scene) {}
 
-    /// Whether something is drawn with what is asked for from now on: slots are empty else.
+    /// Whether later requests are for something drawn; if not, slots are empty.
     void set_drawing(bool is_drawing) { is_drawing_ = is_drawing; }
 
     /// `info`: the index, texture coordinate set and extensions of a glTF textureInfo. `is_srgb`: used as colour.
@@ -19,7 +19,7 @@ public:
     TextureSlot slot(int texture, int texcoord, const tinygltf::ExtensionMap& extensions, bool is_srgb,
                      const std::string& what);
 
-    /// The same of a texture that nothing is drawn with: empty unless another use asked for it already.
+    /// The same for a texture that nothing is drawn with: empty unless another use has asked for it.
     TextureSlot slot_if_used(int texture, int texcoord, const tinygltf::ExtensionMap& extensions, bool is_srgb,
                              const std::string& what);
 
@@ -27,7 +27,7 @@ public:
     void decode();
 
 private:
-    /// The images that a texture names, the one to be shown first; the others take its place where it cannot be read.
+    /// The images that a texture names, in order of preference: the first that can be read is shown.
     using Candidates = std::vector<size_t>;
     Candidates images_of(const tinygltf::Texture& texture, const std::string& what);
 

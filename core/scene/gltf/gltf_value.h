@@ -21,6 +21,6 @@ template <int N>
 glm::vec<N, float> fixed_vector(const GltfFile& file, const std::vector<double>& values, glm::vec<N, float> fallback,
                                 const std::string& what);
 
-/// The number if it is finite and within [min, max], the limit if it is one rounding of float32 beyond it, else an
+/// The number if it is finite and within [min, max]; the limit if one rounding of float32 beyond it. Else fails with
 /// Error.
 float checked_number(const GltfFile& file, double value, double min, double max, const std::string& what);

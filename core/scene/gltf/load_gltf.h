@@ -5,12 +5,11 @@
 
 /// What a glTF file leaves to its user.
 struct GltfChoices {
-    std::string material_variant;  ///< one of KHR_materials_variants; "": the materials that the file shows without
-    bool draws_blended_opaque = false;  ///< alphaMode BLEND; else it is cut where alpha is below 0.5
-    /// One of its animations, of which unnamed ones are called "animation_0" by their index; or "all", of which the
-    /// last one counts where several move the same; or "none". If the file has none of that name, all are played where
-    /// no two move the same property of a node, since they are parts of one motion then, else the first; a warning says
-    /// which.
+    std::string material_variant;       ///< one of KHR_materials_variants; "": the file's default materials
+    bool draws_blended_opaque = false;  ///< alphaMode BLEND is opaque; else it is cut where alpha is below 0.5
+    /// Name of an animation (unnamed ones are "animation_0" by their index), "all" or "none". With "all" the last
+    /// animation counts if several move the same property. If the file has none of that name: all, as parts of one
+    /// motion, if no two move the same property of a node, else the first; a warning says which.
     std::string animation;
 
     bool operator==(const GltfChoices&) const = default;

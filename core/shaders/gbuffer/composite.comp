@@ -1,4 +1,4 @@
-// specular: by one of the formulas of core/gbuffer/composite.h; image = lit + specular.
+// Writes `specular` by a formula of core/gbuffer/composite.h, and image = lit + specular.
 #include "core/shaders/gbuffer/dielectric_f0.glsl"
 #include "core/shaders/gbuffer/pixel.glsl"
 #include "core/shaders/gbuffer/split_sum.glsl"

@@ -2,7 +2,7 @@
 // JCGT 3(2), "oct".
 vec2 folded(vec2 p) { return (1.0 - abs(p.yx)) * mix(vec2(-1.0), vec2(1.0), greaterThanEqual(p, vec2(0.0))); }
 
-// Of a unit vector, in [-1, 1]^2.
+// The place of a unit vector in [-1, 1]^2.
 vec2 octahedral_place(vec3 n) {
     vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
     return n.z < 0.0 ? folded(p) : p;

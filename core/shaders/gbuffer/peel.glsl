@@ -1,6 +1,6 @@
-// The surface behind the visible one, by a second drawing that leaves out what lies no farther (Everitt 2001,
-// "Interactive Order-Independent Transparency"). HAS_MASK compiles in alpha masks. Backs that the scene hides are not drawn
-// here, either: what ends behind one counts as a sheet.
+// The surface behind the visible one: a second drawing leaves out all that is no farther (Everitt 2001, "Interactive
+// Order-Independent Transparency"). HAS_MASK compiles in alpha masks. Backs that the scene hides are not drawn here,
+// either: objects that end there count as sheets.
 #include "core/shared/drawn_scene.h"
 
 layout(std430) readonly buffer Materials { DrawnMaterial materials[]; };

@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <nlohmann/json.hpp>
 
-/// What the values of one channel of an image are like.
+/// Statistics of one channel of an image.
 struct ChannelRange {
     float least = 0.0f, largest = 0.0f;  ///< of finite values; 0 if there are none
-    double mean = 0.0;                   ///< the same
+    double mean = 0.0;                   ///< of finite values; 0 if there are none
     size_t nan = 0, infinite = 0;        ///< values that are NaN, or +-infinity
 };
 

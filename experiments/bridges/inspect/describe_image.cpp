@@ -132,10 +132,10 @@ Description describe_codes(const fs::path& file, ImageFormat format) {
             throw;
         } catch (const Error& e) {
             notes.push_back(e.what());
-            entry["colors"] = "of no use: see the notes";
+            entry["colors"] = "cannot be used: see the notes";
         }
     if (entry["channels"][3]["least"] < 1.0)
-        notes.push_back("its alpha is not opaque: comparisons take the colours as they are stored");
+        notes.push_back("the alpha channel is not opaque; comparisons use the stored colours");
     entry["notes"] = notes;
     return entry;
 }

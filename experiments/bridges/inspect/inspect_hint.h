@@ -1,6 +1,6 @@
 #pragma once
 #include <string>
 
-/// "`ssrlab inspect a.exr` shows what ssrlab understands of the file", for the message of an Error that names an image
-/// or glTF file that is there; "" for any other.
+/// A hint for the message of an Error: "`ssrlab inspect a.exr` shows what ssrlab understands of the file". "" unless
+/// the message names an existing image or glTF file.
 std::string inspect_hint(const std::string& message);

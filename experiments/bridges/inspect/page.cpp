@@ -112,8 +112,8 @@ void add_channels(Page& page, const Description& channels) {
             if (c["nan"] > 0) row.push_back(text_of(c["nan"]) + " NaN");
             if (c["infinite"] > 0) row.push_back(text_of(c["infinite"]) + " infinite");
         }
-        if (c.contains("sampling")) row.push_back("a value for " + size_of_block(c["sampling"]) + " pixels");
-        if (c.contains("is_lossy")) row.push_back("changed by its compression");
+        if (c.contains("sampling")) row.push_back("one value for each " + size_of_block(c["sampling"]) + " pixels");
+        if (c.contains("is_lossy")) row.push_back("changed by lossy compression");
         return row;
     });
 }
@@ -232,7 +232,7 @@ void add_textures(Page& page, const Description& textures) {
     for (const auto& [kind, numbers] : kinds) {
         std::string which = "texture " + std::to_string(numbers.front());
         if (numbers.size() > 1)
-            which = std::to_string(numbers.size()) + " textures, " + std::to_string(numbers.front()) + " the first";
+            which = std::to_string(numbers.size()) + " textures, the first is " + std::to_string(numbers.front());
         rows.push_back({which, kind, page.name(textures[numbers.front()]["name"])});
     }
     page.list(
@@ -295,7 +295,7 @@ void add_scene(Page& page, const Description& d) {
                               counted(d["instances"].get<size_t>(), "instance") + " of " +
                               counted(d["meshes"].get<size_t>(), "mesh part") + ", " +
                               counted(d["nodes"].get<size_t>(), "node"));
-    page.fact("backs", text_of(d["backs_of_single_sided_surfaces"]) + ", of single-sided surfaces");
+    page.fact("backs", text_of(d["backs_of_single_sided_surfaces"]) + ", for single-sided surfaces");
     page.fact("environment", environment_text(d["environment"]));
     if (const Description& a = d["animation"]; !a.is_null())
         page.fact("animation", text_of(a["seconds"]) + " s of " + counted(a["nodes"].get<size_t>(), "node") + ": " +

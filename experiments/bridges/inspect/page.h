@@ -3,6 +3,6 @@
 
 #include <string>
 
-/// A description as text, aligned in columns, each line ended. Names that come from files are shown by shown_text().
-/// Of each list the first eight entries and a count of the others, or with `has_all` all of them.
+/// A description as text in aligned columns; each line is ended. shown_text() shows names from files. Lists show their
+/// first eight entries and a count of the others, with `has_all` all entries.
 std::string page_of(const Description& description, bool has_all);

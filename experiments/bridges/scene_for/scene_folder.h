@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-/// What another program needs to render what ssrlab's G-buffer holds (experiments/README.md, "Scenes for other
-/// programs"): geometry, materials, poses, and the light that reflections are to be computed from.
+/// The files from which another program renders what ssrlab's G-buffer holds (experiments/docs/judge.md): geometry,
+/// materials, poses, and the light that reflections show.
 
-/// Programs by what they can read.
+/// Formats that programs read.
 enum class SceneFormat {
     gltf,  ///< scene.glb, light and environment as EXR, environment also as Radiance HDR
-    raw    ///< these, and for programs that read neither: scene.meshes.json, textures as PNG, light as raw floats
+    raw    ///< those of gltf, and scene.meshes.json, textures as PNG, light as raw floats
 };
 
 struct SceneEngine {
@@ -26,12 +26,12 @@ const std::vector<SceneEngine>& scene_engines();
 struct SceneFolderSettings {
     SceneEngine engine;
     std::string scene;
-    GltfChoices choices;               ///< in place of the scene's own
+    GltfChoices choices;               ///< override the scene's own
     std::vector<std::string> cameras;  ///< empty: the scene's first
     glm::uvec2 extent{480, 270};
-    std::vector<unsigned> frames{0};  ///< ascending
-    ReferenceSettings reference;      ///< of the light
-    bool has_probe = false;  ///< a probe at the first camera takes the environment's place (reflection_probe.h)
+    std::vector<unsigned> frames{0};   ///< ascending
+    ReferenceSettings reference;       ///< settings of the light's references
+    bool has_probe = false;            ///< a probe at the first camera replaces the environment (reflection_probe.h)
     std::filesystem::path out, cache;  ///< cache: of references
     std::vector<std::filesystem::path> search_path;
     std::function<void(const std::string&)> say;                        ///< gets sentences for the user
@@ -44,6 +44,6 @@ struct SceneFolder {
     size_t rendered = 0, cached = 0;  ///< references
 };
 
-/// Writes the folder; files of other views there stay. Its light is the reference's without reflections, under the
-/// key that a study with the same samples looks for. Fails with Error where scene or camera are unknown.
+/// Writes the folder; files of other views in it stay. The light is the reference's without reflections, cached under
+/// the key of a study with the same samples. Fails with Error if scene or camera is unknown.
 SceneFolder write_scene_folder(const SceneFolderSettings& settings);

@@ -5,23 +5,26 @@
 #include <string>
 #include <vector>
 
-/// One name for each of scene.instances, of letters, digits and '_' alone, which no engine's importer changes: the
-/// node's, with a number where several would have it.
+/// A unique name for each of scene.instances: the node's name, with a number if several have it. Names have only
+/// letters, digits and '_', which no engine's importer changes.
 std::vector<std::string> instance_names(const Scene& scene);
 
-/// A camera as it stands in one frame.
+/// A camera posed in one frame.
 struct GlbCamera {
     SceneCamera lens;
     glm::mat4 world_from_camera{1.0f};
     float aspect = 1.0f;  ///< width over height
 };
 
-/// Writes what the scene draws as one binary glTF: a node for each instance (instance_names()), without parents and
-/// posed as in `pose`, with joints and morph targets applied, materials with their textures as PNG, punctual lights,
-/// and cameras. What scene.json overrides is in it. Loading it gives the same triangles, materials and matrices to the
-/// bit, but for normals (made of unit length again), emission (a factor times a strength), reflectances of dielectrics
-/// (an index of refraction) and for transforms of textures (an angle and scales), which may differ by rounding; and all
-/// materials are double-sided, as ssrlab draws them, which in ssrlab also says that backs emit. Fails as
-/// GlbFile::write().
+/// Writes what the scene draws as one binary glTF, with the overrides of scene.json:
+///
+/// - a node without parents for each instance (instance_names()), posed as in `pose`, with joints and morph targets
+///   applied
+/// - materials, with textures as PNG, all double-sided, as ssrlab draws them; in ssrlab this also means that backs emit
+/// - punctual lights and cameras
+///
+/// Loading the file gives the same triangles, materials and matrices to the bit. These exceptions may differ by
+/// rounding: normals (normalised again), emission (a factor times a strength), dielectrics' reflectances (an index of
+/// refraction), and transforms of textures (an angle and scales). Fails as GlbFile::write().
 void write_scene_glb(const std::filesystem::path& file, const Scene& scene, const ScenePose& pose,
                      const std::vector<GlbCamera>& cameras);

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-/// Floats as JSON, with the fewest digits that name them: 0.1, where the double of the same value is
+/// A float as JSON with the fewest digits that identify it: 0.1, where the double of the same value is
 /// 0.10000000149011612.
 inline nlohmann::json number_of(float value) { return std::stod(shortest_digits(value)); }
 
@@ -21,7 +21,7 @@ nlohmann::json numbers_of(const Vector& vector) {
     return numbers;
 }
 
-/// Sixteen, column by column.
+/// The sixteen numbers of a matrix, column by column.
 inline nlohmann::json matrix_numbers(const glm::mat4& matrix) {
     nlohmann::json numbers = nlohmann::json::array();
     for (int column = 0; column < 4; ++column) append_numbers(numbers, matrix[column]);

@@ -4,5 +4,5 @@
 #include <cstddef>
 #include <vector>
 
-/// The texels as they are, as the bytes of a PNG: RGB where all alpha is 255, else RGBA.
+/// The unchanged texels as the bytes of a PNG: RGB if all alpha is 255, else RGBA.
 std::vector<std::byte> texture_png(const Texture& texture);

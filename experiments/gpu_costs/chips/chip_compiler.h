@@ -6,10 +6,11 @@
 #include <filesystem>
 #include <functional>
 
-// What a GPU's compiler makes of a pipeline, without the GPU: Mesa's radv, which compiles for AMD's, makes a device
-// that only compiles where RADV_FORCE_FAMILY names a chip. Each chip is asked in processes of its own (main.cpp).
+// Compiles pipelines for a GPU that the machine does not have. If RADV_FORCE_FAMILY names a chip, Mesa's radv, the
+// driver for AMD's GPUs, makes a device that only compiles. Each chip is compiled for in processes of its own
+// (main.cpp).
 
-/// A GPU by the name that radv has for it.
+/// A GPU by its name in radv.
 struct Chip {
     std::string name;    ///< "navi21"
     std::string device;  ///< "Null hardware (RADV NAVI21)"
@@ -23,14 +24,14 @@ inline constexpr std::array default_chips = {"navi21", "gfx1100", "vega10"};
 /// radv.
 Chip find_chip(const std::string& name);
 
-/// All chips that the installed radv knows, of those that any of its versions up to Mesa 25 does; some seconds. Fails
-/// with MachineError where there is no radv.
+/// All chips that the installed radv knows, among the chips of its versions up to Mesa 25. Takes some seconds. Fails
+/// with MachineError if there is no radv.
 std::vector<Chip> known_chips();
 
 struct CompiledShader : CompilerNumbers {
     std::string stage;            ///< "compute", "vertex" or "fragment"
-    std::optional<double> waves;  ///< "Subgroups per SIMD" as stated; occupancy_of() says what a SIMD holds
-    std::string assembly;         ///< where it was asked for
+    std::optional<double> waves;  ///< "Subgroups per SIMD" as stated; occupancy_of() gives the waves of a SIMD
+    std::string assembly;         ///< set if asked for
 };
 
 struct CompiledPipeline {
@@ -39,13 +40,13 @@ struct CompiledPipeline {
 };
 
 struct ChipCompilation {
-    /// Folder of what is known already, by recipe, chip and driver, in its folder `chips`; empty: none.
+    /// Folder of earlier results, by recipe, chip and driver, in its folder `chips`; empty: none.
     std::filesystem::path cache;
     bool has_assembly = false;
     std::function<void(const std::string&)> notice;  ///< gets a sentence for the user
 };
 
-/// One result for each recipe, in as many processes as there are cores. A pipeline that ends the compiler, or on
-/// which it hangs, has a refusal, and the others their results. Fails with MachineError if a process cannot be started.
+/// Compiles each recipe, in as many processes as there are cores. A pipeline that crashes or hangs the compiler has a
+/// refusal; the others have results. Fails with MachineError if a process cannot be started.
 std::vector<CompiledPipeline> compile_for_chip(const Chip& chip, const std::vector<PipelineRecipe>& recipes,
                                                const ChipCompilation& how);

@@ -3,22 +3,23 @@
 #include <optional>
 #include <string>
 
-/// What a GPU's compiler states of one shader. What it does not state, or a newer Mesa under another name, is empty.
+/// What a GPU's compiler states about one shader. Numbers are empty if it does not state them, or if a newer Mesa uses
+/// another name.
 struct CompilerNumbers {
     unsigned lanes = 0;                                                ///< of a wave: 32 or 64
     std::optional<double> vgprs, sgprs, spilled_vgprs, spilled_sgprs;  ///< registers of a lane and of a wave
     std::optional<double> scratch_bytes;                               ///< of a wave in memory, spills included
     std::optional<double> lds_bytes;                                   ///< of a workgroup
     std::optional<double> code_bytes, instructions, branches;
-    /// The compiler's own estimate for a wave, in cycles: until it has ended, and how long it keeps the busiest unit.
-    /// Loops are taken to run 8, then 4, then 2 times by their depth, divergent branches to be taken in 3 of 4 cases.
+    /// The compiler's own estimate for a wave, in cycles: until it ends, and how long it keeps the busiest unit. It
+    /// assumes that loops run 8, 4, 2 times by depth, and that 3 of 4 divergent branches are taken.
     std::optional<double> latency, inverse_throughput;
     std::string hash;  ///< of the machine code, as the driver states it
 };
 
 struct CompilerNumber {
-    const char* name;       ///< of its column
-    const char* statistic;  ///< how Mesa's radv calls it
+    const char* name;       ///< name of the column
+    const char* statistic;  ///< name in Mesa's radv
     std::optional<double> CompilerNumbers::*member;
 };
 

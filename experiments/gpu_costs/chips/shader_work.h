@@ -2,20 +2,20 @@
 #include "experiments/gpu_costs/chips/chip_compiler.h"
 #include "experiments/gpu_costs/chips/machine_code.h"
 
-/// What a chip's code for a shader asks of it, by the blocks of the shader.
+/// The work of a chip's code for a shader, by the shader's blocks.
 struct ShaderWork {
     struct Block {
-        ChipWork work;       ///< of a wave for each run
-        ChipWork uncertain;  ///< the part of it of which runs are known at most
+        ChipWork work;       ///< of a wave, for each run
+        ChipWork uncertain;  ///< part of `work` whose number of runs is an upper bound
     };
-    std::vector<Block> blocks;  ///< as ShaderFlow::blocks
+    std::vector<Block> blocks;  ///< same indices as ShaderFlow::blocks
     unsigned lanes = 64;        ///< of a wave
-    double resident_waves = 1;  ///< that a SIMD holds at a time; 1 of a chip whose registers are not known
+    double resident_waves = 1;  ///< waves that a SIMD holds at a time; 1 if the chip's registers are unknown
 };
 
-/// Of the shader as the pass has it (`original`), simplified, and that with marks; the latter two with their assembly.
-/// What the compiler makes of the simplified shader has up to a fifth more instructions than what it makes of the
-/// original: arithmetic and latency are scaled by what it states of both, and registers are the original's. Fails with
-/// Error on assembly that cannot be read.
+/// The work of a shader from three compilations: the pass's own (`original`), simplified, and simplified with marks;
+/// the latter two have assembly. Code of the simplified shader has up to a fifth more instructions than the original's.
+/// Arithmetic and latency are therefore scaled by what the compiler states about both, and registers are the
+/// original's. Fails with Error on assembly that cannot be parsed.
 ShaderWork shader_work(const MarkedShader& marks, const CompiledShader& original, const CompiledShader& simplified,
                        const CompiledShader& marked, const std::string& chip, const ChipRates& rates);

@@ -2,8 +2,7 @@
 #include <cstddef>
 #include <vector>
 
-/// Blocks of a program, by their places, and ways from one to another. The first is where it starts; it ends where a
-/// block has no way on.
+/// Blocks of a program by index, and edges between them. Block 0 is the start; blocks without successors are ends.
 class FlowGraph {
 public:
     explicit FlowGraph(size_t blocks) : next_(blocks), previous_(blocks) {}
@@ -13,16 +12,16 @@ public:
     const std::vector<unsigned>& next(size_t block) const { return next_[block]; }
     const std::vector<unsigned>& previous(size_t block) const { return previous_[block]; }
 
-    /// Every block that can be reached, none before all that lead to it but those of loops.
+    /// All reachable blocks, each after all its predecessors except those along back edges of loops.
     std::vector<size_t> order() const;
 
 private:
     std::vector<std::vector<unsigned>> next_, previous_;
 };
 
-/// For each block the nearest other one that all ways from the start to it pass; size(): there is none.
+/// For each block the nearest other block that all paths from the start pass; size(): none.
 std::vector<unsigned> nearest_dominators(const FlowGraph& pass_list);
-/// For each block the nearest other one that all ways from it to an end pass; size(): there is none.
+/// For each block the nearest other block that all paths to an end pass; size(): none.
 std::vector<unsigned> nearest_postdominators(const FlowGraph& pass_list);
-/// For each block how many loops it is in. A loop is all that leads from a block back to it.
+/// For each block the number of loops that contain it. A loop is everything on a path from a block back to itself.
 std::vector<unsigned> loop_depths(const FlowGraph& pass_list);

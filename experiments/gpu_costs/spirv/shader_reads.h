@@ -1,12 +1,12 @@
 #pragma once
 #include "core/gpu/pipelines/pipeline_recipe.h"
 
-/// What a shader looks at.
+/// The inputs that a shader reads.
 struct ShaderReads {
     std::set<std::string> samplers;  ///< names of variables
-    std::set<unsigned> params;       ///< places among the members of the block `Params`
+    std::set<unsigned> params;       ///< indices of members of the block `Params`
 };
 
-/// Of the last stage of a pipeline with the values of its constants in place: what they switch off is not looked at.
-/// Fails with Error on a shader that cannot be written as one function.
+/// Inputs of the last stage of a pipeline with constants in place: what they switch off is not read. Fails with Error
+/// on a shader that cannot be written as one function.
 ShaderReads reads_of(const PipelineRecipe& recipe);

@@ -9,24 +9,24 @@
 #define SPV_ENABLE_UTILITY_CODE
 #include <SPIRV/spirv.hpp>
 
-// SPIR-V as its instructions, for those that change it: gpu_costs only.
+// SPIR-V as a list of instructions, for code that changes it: gpu_costs only.
 
 struct SpirvInstruction {
     spv::Op op;
     std::vector<unsigned> words;  ///< the first holds length and opcode
 
     unsigned operator[](size_t i) const { return words[i]; }
-    std::string text(size_t from) const;  ///< of a literal that begins at a word
+    std::string text(size_t from) const;  ///< the literal that begins at this word
 };
 
-/// Of an opcode and its operands.
+/// Makes an instruction from an opcode and its operands.
 SpirvInstruction spirv_instruction(spv::Op op, std::vector<unsigned> operands);
 
 inline constexpr size_t spirv_header_words = 5, spirv_bound_word = 3;
 
 std::vector<SpirvInstruction> spirv_instructions(const std::vector<unsigned>& spirv);
 
-/// What the ids of a module stand for. `instructions` must outlive it.
+/// The meaning of a module's ids. `instructions` must outlive it.
 class SpirvModule {
 public:
     using Id = unsigned;
@@ -45,13 +45,13 @@ public:
         fail("a shader lacks one of its types");
     }
 
-    /// The variable behind a pointer, a loaded image, or a part of either; none behind a parameter of a function.
+    /// The variable behind a pointer, a loaded image, or a part of either; nullopt behind a function's parameter.
     std::optional<Id> variable(Id id) const;
     spv::StorageClass storage_of(Id pointer) const { return spv::StorageClass(type_of(pointer)[2]); }
-    /// What the shader calls an image's variable or a buffer's block; fails with Error where that is not known.
+    /// The shader's name of an image's variable or a buffer's block. Fails with Error if unknown.
     std::string resource(Id id) const;
     unsigned components(Id type) const;
-    unsigned size(Id type) const;  ///< bytes of a value; those of padding are none
+    unsigned size(Id type) const;  ///< bytes of a value, without padding
     /// Scalar operations of an instruction; see count_in() in counted_shader.h.
     unsigned operations(const SpirvInstruction& i) const;
 
@@ -60,12 +60,12 @@ private:
     std::map<Id, const SpirvInstruction*> definitions_;
 };
 
-/// Whether an instruction reads an image: with the sampler's filter, four texels at a time, or one as it is.
+/// Whether an instruction reads an image: through the sampler's filter, four texels at a time, or single texels.
 bool is_sample(spv::Op op);
 bool is_gather(spv::Op op);
 bool is_texel_fetch(spv::Op op);
 bool is_atomic(spv::Op op);
 
-/// Whether the module is a fragment shader whose tests of depth and stencil can come first: one without a discard and
-/// without a depth of its own.
+/// Whether the module is a fragment shader that can be tested for depth and stencil first: it has no discard and no
+/// depth of its own.
 bool is_tested_early(const std::vector<SpirvInstruction>& instructions);

@@ -2,12 +2,12 @@
 #include "core/gpu/passes/pass_watcher.h"
 #include "experiments/gpu_costs/waves/traced_shader.h"
 
-/// Lets the passes of a pass_list write down what their lanes decide. Passes take the forms that
-/// PassList::use_gpu_forms() says.
+/// Makes the passes of a pass list record the decisions of their lanes. Passes take the forms of
+/// PassList::use_gpu_forms().
 class PassTracer : public PassWatcher {
 public:
     using Observer = std::function<void(const PassTrace& trace)>;
-    /// `observer` hears of each run of a pass.
+    /// `observer` is called for each run of a pass.
     explicit PassTracer(Observer observer) : observer_(std::move(observer)) {}
 
     std::optional<InstrumentedPipeline> before(const PassRun& run) override;
@@ -15,6 +15,6 @@ public:
 
 private:
     const Observer observer_;
-    PassTrace trace_;                               ///< of the pass that runs
-    std::map<std::string, PipelineRecipe> traced_;  ///< by the bytes of their simplified recipes
+    PassTrace trace_;                               ///< of the running pass
+    std::map<std::string, PipelineRecipe> traced_;  ///< by bytes of the simplified recipe
 };

@@ -3,24 +3,24 @@
 
 #include <span>
 
-/// What the waves of one group of invocations did: a workgroup, or the fragments of a tile.
+/// Counts of the waves of one group of invocations: a workgroup, or the fragments of a tile.
 struct WaveCounts {
-    std::vector<uint64_t> waves;  ///< by block: how often a wave ran it, with one or more of its lanes
-    std::vector<uint64_t> lanes;  ///< the same, of lanes
-    uint64_t started = 0;         ///< waves with one or more lanes that ran
-    uint64_t cut = 0;             ///< lanes that decided more than their trace holds; nothing is counted after it
+    std::vector<uint64_t> waves;  ///< runs by block: of waves with at least one lane
+    std::vector<uint64_t> lanes;  ///< runs by block: of lanes
+    uint64_t started = 0;         ///< waves with at least one lane that ran
+    uint64_t cut = 0;             ///< lanes with more decisions than their trace holds; the rest is not counted
 };
 
-/// The trace of one lane: the decisions that it made, from the lowest bit of the first word on.
+/// The decisions of one lane, from the lowest bit of the first word.
 struct LaneTrace {
     bool has_run = false;
-    uint64_t decisions = 0;  ///< that it made; `words` hold those that there was room for
+    uint64_t decisions = 0;  ///< number of decisions; `words` holds as many as fit
     std::span<const uint32_t> words;
 };
 
-/// Runs the lanes of a group again as waves of `width` lanes, in their order. Of the blocks that lanes are at, a wave
-/// runs the one of the lowest rank, with all lanes that are there; the others wait. So lanes go on together behind a
-/// branch, and at the end of a loop's turn, also where some of them have left the loop: as chips do it that mask lanes
-/// out by the structure of the program, and as Diamos et al. 2011, "SIMD Re-Convergence at Thread Frontiers", do it.
-/// The nearest post-dominator, which other simulators wait at, lies behind the loop for every branch that may leave it.
+/// Replays the lanes of a group as waves of `width` lanes, in their order. Among the blocks that its lanes have
+/// reached, a wave runs the one of the lowest rank, with all lanes that are there; the others wait. Lanes thus rejoin
+/// after a branch, and at the end of a loop's iteration even if some have left the loop. Chips that mask lanes by
+/// program structure do the same, and so do Diamos et al. 2011, "SIMD Re-Convergence at Thread Frontiers". Other
+/// simulators wait at the nearest post-dominator, which lies after the loop for every branch that may leave it.
 WaveCounts replay(const ShaderFlow& flow, std::span<const LaneTrace> group, unsigned width);

@@ -8,13 +8,13 @@
 
 class Device;
 
-/// A technique in some frames of a shot, for a page that does its passes again in a browser.
+/// Settings of a recording: a technique in some frames of a shot, for a page that repeats its passes in a browser.
 struct RecordSettings {
-    ShotConfig shot;           ///< frames in a row, each rendered once
+    ShotConfig shot;           ///< consecutive frames, each rendered once
     PointConfig point;         ///< with one seed
-    unsigned samples = 256;    ///< of the truth, per pixel
-    bool has_results = false;  ///< also what the Vulkan device rendered, so that the page can compare
-    bool has_passes = false;   ///< also what each pass wrote there
+    unsigned samples = 256;    ///< samples per pixel of the truth
+    bool has_results = false;  ///< also records the Vulkan device's results, for comparison in the page
+    bool has_passes = false;   ///< also records what each pass wrote there
     std::filesystem::path page;
     std::filesystem::path cache;                                        ///< of references
     std::vector<std::filesystem::path> search_path;                     ///< of scenes
@@ -23,13 +23,16 @@ struct RecordSettings {
 };
 
 struct RecordedPage {
-    size_t bytes = 0;                  ///< of the page
-    unsigned passes = 0;               ///< of the last frame
-    std::vector<double> errors;        ///< of each frame, as the page states them
-    std::vector<std::string> sliders;  ///< names of parameters that have one
+    size_t bytes = 0;                  ///< size of the page
+    unsigned passes = 0;               ///< passes of the last frame
+    std::vector<double> errors;        ///< error of each frame, as in the page
+    std::vector<std::string> sliders;  ///< names of parameters with a slider
 };
 
-/// Writes settings.page: one file that needs no other and no network. Fails with Error, before anything is rendered, if
-/// the technique does what WebGL 2 cannot do, which names the pass; if scene or camera are unknown; or if the page
-/// would be larger than browsers take.
+/// Writes settings.page: one file that needs no other file and no network. Fails with Error before anything is
+/// rendered, if
+///
+/// - WebGL 2 cannot do a pass of the technique, which the message names,
+/// - scene or camera is unknown, or
+/// - the page would be larger than browsers accept.
 RecordedPage record_page(Device& device, const RecordSettings& settings);

@@ -150,7 +150,7 @@ std::optional<InstrumentedPipeline> Recorder::before(const PassRun& pass) {
     if (pass.recipe.is_compute || pass.draws_meshes)
         fail("pass ", pass.stage, " cannot be recorded: it is no fragment shader over a whole image");
     if (!pass.constants.empty())
-        fail("pass ", pass.stage, " cannot be recorded: its pass_list sets constants, which sources do not hold");
+        fail("pass ", pass.stage, " cannot be recorded: it sets constants that the shader's source does not hold");
     const size_t program = program_of(pass);
     json command = {{"program", program}, {"textures", json::array()}, {"targets", json::array()}};
     for (const PassRun::BoundImage& texture : pass.samplers)

@@ -73,7 +73,7 @@ json recorded_parameters(Device& device, const PointConfig& point, glm::uvec2 ex
         if (!read.contains(place++))
             one["why_not"] = "no recorded shader reads it";
         else if (std::ranges::any_of(ends_of(p), changes_more))
-            one["why_not"] = "it decides more than what shaders read: passes, images or their constants";
+            one["why_not"] = "it also decides passes, images or their constants";
         else
             one["is_slider"] = true;
         all.push_back(std::move(one));

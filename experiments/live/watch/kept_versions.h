@@ -1,24 +1,24 @@
 #pragma once
 #include "experiments/live/watch/watch_study.h"
 
-/// A version of a technique that was kept, with what it measured.
+/// A kept version of a technique, with its measurements.
 struct KeptVersion {
-    std::string name;           ///< of its folder in WatchSettings::out: versions/<name>
-    std::string preset, at;     ///< when it was kept
-    nlohmann::json parameters;  ///< that the page's sliders had changed
-    nlohmann::json numbers;     ///< as the page shows them
+    std::string name;           ///< its folder in WatchSettings::out: versions/<name>
+    std::string preset, at;     ///< at: when it was kept
+    nlohmann::json parameters;  ///< values changed by the page's sliders
+    nlohmann::json numbers;     ///< measurements in the page's form
 
     WatchedPoint point() const;
 };
 
-/// The kept versions of a watch's folder, the oldest first: versions.json, and copies of the technique's folder.
+/// The kept versions in a watch's folder, oldest first: versions.json, and copies of the technique's folder.
 class KeptVersions {
 public:
-    /// Of the watch before, too, if the folder had one. Fails with Error where versions.json is broken.
+    /// Loads versions of earlier watches in this folder. Fails with Error if versions.json is broken.
     KeptVersions(std::filesystem::path out, std::string technique);
 
     /// Copies the technique in technique/ as the next version, and its results in `now`, so that `ssrlab diff` can
-    /// compare two versions of one name.
+    /// compare two versions.
     const KeptVersion& keep(const std::string& preset, const nlohmann::json& parameters, const nlohmann::json& numbers);
 
     const std::vector<KeptVersion>& all() const { return versions_; }

@@ -6,14 +6,14 @@
 #include <map>
 #include <mutex>
 
-/// The images of results that a page asks for by the hash of their files, in the codes that the report's viewer reads.
+/// Images of results, encoded for the report's viewer; a page asks for them by the hash of their files.
 class PageImages {
 public:
-    /// What the page is told of an image: {"name", "format", "width", "height"}, with which it asks for it.
-    /// `is_of_verdicts`: of a map of rays' verdicts, whose colours are few. Fails with Error if it cannot be read.
+    /// Adds an image. Returns {"name", "format", "width", "height"}, with which the page asks for it. `is_of_verdicts`:
+    /// it is a map of rays' verdicts, with few colours. Fails with Error if it cannot be read.
     nlohmann::json add(const std::filesystem::path& exr, bool is_of_verdicts = false);
 
-    /// Of a name that add() gave; none of others, and of images that are long gone. Any thread may ask.
+    /// The image of a name from add(); nullopt for other names and images dropped since. Thread-safe.
     std::optional<WatchReply> find(const std::string& name) const;
 
 private:

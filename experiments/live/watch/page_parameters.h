@@ -2,8 +2,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-/// The parameters that a technique declares, as the page's sliders want them: [slider_json() with "is_read"]. `initial`
-/// is what the preset ("": none) gives, `value` that with `values` in its place; is_read: is_read() of the registry.
-/// Values that the technique does not declare, as it did before somebody changed it, are taken out of `values`; those
-/// that it refuses are Errors.
+/// A technique's declared parameters for the page's sliders: [slider_json() with "is_read"]. `initial`: the preset's
+/// value ("": the default); `value`: overridden by `values`; is_read: is_read() of the registry. Removes from `values`
+/// what the technique does not declare, as its declaration may have changed. Fails with Error on values that it
+/// refuses.
 nlohmann::json page_parameters(const std::string& name, const std::string& preset, nlohmann::json& values);

@@ -4,19 +4,19 @@
 #include <string>
 #include <vector>
 
-/// A program that runs beside this one, with nothing to read. It is ended, with all that it started, when this object
-/// goes, and when the thread that made it ends.
+/// A program that runs beside this one, without input. It and all that it started end with this object, and with the
+/// thread that made it.
 class RunningProgram {
 public:
-    /// `arguments`: the first its path. What it prints goes into `output`, its errors into `errors`; both files are
-    /// made anew. Fails with MachineError if a file cannot be made or the program cannot be started.
+    /// Starts a program; arguments[0] is its path. Its output goes to `output`, its errors to `errors`; both files are
+    /// made anew. Fails with MachineError if a file cannot be made or the program cannot start.
     RunningProgram(const std::vector<std::string>& arguments, const std::filesystem::path& output,
                    const std::filesystem::path& errors);
     ~RunningProgram();
     RunningProgram(const RunningProgram&) = delete;
     RunningProgram& operator=(const RunningProgram&) = delete;
 
-    /// Its exit code once it has ended; of one that a signal ended 128 and that. Does not wait.
+    /// The exit code once the program has ended; 128 + signal if a signal ended it. Does not wait.
     std::optional<int> exit_code();
 
 private:

@@ -65,5 +65,5 @@ std::string WatchJob::error() const {
     const std::string said = "\n" + read_text(errors_), mark = "\nerror: ";
     const size_t at = said.find(mark);  // behind lines of progress
     if (at != std::string::npos) return said.substr(at + mark.size());
-    return said == "\n" ? "rendering ended without a word" : said.substr(1);
+    return said == "\n" ? "rendering ended without a message" : said.substr(1);
 }

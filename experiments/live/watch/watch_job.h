@@ -4,29 +4,29 @@
 
 #include <chrono>
 
-/// What a run of a watch is for: watch_folder has their folders.
+/// The purposes of a watch's runs; watch_folder names their folders.
 enum class JobKind { truth, coarse, now, why, times, kept };
 
-/// `ssrlab run` of a study, beside this program: a shader that never ends takes that one with it, and no more. Ended
-/// when this object goes.
+/// `ssrlab run` of a study in its own process, so that a shader that never ends blocks that process alone. The run ends
+/// with this object.
 class WatchJob {
 public:
-    /// Writes the study's config and starts it. Its results are added to those that the folder has, in place of those
-    /// of other studies if it `prunes`.
+    /// Writes the study's config and starts it. Results are added to the folder's. With `prunes` they replace those of
+    /// other studies.
     WatchJob(JobKind kind, const WatchSettings& settings, const nlohmann::json& study, bool prunes = false);
 
     enum class State { running, done, failed, hanging };
-    /// `hanging`: it has said nothing for WatchSettings::patience seconds, four times that of a job `times`, which
-    /// waits for other programs. Path tracing goes on as long as it takes.
+    /// `hanging`: no output for WatchSettings::patience seconds, or four times as long for a job `times`, which waits
+    /// for other programs. Path tracing may take any time.
     State state();
-    std::string error() const;  ///< what a failed one said; of several lines
+    std::string error() const;  ///< message of a failed job; several lines
 
     const JobKind kind;
-    const std::filesystem::path results;  ///< its folder
+    const std::filesystem::path results;  ///< results folder
     const std::chrono::system_clock::time_point started = std::chrono::system_clock::now();
 
 private:
-    uintmax_t said() const;  ///< bytes
+    uintmax_t said() const;  ///< bytes of output so far
 
     const std::filesystem::path output_, errors_;
     const double patience_;

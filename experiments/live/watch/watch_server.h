@@ -6,34 +6,33 @@
 #include <optional>
 #include <string>
 
-/// What a request is answered with.
+/// The answer to a request.
 struct WatchReply {
-    std::string type;  ///< of the body, as MIME names it
+    std::string type;  ///< MIME type of the body
     std::string body;
 };
 
-/// All that the server has to give. It opens no file itself: a name is looked up, and is no path.
+/// What the server offers. It opens no file itself: names are looked up and are no paths.
 struct WatchPages {
     std::map<std::string, WatchReply> files;  ///< by name; "" is the page itself
-    /// Of a name that the news gave; none of any other. Called by several threads.
+    /// The image of a name from the news; nullopt for others. Called by several threads.
     std::function<std::optional<WatchReply>(const std::string& name)> image;
-    /// What the page asks to be done; the answer is "", or a sentence that says why it is not. Called by several
-    /// threads.
+    /// Does what the page asks. Returns "", or a sentence that says why it was not done. Called by several threads.
     std::function<std::string(const std::string& what, const nlohmann::json& value)> take;
 };
 
-/// A page on this machine alone: the server listens on the loopback address, at a port that is free, and answers what
-/// names its random token in the address, asks for this host, and comes from no other page. All else gets 403 or 404.
+/// Serves a page on this machine alone, at a free port of the loopback address. It answers requests whose address has
+/// its random token, that ask for this host, and that come from no other page. All others get 403 or 404.
 class WatchServer {
 public:
-    /// Fails with MachineError if there is no port to listen on.
+    /// Starts to listen. Fails with MachineError if no port is free.
     explicit WatchServer(WatchPages pages);
     ~WatchServer();
     WatchServer(const WatchServer&) = delete;
     WatchServer& operator=(const WatchServer&) = delete;
 
     std::string address() const;  ///< "http://127.0.0.1:PORT/TOKEN/"
-    /// What pages that are open show from now on.
+    /// Sends news to all open pages; pages opened later show them, too.
     void publish(nlohmann::json news);
 
 private:

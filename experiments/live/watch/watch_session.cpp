@@ -50,11 +50,11 @@ WatchSettings with_absolute_paths(WatchSettings settings) {
     settings.out = fs::weakly_canonical(fs::absolute(settings.out));
     if (!fs::is_directory(settings.folder))
         fail(settings.folder.string(), " is no folder: `ssrlab new ", settings.folder.string(),
-             " --from mcguire_dda` makes one of a technique");
+             " --from mcguire_dda` makes a folder with a technique");
     const fs::path inside = settings.out.lexically_relative(settings.folder);
     if (!inside.empty() && *inside.begin() != "..")
         fail("--out ", settings.out.string(),
-             " lies in the folder that is watched: what is rendered there would be taken for a save");
+             " lies in the watched folder: rendered files there would look like saves of the technique");
     return settings;
 }
 
@@ -98,7 +98,7 @@ std::string WatchSession::ask(const std::string& what, const json& value) {
 }
 
 void WatchSession::run(const std::function<bool()>& is_over, const std::function<void(const std::string&)>& say) {
-    say(settings_.name() + " is watched; open this page, which nobody else can:");
+    say(settings_.name() + " is watched; open this page (its address is secret):");
     say("  " + server_.address());
     begin(since_);
     while (!is_over()) {
@@ -132,12 +132,12 @@ void WatchSession::answer_requests() {
 std::string WatchSession::answer(const std::string& what, const json& value) {
     if (what == "keep") return keep();
     if (what == "values") return set_values(value);
-    return "the page asked for '" + what + "', which is nothing that can be done";
+    return "the page asked for '" + what + "', which ssrlab does not know";
 }
 
 std::string WatchSession::keep() {
     if (result_.is_null() || result_["state"] != state_ || result_["is_coarse"].get<bool>())
-        return "there is nothing to keep until this version is measured against the truth with all its samples";
+        return "this version can be kept once it is measured against the truth with all samples";
     job_.reset();  // it writes where the numbers are copied from
     json numbers = result_;
     for (json& shot : numbers["shots"]) shot.erase("images");
@@ -234,10 +234,9 @@ void WatchSession::follow_job() {
             case WatchJob::State::running:
                 return;
             case WatchJob::State::hanging:
-                give_up(settings_.folder.string() + ": rendering got no further for " +
-                        std::to_string(std::lround(settings_.patience)) +
-                        " s and was ended: a loop in one of its shaders (" + names_of_shaders(copy_) +
-                        ") may have no end; --patience waits longer");
+                give_up(settings_.folder.string() + ": rendering made no progress for " +
+                        std::to_string(std::lround(settings_.patience)) + " s and was stopped; a loop in a shader (" +
+                        names_of_shaders(copy_) + ") may have no end; --patience waits longer");
                 break;
             case WatchJob::State::failed:
                 give_up(job_->error());
@@ -341,9 +340,9 @@ json WatchSession::news() const {
     const auto doing = [&]() -> std::string {
         if (!job_) return is_valid_ && !has_truth() ? "waiting for the truth" : "";
         const std::string texts[] = {"",  // in the order of JobKind
-                                     "rendering, beside a coarse truth",
+                                     "rendering, with a coarse truth",
                                      "rendering " + settings_.scenes[std::min(scenes_, settings_.scenes.size() - 1)],
-                                     "finding out why pixels are off",
+                                     "finding out why pixels are wrong",
                                      "timing, and estimating a GPU's time",
                                      "measuring kept versions"};
         return texts[size_t(job_->kind)];

@@ -9,23 +9,23 @@
 #include <optional>
 #include <vector>
 
-/// A technique that is rendered and judged on every save, and the page that shows it.
+/// Renders and judges a technique after every save, and serves the page that shows it.
 class WatchSession {
 public:
-    /// Fails with Error if the folder is none, or what is compared against does not exist.
+    /// Fails with Error if the folder is not a technique's, or if what it is compared with does not exist.
     explicit WatchSession(const WatchSettings& settings);
     ~WatchSession();
     WatchSession(const WatchSession&) = delete;
     WatchSession& operator=(const WatchSession&) = delete;
 
-    /// Until `is_over` says so. `say` gets sentences for the user. Fails with Error where a scene cannot be path
+    /// Runs until `is_over` returns true. `say` gets sentences for the user. Fails with Error if a scene cannot be path
     /// traced.
     void run(const std::function<bool()>& is_over, const std::function<void(const std::string&)>& say);
 
 private:
     using Clock = std::chrono::system_clock;
 
-    std::string ask(const std::string& what, const nlohmann::json& value);  ///< by a thread of the server
+    std::string ask(const std::string& what, const nlohmann::json& value);  ///< called by a thread of the server
 
     // What there is to do, in the order of run().
     void answer_requests();
@@ -51,25 +51,25 @@ private:
     nlohmann::json news() const;
 
     const WatchSettings settings_;
-    const std::filesystem::path copy_;  ///< of the folder, which is rendered
+    const std::filesystem::path copy_;  ///< copy of the folder, which is rendered
     const std::optional<WatchedPoint> against_;
     KeptVersions versions_;
     WatchedFiles files_;
 
-    nlohmann::json values_ = nlohmann::json::object();  ///< of parameters, by the page's sliders
+    nlohmann::json values_ = nlohmann::json::object();  ///< parameter values from the page's sliders
     nlohmann::json parameters_ = nlohmann::json::array();
-    bool is_valid_ = false;  ///< the copy declares a technique
+    bool is_valid_ = false;  ///< whether the copy declares a technique
 
     // How far the present state of the technique is.
-    unsigned state_ = 0;  ///< its number, of saves and changes of values
+    unsigned state_ = 0;  ///< number of saves and changes of values so far
     Clock::time_point since_, measured_;
-    size_t scenes_ = 0;  ///< measured with the full truth
+    size_t scenes_ = 0;  ///< scenes measured with the full truth
     bool is_coarse_done_ = false, is_why_done_ = false, are_times_done_ = false, is_kept_done_ = true,
          has_picture_ = false;
     std::unique_ptr<WatchJob> job_;
 
     std::unique_ptr<WatchJob> truth_job_;
-    size_t truths_ = 0;  ///< scenes whose truth is there
+    size_t truths_ = 0;  ///< scenes with a truth
     Clock::time_point opened_;
 
     /// What the page shows.
@@ -81,10 +81,10 @@ private:
         nlohmann::json value;
         std::promise<std::string> answer;
     };
-    std::mutex mutex_;  ///< of what follows
+    std::mutex mutex_;  ///< guards the members below
     bool is_closed_ = false;
     std::vector<std::unique_ptr<Request>> requests_;
 
     PageImages images_;
-    WatchServer server_;  ///< the last: it asks the others
+    WatchServer server_;  ///< declared last: it uses the others
 };

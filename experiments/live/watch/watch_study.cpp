@@ -7,7 +7,7 @@ using nlohmann::json;
 
 namespace {
 
-/// What errs least over the scenes of the included studies (experiments/studies/findings).
+/// What errs least over the scenes of the included studies (experiments/studies/questions).
 constexpr const char* best_point = "frostbite_sssr:best";
 
 json entry_of(const WatchedPoint& point) {

@@ -2,41 +2,40 @@
 #include "experiments/live/watch/watch_settings.h"
 #include "experiments/results/verdicts/effects/over_scenes.h"
 
-/// A technique as a study that is written for a watch has it.
+/// A point in the studies of a watch.
 struct WatchedPoint {
-    std::string technique;  ///< as configs in WatchSettings::out name it
+    std::string technique;  ///< name in configs in WatchSettings::out
     std::string preset, label;
     nlohmann::json parameters = nlohmann::json::object();
-    bool is_baseline = true;  ///< that the others are compared with
+    bool is_baseline = true;  ///< whether other points are compared with it
 
-    PointName name() const;  ///< in results
+    PointName name() const;  ///< name in results
 };
 
-/// The technique that WatchSettings::against names; "best": that which errs least in the included studies. Fails with
+/// The point that WatchSettings::against names; "best": the point of least error in the included studies. Fails with
 /// Error if there is none.
 WatchedPoint point_against(const std::string& asked);
 
-/// The parts of a watch's folder (WatchSettings::out), relative to it: technique/NAME, a copy of the folder as it is
-/// rendered; versions/NAME_1, ..., copies that were kept; each study's config, and the results folder beside it.
+/// Parts of a watch's folder, relative to WatchSettings::out: technique/NAME, the copy that is rendered;
+/// versions/NAME_1, ..., the kept copies; each study's config, and its results folder beside it.
 namespace watch_folder {
 inline constexpr const char *technique = "technique", *versions = "versions", *kept_numbers = "numbers";
-/// `kept` is a results folder of all kept versions; `now` one of what is shown, `coarse` of what is shown until the
-/// truth has all its samples, `why` of where rays end, `times` of times and costs.
+/// Results folders: `now` of what is shown; `coarse` of what is shown until the truth has all samples; `why` of where
+/// rays end; `times` of times and costs; `kept` of all kept versions.
 inline constexpr const char *now = "now", *coarse = "coarse", *why = "why", *times = "times", *kept = "kept",
                             *truth = "truth";
 }  // namespace watch_folder
 
-/// Of the truth until its full samples are there.
+/// Samples of the truth until the full samples exist.
 inline constexpr unsigned coarse_samples = 16;
 
-/// A study of the first `scenes` scenes that measures the points, and no reflections, as `ssrlab run` takes it.
-/// `samples`: of the truth. What is shown while one types is measured by one error; `is_whole`: by those that studies
-/// report.
+/// A study, for `ssrlab run`, of the points and of no reflections in the first `scenes` scenes. `samples`: of the
+/// truth. With `is_whole` it measures the errors that studies report, else a single error.
 nlohmann::json numbers_study(const WatchSettings& settings, const std::vector<WatchedPoint>& points, size_t scenes,
                              unsigned samples, bool is_whole);
 
-/// A study of the first scene that tells why a point errs: where its rays end.
+/// A study of where a point's rays end in the first scene: why the point errs.
 nlohmann::json why_study(const WatchSettings& settings, const WatchedPoint& point);
 
-/// One that tells what stages of the points take, here and on a GPU.
+/// A study of the times of the points' stages, here and on a GPU.
 nlohmann::json times_study(const WatchSettings& settings, const std::vector<WatchedPoint>& points);

@@ -76,7 +76,7 @@ bool WatchedFiles::have_changed() {
 
 std::vector<fs::path> technique_files(const fs::path& folder) {
     std::error_code error;
-    if (!fs::is_directory(folder, error)) fail(folder.string(), " is no folder any more, or not yet");
+    if (!fs::is_directory(folder, error)) fail(folder.string(), " is not a folder at the moment");
     std::vector<fs::path> files;
     uintmax_t bytes = 0;
     for_each_file(folder, [&](const fs::directory_entry& entry) {

@@ -4,15 +4,14 @@
 #include <string>
 #include <vector>
 
-/// Notices when a file is saved: of a technique's folder, or one of ssrlab's own that shaders include. By sizes and
-/// times of modification, so that it sees whatever way an editor saves, on any file system, and a folder that goes and
-/// comes again.
+/// Detects saves of files of a technique's folder and of ssrlab's own files that shaders include. It compares sizes and
+/// times of modification, which works for any editor, any file system, and a folder that is removed and created again.
 class WatchedFiles {
 public:
     explicit WatchedFiles(std::filesystem::path folder);
 
-    /// Whether anything differs from what it was when this was last true, and has stayed as it is since the call
-    /// before: who saves several files, or writes one in pieces, is waited for. Asked every 50 ms or so.
+    /// Whether files differ from when this last returned true, and are unchanged since the previous call. It thus waits
+    /// while several files are saved, or one is written in pieces. Call it about every 50 ms.
     bool have_changed();
 
 private:
@@ -30,11 +29,10 @@ private:
     unsigned calls_ = 0;
 };
 
-/// The regular files of a technique's folder, relative to it, in their order; what editors leave (hidden files, copies
-/// that end in ~) and links are none. Fails with Error if there is no such folder, or if it has more files or bytes
-/// than a technique can have.
+/// The regular files of a technique's folder, relative to it, in order; without links and what editors leave (hidden
+/// files, copies that end in ~). Fails with Error if the folder does not exist, or has more files or bytes than a
+/// technique may have.
 std::vector<std::filesystem::path> technique_files(const std::filesystem::path& folder);
 
-/// Makes `to` a copy of a technique's folder as it is now, in place of what was there. Fails with Error where a file
-/// goes meanwhile.
+/// Replaces `to` by a copy of a technique's folder. Fails with Error if a file disappears meanwhile.
 void copy_technique(const std::filesystem::path& folder, const std::filesystem::path& to);

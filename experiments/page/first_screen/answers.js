@@ -32,7 +32,7 @@ export function showAnswers() {
     answerChoice.shot = preferred(shots, addressedView()?.get("shot"));
     const said = report.errors.length ?
         [report.inTheseScenes, report.inScenesLikeThese] :
-        ["This study has no errors: it ran without truth. What else it has stands below and in the tables beside this page."];
+        ["This study ran without truth, so it has no errors. Its other results stand below and in the tables beside this page."];
     at("over-scenes").replaceChildren(...said.filter(Boolean).map(text => {
         const [, lead, rest] = text.match(/^(In these \d+ shots|In scenes like these|)(.*)$/s);
         return h("p", {}, lead ? h("b", {}, lead) : "", rest);
@@ -82,7 +82,7 @@ function answerInShort(shot) {
     if (!best) return answer ? "Nothing is ranked." : answerText(shot);
     const count = (points, text) => points?.length ? `, ${points.length} ${text}` : "";
     return `${pointLabel(best)}, ${headline.metric} ${number(best.value, 3)} ${interval(best, 3)}` +
-        count(answer.near, `within ${percent(headline.margin)}`) + count(answer.tied, "undecided beside it");
+        count(answer.near, `within ${percent(headline.margin)}`) + count(answer.tied, "undecided");
 }
 
 export function drawAnswerCharts() {
@@ -96,14 +96,14 @@ export function drawAnswerCharts() {
     const unnamed = metrics.length ? headlineRows(shot, metrics[0]).filter(isUnnamed) : [];
     at("answer-legend").replaceChildren(
             charts.length ? h("p", {class: "note"}, chartNote(shot)) : "",
-            ...(unnamed.length ? [h("p", {class: "note"}, "Without room for its name in a chart:"), legend(legendGroups(unnamed))] :
+            ...(unnamed.length ? [h("p", {class: "note"}, "Points without room for their names in a chart:"), legend(legendGroups(unnamed))] :
                                  []));
 }
 
 /// How the charts are read.
-const chartNote = shot => (timesOf(shot).length ? "Lower left is better. Dashed steps: the least error for its time. " :
+const chartNote = shot => (timesOf(shot).length ? "Lower left is better. Dashed steps join the least errors within each time. " :
                                                   "Lower is better. ") +
-    "[a, b] and lines at marks: 95 % intervals.";
+    "[a, b] and lines at marks are 95 % intervals.";
 
 /// Of a study without errors.
 function timeTable(shot) {
@@ -184,7 +184,7 @@ export async function drawAnswerPictures() {
         if (!canvas)
             return h(
                 "figure", {}, caption,
-                h("p", {class: "note"}, "Its image is in the results folder, not in this page."));
+                h("p", {class: "note"}, "This image is in the results folder, not in this page."));
         if (row) {
             clickable(canvas, () => openPoint(row));
             canvas.tabIndex = 0;

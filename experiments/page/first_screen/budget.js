@@ -56,7 +56,7 @@ export function drawBudget(shot) {
     const isProven = answerOf(shot)?.is_clock_proven;
     at("budget-note").textContent = !isAsked ? "" :
         isProven                             ? floorText(shot) :
-                                               "The timer was not validated: take the times with care. " + floorText(shot);
+                                               "The timer was not validated: times may be wrong. " + floorText(shot);
     const head = h("tr", {}, h("td"), h("td"), ["ms", ...headlineMetrics()].map(name => h("th", {scope: "col"}, name)));
     at("budget-answer").replaceChildren(...(isAsked ? [h("thead", {}, head), h("tbody", {}, Object.keys(budgetKinds).flatMap(
                                                                                k => budgetRows(k, byMetric)))] :
@@ -66,17 +66,17 @@ export function drawBudget(shot) {
 /// From where on times differ, by two copies of a point.
 function floorText(shot) {
     const floor = aaFloor(shot), isOfCpu = makers.some(m => m.device?.type === "cpu");
-    return (isOfCpu ? "A CPU's times, not a GPU's. " : "") +
-        (floor === undefined ? "No point was timed twice: the noise of times is not known." :
-             floor > 0       ? `Times within ${percent(floor, 2)} are not distinguishable.` :
+    return (isOfCpu ? "CPU times, not GPU times. " : "") +
+        (floor === undefined ? "No point was timed twice: the noise of times is unknown." :
+             floor > 0       ? `Times within ${percent(floor, 2)} are undecided.` :
                                "");
 }
 
 /// The rows of the answer, and what they say where there is no such point.
 const budgetKinds = {
     "fits": "no timed point surely fits",
-    "may fit": "no point of less error",
-    "just misses": "no point of less error"
+    "may fit": "no point with less error",
+    "just misses": "no point with less error"
 };
 
 /// Points by kind, the first the one to show: of those that surely fit the one of the least error; those of less error

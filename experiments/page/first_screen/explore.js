@@ -45,7 +45,7 @@ export function showExplorer() {
         drawAnswerCharts();
         drawErrorTime();
     };
-    const singles = `${singleChangeKeys.size} points that change one parameter of a baseline, too`;
+    const singles = `also show ${singleChangeKeys.size} points that change one parameter of a baseline`;
     at("points-choice").append(...[
         h("label", {}, "Filter", filter), choose("Sort by", "sort", Object.entries(sortKeys)),
         box("group by technique", "isGrouped"),
@@ -72,7 +72,7 @@ function drawMatrix() {
     at("match").textContent = matchText(unique(rows.map(pointKey)).length, unique(chosenRows().map(pointKey)).length);
     at("matrix").replaceChildren(
         rows.length ? matrix([chosenRows(), otherRows(), timeRows(chosenRows())].filter(own => own.length), sortedPoints(rows)) :
-                      h("p", {class: "note"}, "No point's name has these words."));
+                      h("p", {class: "note"}, "No point has a name with these words."));
 }
 
 function drawErrorTime() {
@@ -80,14 +80,14 @@ function drawErrorTime() {
     const timed = rows.some(costOf), isLog = better(choice.metric.split("|")[0]) === "lower";
     at("error-time-note").textContent = [
         costAxis.kind !== "time" ?
-            "What all stages of a technique do in the last frame, counted: no times of a machine." :
-            timed ? "Total time of a technique's stages, medians over the frames; lines are 95 % intervals." :
+            "Counted work of all stages of a technique in the last frame: no times of a machine." :
+            timed ? "Times are totals of a technique's stages, as medians over the frames. Lines are 95 % intervals." :
                     "No times were measured.",
-        isLog && timed && "The grey steps join the points that none other beats in both, whatever the intervals say.",
-        "Dashed: none. Dotted: the lower bound for any single-frame technique (see Truth ladder), with its interval.",
+        isLog && timed && "Grey steps join the points that no other point beats in both numbers, whatever the intervals say.",
+        "The dashed line is none. The dotted line is the lower bound for any single-frame technique (see Truth ladder), with its interval.",
         isLog && "An arrow marks a noise-corrected error that is not above 0.",
-        rows.some(isOneSeed) && "Hollow: one seed alone, which has no interval and is left out of the steps.",
-        "A mark shows its parameters and numbers; a click opens its images."
+        rows.some(isOneSeed) && "A hollow mark has a single seed, so it has no interval and is left out of the steps.",
+        "Point at a mark to read its parameters and numbers. Click it to open its images."
     ].filter(Boolean).join(" ");
     at("legend").replaceChildren(pointLegend(rows));
     const pairs = unique(rows.map(r => r.shot))

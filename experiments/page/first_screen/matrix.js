@@ -86,10 +86,10 @@ function matrixCaption(columns) {
     const errors = columns.filter(c => c.metric !== timeColumn), hasTimes = errors.length < columns.length;
     const what = `${unique(errors.map(c => c.metric)).join(" and ")} of ${choice.target}, ${choice.mask} pixels`;
     if (columns.every(c => !c.reference)) return `${what}.`;
-    const other = shownPoints.relativeTo === "none" ? "that of none" : "the least";
-    const colours = shownPoints.relativeTo === "none" ? "blue is less, orange more" : "the more orange, the worse";
-    return `${what}, divided by ${other} of the same column: ${colours}, full at ${fullColour} times.${
-        hasTimes ? " Times are in milliseconds, coloured against the least of a technique." : ""}`;
+    const other = shownPoints.relativeTo === "none" ? "the value of none" : "the least value";
+    const colours = shownPoints.relativeTo === "none" ? "Blue is less, orange is more" : "More orange is worse";
+    return `${what}, divided by ${other} of the same column. ${colours}: full colour at ${fullColour} times.${
+        hasTimes ? " Times are in milliseconds, coloured by their ratio to the least time of a technique." : ""}`;
 }
 
 function matrixButton(row, ratio, {reference}) {
@@ -106,7 +106,7 @@ function matrixButton(row, ratio, {reference}) {
           text, mistakes.length ? " !" : "");
     withTip(button, [
         `${row.shot}\n${pointText(row)}`, row.isTime ? `${number(row.value)} ms ${interval(row)}` : rowText(row),
-        ratio === null || reference === row ? null : `${number(ratio, 3)} times that of ${pointLabel(reference)}`,
+        ratio === null || reference === row ? null : `${number(ratio, 3)} times the value of ${pointLabel(reference)}`,
         row.isTime ? null : standingText(row), row.isTime ? null : shortWhy(row),
         ...mistakes.map(m => `! ${m.text}: ${m.why}`), madeText(row)
     ].filter(Boolean).join("\n"));
@@ -118,8 +118,8 @@ function matrixButton(row, ratio, {reference}) {
 
 const standingText = row => ({
     best: "significantly the best of its shot",
-    tied: "undecided beside the best of its shot",
-    equivalent: "for certain within the margin of the best of its shot",
+    tied: "not certainly worse than the best of its shot (undecided)",
+    equivalent: "certainly within the margin of the best of its shot",
     behind: "significantly worse than the best of its shot"
 })[row.standing] ?? "not ranked";
 

@@ -29,7 +29,7 @@ function errorCell(row, isBest) {
     if (row.value === null)
         notes.push("not finite");
     else if (row.corrected && row.low !== null && row.low <= 0 && row.high >= 0)
-        notes.push("not distinct from 0");
+        notes.push("not distinguishable from 0");
     else if (!row.corrected && better(row.metric) === "lower" && row.floor > 0 && row.value <= row.floor)
         notes.push("within the floor");
     return cell(
@@ -79,21 +79,21 @@ export function showSummary() {
     const about = report.metrics[name];
     const corrected = rows.some(r => r.corrected) ?
         "The reference's noise is subtracted." :
-        "The reference's noise cannot be subtracted from this metric: compare with the noise floor.";
+        "The reference's noise cannot be subtracted from this metric: compare values with the noise floor.";
     at("summary-note").textContent = [
-        about?.doc && about.doc + ".", about?.direction ?? "Its direction is not known, so nothing is printed bold.",
+        about?.doc && about.doc + ".", about?.direction ?? "It is unknown whether less is better, so nothing is printed bold.",
         corrected,
         others.length &&
-            `${others[0].metric} stands beside it: physical and perceptual errors order techniques differently. ` +
-                `Noise floor and × none are those of ${name}.`,
+            `${others[0].metric} stands beside ${name}, because physical and perceptual errors order techniques differently. ` +
+                `Noise floor and × none are about ${name}.`,
         ladder.length &&
-            "Truth ladder: the truth with less of its light, see How to read this. Nothing to rank, so never bold.",
+            "Truth ladder: images with less of the truth's light (see How to read this). They are no techniques, so they are never bold.",
         rows.some(isLitNoisy) &&
-            "Lit noise: what the noise of the path-traced light that techniques read adds to the " +
-                "value; intervals reach down by it.",
-        "Brackets: 95 % interval." +
-            (rows.some(isOneSeed) ? " One seed of a technique that draws random numbers has none, and is not ranked." :
+            "Lit noise: how much the noise of the path-traced light that techniques read adds to the " +
+                "value. Intervals reach down by this amount.",
+        "Brackets hold 95 % intervals." +
+            (rows.some(isOneSeed) ? " A technique that draws random numbers has no interval and no rank with one seed." :
                                     ""),
-        "± after the seeds: their standard deviation."
+        "± after the seeds is the standard deviation over seeds."
     ].filter(Boolean).join(" ").replaceAll("..", ".");
 }

@@ -88,7 +88,7 @@ export const shown = {
     },
     confidence: {
         title: "confidence",
-        scale: "black 0, yellow 1: the share of the reflected light that is the technique's, the rest is the fallback",
+        scale: "black 0, yellow 1: share of the reflected light that the technique found; the rest is the fallback",
         left: r => falseColorPixels(r.confidence, r, 1),
         right: truthPixels
     },

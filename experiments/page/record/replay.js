@@ -41,7 +41,7 @@ export class Replay {
     /// Fails with a sentence where WebGL has refused something since the last call.
     requireNoError() {
         const {gl} = this, code = gl.getError();
-        if (gl.isContextLost()) throw new Error("The browser has taken the GPU away from this page; load it again.");
+        if (gl.isContextLost()) throw new Error("The browser took the GPU away from this page. Load the page again.");
         if (code !== gl.NO_ERROR) throw new Error(`This browser's WebGL 2 refused a command (error ${code}).`);
     }
 

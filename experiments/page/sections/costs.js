@@ -23,9 +23,9 @@ export function costTable(shot) {
              counted)];
     const names = "Invocations, Idle, Fetches, Texels, Bytes read, Bytes written, Unique bytes, Operations".split(", ");
     return folded(
-        "What the stages do, counted",
+        "Counted work of the stages",
         h("p", {class: "note"}, howCounted,
-          " Idle are invocations that write nothing; unique bytes count what a pass reads or writes of an image or buffer no more than once."),
+          " Idle invocations write nothing. Unique bytes count each byte of an image or buffer at most once for each pass that reads or writes it."),
         table(
             ["Technique", "Stage", ...numbers(...names)], sorted.map(row),
             {groupBy: 0}));

@@ -77,7 +77,7 @@ function effectGroups(rows) {
     const wholes = unique(rows.filter(e => !isChangeOfBaseline(e)).map(pointKey))
                        .map(key => ({
                                 label: pointLabel(of(key)[0]),
-                                doc: isBaseline ? "all that it changes, together" : "",
+                                doc: isBaseline ? "all of its changes together" : "",
                                 rows: of(key)
                             }));
     return [...singles, ...wholes].filter(g => g.rows.length);
@@ -139,10 +139,10 @@ const shotLegend = shots =>
 function familyText(rows) {
     const {metric, mask, target} = report.manifest.primary ?? {};
     if (rows.some(e => e.isPrimary))
-        return `Primary: ${metric} of ${target}, ${
-                   mask} pixels, all points and shots, is what this study was made to ` +
-            "compare. Filled marks are significant. Verdicts, p and intervals are adjusted for all of these (Holm).";
-    return "Exploratory: not among the comparisons that this study was made for" +
+        return `Primary: this study was made to compare ${metric} of ${target}, ${
+                   mask} pixels, of all points and shots. ` +
+            "Filled marks are significant. Verdicts, p and intervals are adjusted for all of these comparisons (Holm).";
+    return "Exploratory: this study was made for other comparisons" +
         (metric ? ` (${metric} of ${target}, ${mask} pixels)` : "") +
         ". Verdicts, p and intervals are adjusted for all effects on this error (Holm).";
 }

@@ -63,11 +63,11 @@ function comparisonText({row, by, error}) {
     const own = `Its ${metric}, ${number(error.value, 3)},`,
           best = `the least (${pointLabel(least.row)}, ${number(least.error.value, 3)})`;
     if (least.row === row) return `${own} is the least here. `;
-    if (error.standing === "equivalent") return `${own} is for certain within the margin of ${best}. `;
-    if (error.standing !== "behind") return `${own} is undecided beside ${best}. `;
+    if (error.standing === "equivalent") return `${own} is certainly within the margin of ${best}. `;
+    if (error.standing !== "behind") return `${own} is not certainly larger than ${best}. `;
     const part = (g, key) => (g.by.get(key)?.value ?? 0) * g.error.value;
     const [{key}] = rankedCauses(key => part({by, error}, key) - part(least, key));
-    return `${own} is ${number(error.value / least.error.value, 3)} times ${best}; it errs more above all ${
+    return `${own} is ${number(error.value / least.error.value, 3)} times ${best}. The largest part of the difference lies ${
         causeTexts[key]}: ${number(part({by, error}, key), 2)} against ${number(part(least, key), 2)}. `;
 }
 
@@ -84,7 +84,7 @@ function missesText({row, by}) {
                         .map(key => ({key, value: share("miss: " + key)}))
                         .filter(m => m.value > 0.1 * share("avoidable_miss"))
                         .sort((a, b) => b.value - a.value);
-    return `${percent(share("avoidable_miss"), 2)} of its rays missed so` +
+    return `${percent(share("avoidable_miss"), 2)} of its rays missed what the screen shows` +
         (reasons.length ? `: ${reasons.map(m => `${percent(m.value, 2)} ${missTexts[m.key]}`).join(", ")}` : "") + ". ";
 }
 
@@ -115,7 +115,7 @@ function whyText(group) {
     const {row} = group, own = ownCauses(group);
     return h(
         "span", {}, h("b", {}, `${placeText(row)}: `),
-        own.length ? causesText(own) + ". " : "It has no error to share out. ", missesText(group),
+        own.length ? causesText(own) + ". " : "It has no error that could be divided by causes. ", missesText(group),
         comparisonText(group), ...rayLinks(row));
 }
 
@@ -156,8 +156,8 @@ function whyBars(group) {
 function whyNoShares() {
     const {every} = report.manifest.config?.hits ?? {};
     return every > 1 && !errorGroups.size ?
-        `Why a technique errs is not known: this study judged the rays of one pixel in ${every} along each axis, and ` +
-            "sharing out the error takes all of them (\"hits\": {\"every\": 1})." :
+        `The causes of errors are unknown: this study judged the rays of one pixel in ${every} along each axis. ` +
+            "Dividing the error by causes takes the rays of all pixels (\"hits\": {\"every\": 1})." :
         "";
 }
 
@@ -210,10 +210,10 @@ function errorSharesPart(shot) {
           }),
           h("div", {}, why,
             limit ? h("p", {class: "note"},
-                      `Dotted: the lower bound for any single-frame technique, ${
+                      `The dotted line is the lower bound for any single-frame technique, ${
                       `${metric} ${number(limit.value)} ${interval(limit)}`.trim()}.`) :
                     "")),
-        folded("All in sentences", h("ul", {class: "sentences"}, groups.map(g => h("li", {}, whyText(g)))))
+        folded("All points in sentences", h("ul", {class: "sentences"}, groups.map(g => h("li", {}, whyText(g)))))
     ];
 }
 

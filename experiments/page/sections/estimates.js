@@ -52,7 +52,7 @@ function estimatesPart() {
     ];
 }
 
-const howSure = () => `Intervals are of sampling alone: ${report.modelRange.text}.`;
+const howSure = () => `Intervals hold sampling alone: ${report.modelRange.text}.`;
 
 /// Between what the model leaves the time.
 const modelRangeOf = e =>
@@ -83,9 +83,9 @@ function estimateSentences(own, stages) {
     const points = unique(stages.map(pointKey)).map(key => stages.find(e => pointKey(e) === key));
     const text = total => total ?
         `${microseconds(total.value)} by estimate (95\u00a0% interval of sampling from ${number(total.low, 3)} to ${
-            number(total.high, 3)}; with what the model leaves open ${modelRangeOf(total)}), most of it bound by ${
+            number(total.high, 3)}; model range ${modelRangeOf(total)}). Most of this time is bound by ${
             partOf(total).name}.` :
-        "no total, since a stage has no estimate.";
+        "no total, because a stage has no estimate.";
     const items = points.map(p => h("li", {}, h("b", {}, pointLabel(p)), ": ", text(totalEstimate(own, p))));
     const sentences = h("ul", {class: "sentences"}, items);
     return items.length > longList ? folded("Totals in words", sentences) : sentences;
@@ -109,11 +109,11 @@ function estimateTable(estimated) {
     ];
     const note = h("p", {class: "note"},
         `Estimates for ${
-            chipText(estimateChoice.chip)} in microseconds, and what each part of the chip would take for them alone.`,
-        ` Intervals are of sampling; the model range is what they leave open: ${report.modelRange.text}.`,
-        " Bold is the part that bounds the stage.",
-        " Caches are no part of the estimate: they are what it would be if every byte came through the L2 cache.",
-        " Lanes that run are the share of the waves' lanes that do, weighted by vector instructions.",
-        " Runs at most are the share of the estimate in code of which it is only known how often it ran at most.");
+            chipText(estimateChoice.chip)} in microseconds, and the time that each part of the chip would take alone.`,
+        ` Intervals hold sampling alone. The model range is wider: ${report.modelRange.text}.`,
+        " Bold marks the part that bounds the stage.",
+        " Caches is no part of the estimate: it is the time if every byte came through the L2 cache.",
+        " Lanes that run is the share of active lanes, weighted by vector instructions.",
+        " Runs at most is the share of the estimate in code whose number of runs has a known upper bound only.");
     return folded("All parts of the estimates as numbers", note, scroller(table(columns, lines, {groupBy: 0})));
 }

@@ -35,7 +35,7 @@ function showProgress({done, planned}, written) {
     const when = Number.isNaN(+written) ? "a time not recorded" : written.toLocaleTimeString();
     at("warnings").before(
         h("p", {id: "progress", class: "warning"}, `Not finished: ${done ?? "?"} of ${planned ?? "?"} cells were done at ${
-            when}. While the study runs this page reloads by itself; one that was stopped is continued by its command.`));
+            when}. While the study runs, this page reloads by itself. To continue a stopped study, run the same command again.`));
     let used = 0;
     for (const act of ["pointerdown", "keydown", "wheel"]) addEventListener(act, () => used = Date.now());
     const look = () => {
@@ -64,8 +64,8 @@ export function showReferences() {
     });
     at("references").append(
             h("p", {class: "note"},
-              "Relative standard error of the truth's specular light at a pixel, in the last frame. " +
-                  "Every comparison accounts for it."),
+              "Errors are relative standard errors of the truth's specular light at a pixel, in the last frame. " +
+                  "Every comparison accounts for them."),
             scroller(table(columns, rows)));
 }
 
@@ -133,11 +133,11 @@ function parameterTables(points, technique) {
     const shown = scroller(table(columns, rows));
     return [
         ...(differing.length ?
-                [isLong ? folded(`${points.length} points, their ${differing.length} parameters that differ`, shown) :
+                [isLong ? folded(`${points.length} points, and the ${differing.length} parameters in which they differ`, shown) :
                           shown] :
                 []),
         ...(equal.length ?
-                [differing.length && equal.length > 3 ? folded(`${equal.length} more, equal for all points`, common) :
+                [differing.length && equal.length > 3 ? folded(`${equal.length} more parameters, equal for all points`, common) :
                                                         common] :
                 [])
     ];

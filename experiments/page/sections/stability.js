@@ -18,17 +18,17 @@ const verdictMarks = [
 
 const stabilityColumns = [
     ["error", "Error", "squared error over squared truth of the specular radiance"],
-    ["benignError", "Benign error", "the same without what makes the case hard"],
+    ["benignError", "Benign error", "the error without what makes the case hard"],
     ["errorRatio", "Error / benign error", ""],
-    ["seeds", "Seeds", "of which the errors are means, where one alone might decide the verdict"],
+    ["seeds", "Seeds", "errors are means over so many seeds, where one seed alone might decide the verdict"],
     ["nonFinite", "NaN and Inf", "values of all stages and frames"], ["firstNonFinite", "First in", "stage: image"],
     ["spreadPixels", "Spread", "pixels of one frame that are not finite though their inputs are"],
-    ["spreadFrames", "Spread in time", "frames after the fault in which there are any"],
-    ["negative", "Negative pixels", "of all frames"],
-    ["tooBright", "Too bright pixels", "brighter by 4 % than all light, of all frames"],
+    ["spreadFrames", "Spread in time", "frames after the fault that have such pixels"],
+    ["negative", "Negative pixels", "pixels of all frames"],
+    ["tooBright", "Too bright pixels", "pixels of all frames that are brighter than all light by more than 4 %"],
     ["excess", "Excess", "the most by which a pixel is brighter"],
     ["badConfidence", "Confidence outside [0, 1]", "pixels of all frames"],
-    ["timeRatio", "Time / benign time", "of the fastest frames; of pictures this small anything below 4 may be noise"],
+    ["timeRatio", "Time / benign time", "ratio of the fastest frames; for pictures this small, a ratio below 4 may be noise"],
     ["drift", "Drift", "relative change of the mean over a long rest"], ["driftNoise", "Drift's standard error", ""],
     ["gain", "Gain", "factor from frame to frame of an image that is fed back"], ["refusal", "Refused", ""]
 ];
@@ -128,7 +128,7 @@ function showStabilityCell(chosenRow) {
             select("Technique", [...techniqueNames], technique, change("technique")),
             select("Case", unique(data.rows.map(r => r.case)), chosen, change("case")));
     const isChosen = r => r.case === chosen && pointKey(r) === technique, row = data.rows.find(isChosen);
-    const verdict = row ? data.verdicts[row.verdict] : {name: "not run", meaning: "the case is not for this technique"};
+    const verdict = row ? data.verdicts[row.verdict] : {name: "not run", meaning: "the case does not apply to this technique"};
     const shown = row ? stabilityColumns.filter(([column]) => row[column] && (column !== "seeds" || row.seeds > 1)) : [];
     const stages = data.stages.filter(isChosen);
     at("stability-cell").replaceChildren(
@@ -158,7 +158,7 @@ function failureTable() {
         h("details", {}, h("summary", {}, ...before, String(some.length)), some.join(", "));
     const line = f =>
         [names(f.points, `${f.technique}, presets: `), f.place, names(f.cases), `${f.nan}, ${f.infinite}`,
-         f.first ? String(f.first) : "passed on",
+         f.first ? String(f.first) : "received",
          [...f.explanations.map(e => e.operation), ...(f.unexplained ? [`unexplained in ${f.unexplained}`] : [])].join(
              "; or "),
          f.explanations.map(e => e.fix).join("; ")];
@@ -167,10 +167,11 @@ function failureTable() {
     ];
     return part(
         "Stages that are not finite",
-        "Values of all frames. They arise where no stage before fails, in so many runs; other stages were passed them.",
+        "Numbers of values in all frames. Such values arise in a stage if no stage before it has any. The column says " +
+            "in how many runs. Other stages received such values as input.",
         table(columns, failures.filter(f => f.is_source).map(line)),
         failures.some(f => !f.is_source) ?
-            h("details", {}, h("summary", {}, "Stages that were only passed such values"),
+            h("details", {}, h("summary", {}, "Stages that only received such values"),
               table(columns.slice(0, 4), failures.filter(f => !f.is_source).map(f => line(f).slice(0, 4)))) :
             "");
 }
@@ -187,8 +188,8 @@ function spreadTable() {
               ...columns.map(c => text(own.find(row => row.case === c && pointKey(row) === t)))]);
     return part(
         "Spread of bad inputs",
-        "The most pixels of a frame that are not finite though their inputs are; behind a +, frames after the fault in " +
-            "which there are any. Cases and techniques in which there are none are left out.",
+        "The largest number of pixels in a frame that are not finite although their inputs are finite. The number after + " +
+            "counts the frames after the fault that have such pixels. Cases and techniques without such pixels are left out.",
         table(["Technique", ...numbers(...columns)], lines));
 }
 
@@ -213,8 +214,9 @@ function amplificationTable() {
     show();
     return part(
         "Amplification",
-        "Relative change of a pixel's result over that of its input, one step of which is changed: a code of the depth " +
-            "format, 2⁻¹⁵ of the normal, 2⁻¹¹ of the lit colour. The median pixel, and that above 99.9 %.",
+        "Relative change of a pixel's result divided by the relative change of its input. The input changes by one step: " +
+            "a code of the depth format, 2⁻¹⁵ of the normal, 2⁻¹¹ of the lit colour. Columns hold the median over pixels " +
+            "and the 99.9 % quantile.",
         h("div", {class: "controls"}, choiceBox("Case", stabilityChoice, "amplified", choices, show)), body);
 }
 

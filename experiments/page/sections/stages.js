@@ -38,8 +38,8 @@ export function showStages() {
 /// What the switch shows, where there are counts.
 function stagesText() {
     if (stageChoice.bars in costKinds)
-        return `${howCounted} A count is no time: it holds no caches, no compression, no lanes that wait for others.`;
-    return "Median times over the measured frames, of the machine that took them. The switch puts what stages do, counted, in their place.";
+        return `${howCounted} A count is no time: it ignores caches, compression and lanes that wait for other lanes.`;
+    return "Median times over the measured frames, on the machine that measured them. Choose other bars to see the counted work of stages.";
 }
 
 function stagesOf(shot) {
@@ -60,7 +60,7 @@ function stagesOf(shot) {
     if (!times.length) return [stageBars(barRows), costTable(shot)];
     return [
         stages.length ? stageBars(barRows) :
-                        h("p", {class: "note"}, "No technique of this shot has a stage: all were skipped."),
+                        h("p", {class: "note"}, "No technique of this shot has a stage, because all stages were skipped."),
         savedNote(shot), floorNote(shot), formNote(own), costTable(shot),
         h("details", {open: own.length <= longTable}, h("summary", {}, "All stages as numbers"),
           table(columns, sorted.map(row), {groupBy: 0})),
@@ -142,7 +142,7 @@ function savedNote(shot) {
     const leftOut = list(manifestShots().find(s => s.shot === shot)?.left_out).length;
     const share = s => cell(s.share, `${percent(s.share)} `, h("small", {}, `[${percent(s.low)}, ${percent(s.high)}]`));
     return folded(
-        `Work that can be skipped: time saved by ${leftOut} parts`,
+        `Work that can be skipped: time saved by leaving out ${leftOut} parts`,
         table(
             [
                 "Point", ...numbers("Share of its total that is saved", "Total without saving (ms)")
@@ -172,7 +172,7 @@ function formText({technique, parameters}) {
     if (!defaults || !entries.length) return forms;
     const changed = entries.filter(([name, value]) => name in defaults && defaults[name] !== value);
     const others = show(changed.filter(e => !isForm(e)));
-    return [forms, others ? `not at its default: ${others}` : "all else at its default"].filter(Boolean).join("; ");
+    return [forms, others ? `not at the default: ${others}` : "all else at the default"].filter(Boolean).join("; ");
 }
 
 /// How far two interleaved copies of the same point were apart: smaller differences are none.
@@ -187,7 +187,7 @@ function floorNote(shot) {
             pairs.length > 1 ? `${percent(Math.min(...floors))} to ` : ""}`,
         ...one(most),
         `. A/A floor of this shot: ${
-            percent(aaFloor(shot))}; smaller differences between times say nothing.`
+            percent(aaFloor(shot))}. Smaller differences between times say nothing.`
     ];
     const rest = () => folded("The copies of each point", h("ul", {}, pairs.map(p => h("li", {}, one(p)))));
     return h("div", {class: "note"}, text, pairs.length > 1 ? rest() : "");

@@ -24,8 +24,8 @@ export function totalCost(row, kind) {
 }
 
 export const howCounted =
-    "Counted by the shaders as they ran, in the shot's last frame with the first seed; of no machine." +
-    ` Other seeds of a point that draws random numbers count up to ${report.countSpread} % more or less.`;
+    "Counted by the shaders as they ran, in the shot's last frame with the first seed. Counts do not depend on the machine." +
+    ` For a point that draws random numbers, other seeds count up to ${report.countSpread} % more or less.`;
 
 /// Which machine and size the times of a shot are of: "llvmpipe (a CPU), 256x144"; its name, too, where others took the
 /// times of other shots.

@@ -9,7 +9,7 @@ export const report = readData();
 function readData() {
     const raw = JSON.parse(document.getElementById("data").textContent);
     const camelCase = name => name.replace(/_([a-z])/g, (_, letter) => letter.toUpperCase());
-    /// Rows as objects with the columns of the CSV files (experiments/RESULTS.md), in camel case.
+    /// Rows as objects with the columns of the CSV files (experiments/docs/reference/result_columns.md), in camel case.
     const rows = ({columns, texts, rows}) => {
         const isText = columns.map(name => texts.includes(name)), names = columns.map(camelCase);
         return rows.map(r => Object.fromEntries(names.map((name, i) => [name, isText[i] ? raw.texts[r[i]] : r[i]])));

@@ -17,17 +17,17 @@ export function mistakesOfError(row) {
     if (row.nonFinite)
         found.push({
             text: `${row.nonFinite} not finite`,
-            why: `${row.nonFinite} pixels are NaN or infinite and left out of every mean`
+            why: `${row.nonFinite} pixels are NaN or infinite and are left out of every mean`
         });
     if (isOneSeed(row))
-        found.push({text: "1 seed", why: "another seed may give anything: no interval, and not ranked"});
+        found.push({text: "1 seed", why: "another seed may give any other value, so this point has no interval and no rank"});
     else if (row.interval?.includes("seeds") && row.seeds < seedsOf(row))
-        found.push({text: `${row.seeds} of ${seedsOf(row)} seeds`, why: "seeds are missing"});
+        found.push({text: `${row.seeds} of ${seedsOf(row)} seeds`, why: "results of the other seeds are missing"});
     if (row.litNoise > mostLitNoise * Math.abs(row.value))
         found.push({
             text: `lit noise ${percent(row.litNoise / Math.abs(row.value))}`,
             why:
-                "so much of this error may be noise of the path-traced light that techniques read; more samples of the reference lower it"
+                "this share of the error may be noise of the path-traced light that techniques read; more samples of the reference reduce it"
         });
     return found;
 }
@@ -46,7 +46,7 @@ export function mistakesOfTime(row) {
     if (disturbed)
         found.push({
             text: "disturbed",
-            why: `other programs disturbed ${disturbed} of this shot's timed frames: its times may be too long`
+            why: `other programs disturbed ${disturbed} of this shot's timed frames: times of this shot may be too long`
         });
     return found;
 }
@@ -56,7 +56,7 @@ export function mistakesOfReference(reference) {
     if (reference?.reached_share === undefined || reference.target_relative_error > 0) return [];
     return [{
         text: "no target",
-        why: "no relative error was asked of this reference, so nothing says that its samples are enough"
+        why: "the study asks for no relative error of this reference, so nothing says that its samples are enough"
     }];
 }
 

@@ -61,7 +61,7 @@ export function parameterLines(row) {
     const shown = names.slice(0, mostParameters), rest = names.length - shown.length;
     return [
         ...shown.map(name => `${name} = ${JSON.stringify(parameters[name])}`),
-        ...(rest ? [`and ${rest} more parameters, see Parameters`] : [])
+        ...(rest ? [`and ${rest} more parameters (see the section Parameters)`] : [])
     ];
 }
 /// What the point is, for tips: its name, and those parameters.

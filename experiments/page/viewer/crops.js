@@ -100,11 +100,11 @@ function whyNoCrop() {
     if (!crops.box) return "";
     const crop = currentCrop(), others = crops.list.filter(c => c.shot === crop.shot);
     const other = others.find(c => c.target !== crop.target || c.frame !== crop.frame);
-    if (!crop.points.length) return "A crop needs a point beside the truth.";
-    if (other) return `The crops of a shot share a figure, of target ${other.target} and frame ${other.frame}.`;
+    if (!crop.points.length) return "A crop needs at least one point beside the truth.";
+    if (other) return `All crops of a shot share one figure, of target ${other.target} and frame ${other.frame}.`;
     if (cropPointsOf([...others, crop]).length > mostCropPoints)
-        return `The crops of a shot share a figure, which has room for ${
-            mostCropPoints} points: show those of the others.`;
+        return `All crops of a shot share one figure, which has room for ${
+            mostCropPoints} points: show the points of the other crops.`;
     return "";
 }
 
@@ -132,7 +132,7 @@ export function showCrops() {
     at("crop-add").disabled = !crops.box || whyNoCrop() !== "";
     const extra = shownOfShot().filter(s => s.method.key !== truthKey).length - mostCropPoints;
     const ofExtra =
-        extra > 0 ? `A figure has room for ${mostCropPoints} points: the last ${extra} shown are left out. ` : "";
+        extra > 0 ? `A figure has room for ${mostCropPoints} points, so the last ${extra} points are left out. ` : "";
     at("crop-note").textContent = ofExtra + whyNoCrop();
     at("crop-list").replaceChildren(...(crops.list.length ? cropList() : []));
 }
@@ -151,9 +151,9 @@ function cropInput(name, place) {
 
 const cropEditor = () => h(
     "div", {class: "controls"}, h("b", {}, "Crop"), ["x", "y", "width", "height"].map(cropInput),
-    h("button", {id: "crop-worst", click: () => setCropBox(worstBox())}, "Where these err most"),
+    h("button", {id: "crop-worst", click: () => setCropBox(worstBox())}, "Where errors are largest"),
     h("button", {id: "crop-add", click: addCrop}, "Add to figures.json"), h("span", {class: "note", id: "crop-note"}),
-    h("span", {class: "note"}, "Drag on an image for another box."));
+    h("span", {class: "note"}, "Drag on an image to draw another box."));
 
 function cropList() {
     const lines = crops.list.map((crop, i) => {
@@ -174,8 +174,8 @@ function cropList() {
         h("div", {class: "controls"},
           h("a", {href: url, download: "figures.json", id: "crops-download"}, "Download figures.json"),
           h("button", {click: copyCrops}, "Copy"),
-          h("span", {class: "note"}, "Then: ", h("code", {}, "ssrlab figures DIR figures.json"),
-            ", DIR being the folder of this page")),
+          h("span", {class: "note"}, "Then run ", h("code", {}, "ssrlab figures DIR figures.json"),
+            ", where DIR is the folder of this page.")),
         text
     ];
 }

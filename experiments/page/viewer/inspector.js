@@ -73,7 +73,7 @@ export function showReadout() {
     const place = viewer.pinned ?? viewer.pointed;
     if (!place || !viewer.shown.length) {
         at("readout").replaceChildren(
-            h("p", {class: "note"}, "Point at an image to read all values of a pixel; a click or Enter pins it."));
+            h("p", {class: "note"}, "Point at an image to read all values of a pixel. Click, or press Enter, to pin the pixel."));
         return;
     }
     const i = place.y * viewer.shown[0].image.width + place.x;
@@ -113,7 +113,7 @@ export function showReadout() {
     at("readout").replaceChildren(
         table(columns, rows, {
             caption: `Pixel ${place.x}, ${place.y}${
-                viewer.pinned ? " (pinned: click it again or press Enter to let go)" : ""}`
+                viewer.pinned ? " (pinned: click it again or press Enter to unpin)" : ""}`
         }),
         h("dl", {class: "pixel-facts", id: "pixel-facts"},
           pixelFacts(i).map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value)))));

@@ -124,7 +124,7 @@ export async function savePicture() {
 
 export async function copyPicture() {
     const isCopied = await attempt(() => navigator.clipboard.write([new ClipboardItem({"image/png": pictureBlob()})]));
-    at("viewer-kept").textContent = isCopied ? "Copied." : "This browser does not let the page copy pictures: save it.";
+    at("viewer-kept").textContent = isCopied ? "Copied." : "This browser does not let the page copy pictures. Save the picture instead.";
 }
 
 export function toggleFullScreen() {

@@ -90,9 +90,9 @@ export function showLegend(maximumOf) {
     const curve = viewer.curve === "none" ? "clipped at 1" : `tone curve ${toneCurves[viewer.curve].title}`;
     const shownAs = `${viewer.shot}${at("viewer-time").hidden ? "" : `, frame ${viewer.frame}`}, ${
         viewer.target}; exposure ${at("exposure-value").textContent} EV, ${
-        curve} (for display alone: all values are kept). Magenta: not finite.`;
+        curve} (they change the display only). Magenta pixels are not finite.`;
     const isPlayed = viewer.shown.some(s => s.image.kind === "played");
-    const ofPlayed = isPlayed ? " This frame was kept for playing: its reflections alone, rounded to 1.6 % in this page." : "";
+    const ofPlayed = isPlayed ? " This frame was kept for playing: this page has only its reflections, rounded to 1.6 %." : "";
     const parts = viewer.mode === "nearest" ? nearestLegend() :
         viewer.mode === "cause"             ? causeLegend() :
         viewer.mode === "rays"              ? verdictMapLegend() :
@@ -121,20 +121,20 @@ function colorBar(mode, maximumOf) {
 
 export function keyHelp() {
     const keys = [
-        ["1…9", "one image in place (with a split: on the left)"], ["Space", "the one before in its place"],
-        ["n p", "next and previous image in place"], ["s", "side by side"], ["x", "split"], ["[ ]", "move the split"],
-        ["e", "absolute difference"], ["d", "signed difference"], ["v", "FLIP"], ["+ -", "zoom; the wheel does it at the pointer"],
-        ["← ↑ → ↓", "move the pinned pixel, else the view"], ["Enter", "pin the pixel in the middle, or let go"],
-        ["< >", "exposure"], [", .", "frame before and after"], ["k", "play, or stop"],
-        ["c", "crop: arrows move the box, with Shift they size it"], ["f", "full screen"], ["/", "filter the images"],
+        ["1…9", "show one image in place (in a split: on the left)"], ["Space", "show the previous image in place"],
+        ["n p", "show the next or previous image in the list"], ["s", "side by side"], ["x", "split"], ["[ ]", "move the split"],
+        ["e", "absolute difference"], ["d", "signed difference"], ["v", "FLIP"], ["+ -", "zoom; the wheel zooms at the pointer"],
+        ["← ↑ → ↓", "move the pinned pixel; without one, the view"], ["Enter", "pin the pixel in the middle, or unpin"],
+        ["< >", "exposure"], [", .", "previous or next frame"], ["k", "play, or stop"],
+        ["c", "crop; arrows move the box, Shift and arrows size it"], ["f", "full screen"], ["/", "filter the images"],
         ["0", "reset the view"]
     ];
     return h(
         "details", {id: "viewer-keys"}, h("summary", {}, "Keys"),
         h("p", {class: "note"},
-          "They work while the viewer has the focus or the pointer. " +
-              "Dragging pans, a click pins a pixel, Shift and dragging draws a crop. The address of the page holds what is " +
-              "seen: kept or sent, it opens the same."),
+          "Keys work while the viewer has the focus or the pointer. " +
+              "Drag to pan, click to pin a pixel, hold Shift and drag to draw a crop. The address of the page holds the " +
+              "current view: keep or send the address to open the same view."),
         h("dl", {class: "keys"},
           keys.map(
               ([own, what]) =>

@@ -62,8 +62,8 @@ export function nearestLegend() {
     const others = map.methods.filter(m => !m.hasOwn);
     return [
         h("p", {class: "note"},
-          "In the truth's pane: the method with the least absolute difference, " +
-              "and the share of the pixels where it has it."),
+          "The truth's pane shows which method has the least absolute difference at each pixel. " +
+              "Percentages are shares of the pixels."),
         h("div", {class: "legend", id: "nearest-legend"},
           named.map(m => legendItem(m.color, `${m.label}: ${percent(m.share)}`)),
           others.length ?
@@ -220,9 +220,9 @@ export function causeLegend() {
     return [
         h("div", {class: "scroll", id: "cause-table"}, table(columns, rows)),
         h("p", {class: "note"},
-          "Not on the screen: where the rung on_screen of the truth ladder is from the truth by half of the error " +
-              "or more. Else what became of the pixel's first ray, or of one among its 2 x 2 pixels. " +
-              `Dark: below ${percent(visibleError)} of the scale of absolute differences.` +
-              (missing.length ? ` To find all causes, this frame lacks ${missing.join(" and ")}.` : ""))
+          "Not on the screen: the rung on_screen of the truth ladder differs from the truth by half of the error " +
+              "or more. Other causes say what became of the pixel's first ray, or of a ray of its 2 x 2 pixels. " +
+              `Dark pixels have errors below ${percent(visibleError)} of the scale of absolute differences.` +
+              (missing.length ? ` This frame lacks what is needed for all causes: ${missing.join(" and ")}.` : ""))
     ];
 }

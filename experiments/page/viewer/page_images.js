@@ -46,7 +46,7 @@ async function decodeImage(index) {
 function linkedText(file) {
     return new Promise((resolve, reject) => {
         const fail = () => reject(new Error(
-            `${file} cannot be read. The images of this report lie in the folder report_images beside it: ` +
+            `${file} cannot be read. The images of this report are in the folder report_images beside the report: ` +
             "keep both together."));
         const script = h("script", {
             src: file.split("/").map(encodeURIComponent).join("/"),

@@ -1,4 +1,4 @@
-// Verdicts, errors, times, and why pixels are off.
+// Verdicts, errors, times, and why pixels are wrong.
 
 import {at, h} from "../elements/elements.js";
 import {fillTable} from "../elements/tables.js";
@@ -10,13 +10,13 @@ const writeTable = (id, names, rows) => fillTable(at(id), names.map((name, i) =>
 /// Behind a number: " [low, high]".
 const ends = row => row.low === null ? "" : " " + interval(row);
 
-/// "no difference of less than 1.08 times would have been seen", of the view that says most.
-function verdictText({verdict, why, views}) {
+/// "1.02 [0.99, 1.05] times the error of my_ssr_1; a ratio of 1.08 would be detected", of each view.
+function verdictText({label, verdict, why, views}) {
     if (verdict === "identical") return "all errors are the same to the last digit";
     if (!verdict) return why;
     return views
-        .map(v => `${views.length > 1 ? v.shot + ": " : ""}${number(v.ratio)}${ends(v)} times its error${
-                 v.verdict === "undecided" ? `; ${number(v.detectable)} times would be seen` : ""}`)
+        .map(v => `${views.length > 1 ? v.shot + ": " : ""}${number(v.ratio)}${ends(v)} times the error of ${label}${
+                 v.verdict === "undecided" ? `; a ratio of ${number(v.detectable)} would be detected` : ""}`)
         .join("; ");
 }
 
@@ -45,7 +45,7 @@ export function writeNonFinite({result}) {
                       .map(e => `${e.non_finite} of ${e.non_finite + e.pixels} in ${e.shot}`);
     at("non-finite").hidden = !texts.length;
     at("non-finite").textContent =
-        `Reflective pixels are NaN or infinite: ${texts.join(", ")}. Errors and verdicts are of the others alone.`;
+        `Reflective pixels are NaN or infinite: ${texts.join(", ")}. Errors and verdicts are about the other pixels alone.`;
 }
 
 export function writeShots({result}) {
@@ -66,9 +66,9 @@ const causeParts = {
 
 export function writeWhy({why, state}) {
     const causes = (why?.causes ?? []).filter(c => causeTexts[c.cause]).sort((a, b) => b.share - a.share);
-    at("why-note").textContent = !why ? "Found out once the errors are there." :
-        causes.length ? "Shares of the squared error by what became of a pixel's rays, in the first scene." :
-                        "This technique's rays are not recorded: it traces none by a tracer of ssrlab.";
+    at("why-note").textContent = !why ? "ssrlab finds the causes after the errors are measured." :
+        causes.length ? "Shares of the squared error in the first scene, by what became of each pixel's rays." :
+                        "This technique uses no tracer of ssrlab, so its rays are not recorded.";
     at("causes").replaceChildren(...causes.map(({cause, share}) => {
         const width = 100 * Math.min(Math.max(share, 0), 1);
         const bar = h("span", {style: `width: ${width}%; background: var(--accent)`});
@@ -92,25 +92,25 @@ export function writeTimes({times, state}) {
         e => `${number(e.ratio)}${ends(e)} times the time of ${e.label}${e.verdict ? `: ${e.verdict}` : ""}`);
     if (refusal) notes.push(`No estimate of a GPU's time: ${refusal}`);
     if ([...estimates.values()].some(e => e.microseconds !== null))
-        notes.push(`Intervals of estimates are of sampling alone: ${times.model_range}`);
-    at("time-note").textContent = times ? notes.join("; ") : "Taken once the errors are there.";
+        notes.push(`Intervals of estimates hold sampling alone: ${times.model_range}`);
+    at("time-note").textContent = times ? notes.join("; ") : "ssrlab measures times after the errors.";
     at("times").classList.toggle("is-old", Boolean(times) && times.state !== state);
 }
 
 export function writeSeconds({seconds, result, samples, truths, scenes}) {
     at("truth-note").textContent = result?.is_coarse ?
-        `Beside a coarse truth of ${result.samples} samples per pixel; ${samples} are being path traced.` :
-        truths < scenes.length ? `The truth of ${scenes[truths]} is being path traced.` : "";
+        `Compared with a coarse truth of ${result.samples} samples per pixel. The truth of ${samples} samples is being path-traced.` :
+        truths < scenes.length ? `The truth of ${scenes[truths]} is being path-traced.` : "";
     const parts = [["began", "began"], ["picture", "picture"], ["number", "interval"]]
                       .filter(([key]) => seconds[key] !== undefined)
                       .map(([key, name]) => `${name} after ${twoDecimals(seconds[key])} s`);
-    at("seconds").textContent = parts.length ? `From saving: ${parts.join(", ")}.` : "";
+    at("seconds").textContent = parts.length ? `Since the last save: ${parts.join(", ")}.` : "";
 }
 
 export function writeKept({kept, out}) {
     writeTable("kept", ["version", "mse of reflective pixels"],
               kept.map(v => [v.name, v.shots.map(s => `${v.shots.length > 1 ? s.shot + ": " : ""}${errorText(s)}`).join("; ")]));
-    at("keep-note").textContent = kept.length ? `All versions with their numbers: ssrlab report ${out}/kept` : "";
+    at("keep-note").textContent = kept.length ? `To see all versions with their numbers, run: ssrlab report ${out}/kept` : "";
 }
 
 export function writeProblem({problem}) {

@@ -24,7 +24,7 @@ async function fetchedImage(description) {
     const answer = await fetch("image/" + description.name);
     if (!answer.ok) {
         decoded.delete(description.name);
-        throw new Error("This picture is gone: a newer one is on its way.");
+        throw new Error("This picture is outdated. A newer picture follows.");
     }
     const bytes = await inflatedStream(answer.body);
     const image = {...description, pixels: description.width * description.height, scalars: new Map()};

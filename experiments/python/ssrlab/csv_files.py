@@ -1,5 +1,5 @@
-"""CSV as ssrlab writes and reads it (experiments/results/files/csv.h): RFC 4180, a header first. A text that a spreadsheet would take for a formula
-is written behind an apostrophe, which reading takes away again; numbers stay as they are."""
+"""CSV as ssrlab writes and reads it (experiments/results/files/csv.h): RFC 4180, header first. Texts that a spreadsheet would read as a
+formula get an apostrophe in front, which reading removes. Numbers stay unchanged."""
 
 import csv
 import io
@@ -15,7 +15,7 @@ GUARDED = r"^'('*[=+\-@\t\r])"  # what guarded() makes of a formula
 
 
 def guarded(value):
-    """A value as a field: a text that begins like a formula is no longer one."""
+    """A value as a field; an apostrophe guards a text that begins like a formula."""
     is_formula = isinstance(value, str) and FORMULA.match(value) and not NUMBER.fullmatch(value)
     return "'" + value if is_formula else value
 
@@ -26,13 +26,13 @@ def _field(value):
 
 
 def write_lines(stream, lines):
-    """`lines`: of fields each; None is an empty one."""
+    """`lines`: lists of fields; None is an empty field."""
     for line in lines:
         stream.write(",".join(map(_field, line)) + "\n")
 
 
 class Row(dict):
-    """Column to text of one line; says file and line where a column is missing."""
+    """The fields of one line by column. Names file and line if a column is missing."""
 
     def __init__(self, values, file, line):
         super().__init__(values)

@@ -15,7 +15,7 @@ PANDAS_TYPES = {"integer": "Int64", "number": "float64", "boolean": "boolean", "
 
 
 def read(folder):
-    """A results folder; ResultsError, a sentence, where it is none."""
+    """Reads a results folder. Fails with ResultsError, a sentence, if it is none."""
     return Tables(folder)
 
 
@@ -57,15 +57,15 @@ class Tables:
         return self._read[name]
 
     def units(self, name):
-        """Column to unit, of those that have one."""
+        """Units by column; columns without a unit are left out."""
         return {f["name"]: f["unit"] for f in self._fields[name] if "unit" in f}
 
     def meanings(self, name):
-        """Column to what it is."""
+        """Meanings by column."""
         return {f["name"]: f["description"] for f in self._fields[name]}
 
     def primary_errors(self):
-        """Rows of summary.csv of the error that the study is made to compare, of the frames that stand for their shot."""
+        """Rows of summary.csv with the study's main error, for the frames that represent their shot."""
         summary, primary = self["summary"], self.manifest["primary"]
         is_primary = (summary["metric"] == primary["metric"]) & (summary["mask"] == primary["mask"]) & (summary["target"] == primary["target"])
         return summary[is_primary & summary["represents_shot"]]

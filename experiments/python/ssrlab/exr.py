@@ -18,7 +18,7 @@ TYPES = {0: np.dtype("<u4"), 1: np.dtype("<f2"), 2: np.dtype("<f4")}
 
 
 class ExrError(Exception):
-    """The file is missing or not what is read here: one sentence."""
+    """A file is missing or cannot be read here: one sentence."""
 
 
 def read_exr_rgb(path, layer=""):
@@ -31,7 +31,7 @@ def read_exr_rgb(path, layer=""):
 
 
 def read_exr_planes(path):
-    """All channels by name, each float32 of shape (height, width). Fails with ExrError where that takes more than files may."""
+    """All channels by name, each float32 of shape (height, width). Fails with ExrError if they exceed the limit of memory."""
     try:
         if not stat.S_ISREG(os.stat(path).st_mode):
             raise ExrError(f"cannot read {path}: it is not a regular file")
@@ -45,7 +45,7 @@ def read_exr_planes(path):
 
 
 def _need(size, path):
-    """Fails before more memory is taken than files may."""
+    """Fails before a file takes more memory than the limit."""
     if size > memory.limit():
         raise ExrError(f"{path} needs {size:.3g} bytes of memory, but files may take {memory.limit():.3g}; if it is what you expect, allow more with --max-memory")
 

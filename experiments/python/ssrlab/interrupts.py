@@ -1,4 +1,4 @@
-"""What stops a script: Ctrl-C, or being asked to end (SIGTERM). Both are one KeyboardInterrupt, and what the script runs ends with it."""
+"""Handles Ctrl-C and requests to end (SIGTERM) alike: both are one KeyboardInterrupt, which also ends the programs that the script runs."""
 
 import contextlib
 import signal
@@ -24,7 +24,7 @@ def _stop(_number, _frame):
 
 @contextlib.contextmanager
 def taken_once():
-    """Within it a second one is ignored: by Ctrl-C a terminal stops ssrlab, too, whose end asks its script to end."""
+    """Ignores a second interrupt within the block: on Ctrl-C a terminal also stops ssrlab, which then asks its script to end."""
     if threading.current_thread() is not threading.main_thread():  # which alone may say what signals do
         yield
         return
@@ -42,8 +42,8 @@ def taken_once():
 
 
 def run(words, **streams):
-    """The exit code of a program, the first of `words`, with its arguments. `streams`: as subprocess.Popen() takes them. Where the script is
-    stopped the program is asked to end, and killed where it does not."""
+    """Runs a program, the first of `words`, with its arguments, and returns its exit code. `streams`: as subprocess.Popen() takes them. If
+    the script is stopped, the program is asked to end, and killed if it does not."""
     _State.is_starting = True
     try:
         process = subprocess.Popen(words, **streams)

@@ -1,4 +1,4 @@
-"""Reads JSON that somebody else may have written, as core/json.h does: what is wrong with it is a ResultsError with file and place."""
+"""Reads JSON of unknown authors, as core/json.h does: mistakes are ResultsErrors with file and place."""
 
 import json
 import math
@@ -12,7 +12,7 @@ LONGEST = 300  # letters of a value in a message
 
 
 class Object(dict):
-    """A JSON object that says where it stands when a member is missing."""
+    """A JSON object that states its place if a member is missing."""
 
     where = ""
 
@@ -21,7 +21,7 @@ class Object(dict):
 
 
 def read_json(file, shape=dict, has_comments=False):
-    """The document in a file, of a shape as require() takes it."""
+    """The document in a file; `shape` as in require()."""
     text = read_text(file)
     return parse_json(without_comments(text) if has_comments else text, file, shape)
 
@@ -60,18 +60,18 @@ def parse_json(text, name, shape=dict):
 
 
 def without_comments(text):
-    """JSON with // comments, as configs have them, without; lines stay where they are."""
+    """JSON without the // comments that configs may have; line numbers stay."""
     return re.sub(r'("(?:\\.|[^"\\])*")|//[^\n]*', lambda m: m.group(1) or "", text)
 
 
 def shortened(value):
-    """A value in a message: JSON, cut where it is long; a text as it is."""
+    """A value for a message: JSON, cut if it is long; texts unchanged."""
     text = value if isinstance(value, str) else json.dumps(value)
     return text if len(text) <= LONGEST else f"{text[: LONGEST - 80]} ... {text[-80:]}"
 
 
 def _place(value, where, level):
-    """Tells all objects where they are, and refuses what ssrlab does: deep nesting, and texts that are no Unicode."""
+    """Gives all objects their places. Refuses what ssrlab refuses: deep nesting, and texts that are not Unicode."""
     if level > MOST_LEVELS:
         raise ResultsError(f"{where.split(': ')[0]}: its JSON nests more than {MOST_LEVELS} levels")
     if isinstance(value, Object):
@@ -98,8 +98,8 @@ def _is_of(value, kind):
 
 
 def require(value, shape, where):
-    """Fails unless a value has a shape: a type (float: any number; None: null), several in a tuple, [shape]: an array of such, or an object
-    {key: shape}, whose keys end with "?" where they may be missing. "*" stands for all keys that are not named; others may be there."""
+    """Fails unless a value has a shape: a type (float: any number; None: null), several types in a tuple, [shape] for an array, or {key:
+    shape} for an object. Keys that may be missing end with "?"; "*" stands for all other keys, which may always be there."""
     alternatives = shape if isinstance(shape, tuple) else (shape,)
     for one in alternatives:
         if _is_of(value, type(one) if isinstance(one, (dict, list)) else one):

@@ -2,7 +2,7 @@
 
     python3 experiments/python judge sheets RESULTS OUT [--pairs N] [--seed S]    draws pairs; OUT has pair_<n>.png and key.csv
     python3 experiments/python judge enter OUT ANSWERS.csv --judge NAME           ANSWERS: pair,nearer (left, right or neither); adds
-                                                                                  them to experiments/studies/findings/judgements.csv
+                                                                                  them to experiments/studies/questions/judgements.csv
 
 Half of the pairs are drawn from all, half from those that two of the metrics order differently. `ssrlab tables` counts how
 often each metric agrees (a table "of": "eye").
@@ -34,7 +34,7 @@ GAP = 12
 
 
 def values_of(results):
-    """{shot: {(technique, point): {metric: shortfall}}} of the reflection, of the pixels that reflect."""
+    """{shot: {(technique, point): {metric: shortfall}}} of specular light under the mask `reflective`."""
     found = {}
     for row in results.errors:
         if row["target"] == "specular" and row["mask"] == "reflective" and row["metric"] in METRICS and row["value"]:
@@ -49,7 +49,7 @@ def disagree(a, b):
 
 
 def draw_pairs(results, count, rng):
-    """[(shot, point, point)], without repetition: as many of each shot as it takes."""
+    """[(shot, point, point)] without repetition, evenly over the shots."""
     every, disputed = [], []
     for shot, points in values_of(results).items():
         for a, b in itertools.combinations(points, 2):
@@ -64,7 +64,7 @@ def draw_pairs(results, count, rng):
 
 
 def sheet(results, shot, left, right):
-    """The truth above the two: their specular light, at the shot's exposure."""
+    """The truth above both points: specular light, at the shot's exposure."""
     images = results.images_of(shot, "specular", keys=[REFERENCE, left, right])
     for key in (REFERENCE, left, right):
         if key not in images:

@@ -1,5 +1,5 @@
-"""Texts that somebody else may have written, in Markdown (CommonMark, GitHub's tables and mathematics): they are shown as they are, and make no
-link, no HTML, no line and no column."""
+"""Escapes texts of unknown authors for Markdown (CommonMark, GitHub's tables and mathematics). They appear as they are and make no link,
+HTML, line or column."""
 
 import re
 
@@ -30,7 +30,7 @@ def markdown_code(text):
 
 
 def markdown_prose(text):
-    """A caption or a sentence that begins a line: code in backticks stays code, and nothing else is markup."""
+    """A caption or a sentence that begins a line: code in backticks stays code, nothing else is markup."""
     text, parts, end = shown(text).strip(), [], 0
     for code in CODE.finditer(text):
         parts += [_plain(text[end : code.start()]), code.group()]

@@ -1,4 +1,4 @@
-"""What files may take, as `ssrlab --max-memory` has it: SSRLAB_MAX_MEMORY, else half of this machine's memory."""
+"""The most memory that a file may take, as in `ssrlab --max-memory`: SSRLAB_MAX_MEMORY, else half of this machine's memory."""
 
 import argparse
 import os
@@ -9,7 +9,7 @@ VARIABLE = "SSRLAB_MAX_MEMORY"
 
 
 def size_in_bytes(text):
-    """Of "500MB" (1000^2 bytes each) or "8GiB" (1024^3), as argparse calls it."""
+    """The bytes of "500MB" (1000^2 each) or "8GiB" (1024^3 each), for argparse."""
     match = re.fullmatch(r"(\d+) *(?:([kmgtpe])(i?))?b?", text.strip().lower())
     if not match:
         raise argparse.ArgumentTypeError(f"'{text}' is no size such as 8GB")
@@ -18,7 +18,7 @@ def size_in_bytes(text):
 
 
 def limit():
-    """Bytes that one file may take. Ends the program with 2 where the variable holds no size."""
+    """Bytes that one file may take. Ends the program with exit code 2 if the variable holds no size."""
     asked = os.environ.get(VARIABLE)
     if not asked:
         return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") // 2

@@ -1,4 +1,4 @@
-"""What scripts say to their user: mistakes and faults as one sentence each, and names from files so that a terminal only shows them."""
+"""Messages of scripts: one sentence for each mistake or fault, with names from files made safe for terminals."""
 
 import os
 import re
@@ -14,7 +14,7 @@ NAMED = {"\n": r"\n", "\r": r"\r", "\t": r"\t"}
 
 
 class ResultsError(Exception):
-    """A mistake in files that were read or in what was asked: one sentence."""
+    """A mistake in files or in the request: one sentence."""
 
 
 class Fault(Exception):
@@ -30,7 +30,7 @@ def _escaped(match):
 
 
 def shown(text):
-    """A text that may come from a file of somebody else, in one line that a terminal does not obey."""
+    """A text of an unknown author, in one line without control sequences."""
     return OBEYED.sub(_escaped, str(text))
 
 
@@ -46,8 +46,8 @@ def stop(text):
 
 
 def exit_code(work, what):
-    """Of a script: what `work()` returns, else 0; 2 for a mistake in what was read or asked, 3 where `what` cannot be written or the machine
-    or ssrlab itself is at fault. Each is said in a line; SSRLAB_TRACEBACK=1 shows where it happened."""
+    """Runs `work()` and returns the exit code: its result or 0; 2 for a mistake in files or the request; 3 if `what` cannot be written, or
+    for a fault of the machine or of ssrlab. Each is one line of text; with SSRLAB_TRACEBACK=1 it has its traceback."""
     with interrupts.taken_once():
         return _exit_code(work, what)
 

@@ -1,18 +1,18 @@
-"""Which differences studies see: the power of each metric, from the results of studies and from kept summaries.
+"""Which differences studies detect: the power of each metric, from results of studies and from kept summaries.
 
 usage: python3 experiments/python power [RESULTS ...]
 
-Of results folders: 5 % more error than the best of a shot, with 8 seeds, alone and in a family of 12 comparisons. Of the kept
-summary of `rooms`: 10 % over 28 and 196 scenes. Prints the tables of metrics/README.md.
+For results folders: 5 % more error than a shot's best, with 8 seeds, alone and in a family of 12 comparisons. For the kept summary of
+`rooms`: 10 % over 28 and 196 scenes. Prints the tables of metrics/coverage.md.
 
-A pair's standard error is that of the logarithm of the ratio of its errors, as its 95 % interval tells it. The part of the seeds falls
-with their number, the reference's does not. Power is that of Student's two-sided test at 0.05 (a noncentral t), over a family at
-0.05 / its size (Bonferroni, with which Holm's method begins). Needs Debian's python3-numpy and python3-scipy."""
+A pair's standard error is that of the logarithm of its errors' ratio, from its 95 % interval. The part of the seeds falls with their
+number; the reference's part does not. Power is that of Student's two-sided test (a noncentral t) at 0.05, in a family at 0.05 / its size
+(Bonferroni, the first step of Holm's method). Needs Debian's python3-numpy and python3-scipy."""
 
+import argparse
 import csv
 import math
 import os
-import sys
 from collections import defaultdict
 
 import numpy as np
@@ -24,7 +24,7 @@ SIGNIFICANCE, WANTED = 0.05, 0.8
 
 
 def power(effects, degrees, level):
-    """Probability that a true difference of so many standard errors is seen."""
+    """Probability that a true difference of `effects` standard errors is detected."""
     if effects > 50:
         return 1.0
     limit = stats.t.ppf(1 - level / 2, degrees)
@@ -32,7 +32,7 @@ def power(effects, degrees, level):
 
 
 def smallest_seen(error, degrees, level):
-    """The difference, as a share of the error, that is seen with 80 %."""
+    """The difference, as a share of the error, that is detected with 80 % probability."""
     low, high = 0.0, 50.0
     while high - low > 1e-4:
         middle = (low + high) / 2
@@ -46,7 +46,7 @@ def rows_of(file):
 
 
 def log_error(low, high, degrees):
-    """Standard error of a ratio's logarithm, of its 95 % interval."""
+    """Standard error of a ratio's logarithm, from its 95 % interval."""
     return math.log(float(high) / float(low)) / 2 / stats.t.ppf(0.975, degrees)
 
 
@@ -61,7 +61,7 @@ def error_of_seeds(a, b):
 
 
 def shot_pairs(folder):
-    """By metric: the standard error of the seeds, that of the rest, and the number of seeds, of each pair with a shot's best."""
+    """For each metric: the seeds' standard error, the other standard error and the number of seeds, of each pair with a shot's best."""
     seeds = defaultdict(list)
     key = ("shot", "frame", "technique", "point", "target", "metric", "mask")
     for row in rows_of(os.path.join(folder, "results.csv")):
@@ -103,7 +103,7 @@ def print_shot_rows(folder, count, family, share):
 
 
 def print_scenes(summary="rooms", share=0.1, counts=(28, 196)):
-    """Deviation over scenes of each point's logarithm, over the error of `none` or of the point that it changes."""
+    """Prints each point's deviation over scenes of ln(error / error of `none`, or of the point that it changes)."""
     deviations = defaultdict(list)
     for row in rows_of(SUMMARIES / f"{summary}.csv"):
         if row["table"] in ("points", "changes") and row["low"] and row["low"] != row["high"]:
@@ -120,7 +120,9 @@ def print_scenes(summary="rooms", share=0.1, counts=(28, 196)):
 
 
 if __name__ == "__main__":
-    if sys.argv[1:]:
-        print_shots(sys.argv[1:])
+    parser = argparse.ArgumentParser(description="Tables of the differences that metrics see: within shots, and over scenes.")
+    parser.add_argument("results", nargs="*", help="folders of studies whose shots are judged")
+    if folders := parser.parse_args().results:
+        print_shots(folders)
         print()
     print_scenes()

@@ -4,4 +4,4 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[3]
 STUDIES = ROOT / "experiments/studies"
-CONFIGS, SUMMARIES, FINDINGS = STUDIES / "configs", STUDIES / "summaries", STUDIES / "findings"
+CONFIGS, SUMMARIES, QUESTIONS = STUDIES / "configs", STUDIES / "summaries", STUDIES / "questions"

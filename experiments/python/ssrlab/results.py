@@ -1,4 +1,4 @@
-"""A results folder as figures, tables and other evaluations need it."""
+"""A results folder in the form that figures, tables and other evaluations need."""
 
 import copy
 import os
@@ -11,7 +11,7 @@ from ssrlab.json_files import read_json
 from ssrlab.mistakes import ResultsError
 from ssrlab.text_files import path_inside
 
-# manifest.json as far as scripts read it, as require() of json_files.py has shapes (experiments/RESULTS.md has all).
+# manifest.json as far as scripts read it, as require() of json_files.py has shapes (experiments/docs/results_folder.md explains it).
 _NUMBER, _TEXT = (float, None), (str, None)
 _RUNG = {"rung": str, "target": str, "metric": str, "mask": str, "value?": _NUMBER, "low?": _NUMBER, "high?": _NUMBER}
 _SHOT = {
@@ -55,7 +55,7 @@ def read_manifest(folder):
 
 
 def read_schema(folder):
-    """{table: its fields} of schema.json; {} without one."""
+    """{table: its fields} of schema.json; {} if there is none."""
     file = path_inside(folder, "schema.json")
     return {r["name"]: r["schema"]["fields"] for r in read_json(file, _SCHEMA)["resources"]} if os.path.exists(file) else {}
 
@@ -89,32 +89,32 @@ def label(technique, point):
 
 
 def rounded(text):
-    """A point's name with three digits of its values: dda.thickness=0.00949 of dda.thickness=0.009486833."""
+    """A point's name with three digits of its values: dda.thickness=0.009486833 gives dda.thickness=0.00949."""
     return re.sub(r"(?<==)-?\d+\.\d+(?=\s|$)", lambda number: f"{float(number.group()):.3g}", text)
 
 
 def is_of(row, chosen):
-    """Whether a row has the target, metric and mask that a figure is of."""
+    """Whether a row has the figure's target, metric and mask."""
     return (row["target"], row["metric"], row["mask"]) == (chosen.target, chosen.metric, chosen.mask)
 
 
 def is_over_frames(row):
-    """Whether it stands for all frames of its shot: such have no `frame`."""
+    """Whether a row stands for all frames of its shot: it then has no `frame`."""
     return row["frame"] == ""
 
 
 def frame_number(row):
-    """Of a row of one frame."""
+    """The number of a single frame's row."""
     return whole(row, "frame")
 
 
 def representative_rows(rows):
-    """Of each shot those over its frames, or of its last one, as `ssrlab run` decided."""
+    """The rows that represent each shot, as `ssrlab run` decided: over its frames, or of its last frame."""
     return [r for r in rows if r["represents_shot"] == "1"]
 
 
 def commits_of(manifest):
-    """Of the programs that made a study's cells."""
+    """Commits of the programs that made a study's cells."""
     programs = (maker["ssrlab"] for maker in manifest.get("provenance", []))
     return " and ".join(dict.fromkeys((p["commit"] or "unknown") + (" with changes" if p.get("dirty") else "") for p in programs))
 
@@ -140,47 +140,47 @@ class Results:
         self.shot_entries = {s.get("shot"): s for s in self.manifest.get("shots", [])}
 
     def own_label(self, technique, point):
-        """The display name that somebody gave a point; None without one."""
+        """The display name that a study gave a point; None if it gave none."""
         return self.labels.get(label(technique, point)) or self.techniques.get((technique, point), {}).get("label")
 
     def point_label(self, technique, point):
-        """How a point is called in tables and figures."""
+        """The name of a point in tables and figures."""
         return self.own_label(technique, point) or label(technique, self.point_name(technique, point))
 
     def point_name(self, technique, point):
-        """Rounded in figures, unless another point of the technique then has the same name."""
+        """Rounded in figures, unless another point of the technique would then have the same name."""
         if not self.rounds_names or any(v == technique and p != point and rounded(p) == rounded(point) for v, p in self.techniques):
             return point
         return rounded(point)
 
     def unit_of(self, parameter):
-        """Of a parameter, as schema.json says; "" without one."""
+        """The unit of a parameter, from schema.json; "" if it has none."""
         return next((field.get("unit", "") for field in read_schema(self.folder).get("parameters", []) if field["name"] == parameter), "")
 
     def point_group(self, technique, point):
-        """What a point is counted with: its group's display name, else its technique's."""
+        """The group of a point: its display name, else the technique's."""
         return self.techniques.get((technique, point), {}).get("group") or self.labels.get(technique, technique)
 
     def shot_label(self, shot):
         return self.labels.get(shot) or self.shot_entries.get(shot, {}).get("label") or shot
 
     def asset(self, shot):
-        """What a shot's scene shows: scenes of one asset are no independent samples."""
+        """What a shot's scene shows. Scenes of one asset are not independent samples."""
         entry = self.shot_entries.get(shot, {})
         return entry.get("asset") or entry.get("scene") or shot
 
     def shot_group(self, shot):
-        """What a shot is counted with: its group's display name, else its scene."""
+        """The group of a shot: its display name, else its scene's."""
         entry = self.shot_entries.get(shot, {})
         return entry.get("group") or entry.get("scene") or shot
 
     def parameters_of(self, technique, point):
-        """Name to value of all parameters of a point."""
+        """Values of all parameters of a point, by name."""
         return self.techniques.get((technique, point), {}).get("parameters", {})
 
     def narrowed(self, shots=None, points=None):
-        """The same results of these shots and (technique, point) alone, in this order; None: all, in the study's. Points that
-        are named are shown, single changes or not."""
+        """The results of these shots and (technique, point) alone, in this order; None: all, in the study's order. Named points are shown
+        even if they are single changes."""
         view = copy.copy(self)
 
         def kept(rows):
@@ -218,7 +218,7 @@ class Results:
         return rows
 
     def _single_changes(self):
-        """(technique, point) to (parameter, value) of the swept points that differ from a baseline in one parameter."""
+        """{(technique, point): (parameter, value)} of swept points that differ from a baseline in one parameter."""
         return {
             (v["technique"], v["point"]): (v["single_change"]["parameter"], v["single_change"]["value"])
             for v in self.manifest.get("techniques", [])
@@ -226,12 +226,12 @@ class Results:
         }
 
     def points(self):
-        """The compared (technique, point), in the order of the study; single changes have a figure of their own."""
+        """The compared (technique, point), in the order of the study, without single changes, which have a figure of their own."""
         every = dict.fromkeys((r["technique"], r["point"]) for r in self.errors)
         return [key for key in every if key not in self.hidden]
 
     def measured(self, row, columns=("value", "low", "high")):
-        """None where the row has no value; no interval where it has one end alone."""
+        """The row's value as Measured; None if it has none. Without an interval if it has one end alone."""
         value, low, high = (number(row, c) for c in columns)
         ends = (low, high) if None not in (low, high) else (None, None)
         return None if value is None else Measured(value, *ends, row.get("interval") == ONE_SEED)
@@ -244,24 +244,24 @@ class Results:
         return metrics[metric]["better"]
 
     def shortfall(self, metric, value):
-        """How far a value is from the best one: less is better, whatever the metric's direction."""
+        """Distance of a value from the best possible: less is better, whatever the metric's direction."""
         return DIRECTIONS[self.direction_of(metric)](value)
 
     def error_rows(self, shot, target, metric, mask):
-        """(technique, point) to its row of summary.csv."""
+        """{(technique, point): row of summary.csv}."""
         where = (shot, target, metric, mask)
         return {(r["technique"], r["point"]): r for r in self.errors if (r["shot"], r["target"], r["metric"], r["mask"]) == where}
 
     def standings_of(self, shot, target, metric, mask):
-        """(technique, point) to best, tied, equivalent or behind, as ssrlab decided among the points of a shot."""
+        """{(technique, point): best, tied, equivalent or behind}, as ssrlab decided among the points of a shot."""
         return {key: row["standing"] for key, row in self.error_rows(shot, target, metric, mask).items()}
 
     def shots(self):
-        """Those that were measured; of a study that measures no errors all."""
+        """The measured shots; all shots if the study measures no errors."""
         return list(dict.fromkeys(row["shot"] for row in self.errors)) or list(self.shot_entries)
 
     def frames_text(self, rows):
-        """Which frames rows of one shot are of, one text each; empty for a shot of one frame."""
+        """The frames of one shot's rows, one text each; empty for a shot of one frame."""
         if len(self.shot_entries.get(rows[0]["shot"], {}).get("frames") or []) < 2:
             return []
         return list(
@@ -269,14 +269,14 @@ class Results:
         )
 
     def headline_metric(self):
-        """That which the study is made to compare, else the first."""
+        """The metric that the study is made to compare, else the first."""
         found = list(dict.fromkeys(r["metric"] for r in self.errors))
         primary = self.manifest.get("primary", {}).get("metric", "mse")
         return primary if primary in found or not found else found[0]
 
     def errors_of(self, target, metric, mask, with_hidden=False):
-        """(shot, technique, point) to Measured, in the order of the file; values that are not finite are left out, and so are single
-        changes, unless `with_hidden`."""
+        """{(shot, technique, point): Measured} in the order of the file, without values that are not finite, and without single changes
+        unless `with_hidden`."""
         rows = [
             r
             for r in self.errors
@@ -292,7 +292,7 @@ class Results:
         return {key: value for key, value in read.items() if value is not None}
 
     def times_of(self, shot):
-        """(technique, point) to {stage: Measured} in ms; the G-buffer and the lit colour belong to no technique and are not in it."""
+        """{(technique, point): {stage: Measured}} in ms, without G-buffer and lit colour, which belong to no technique."""
         stages = {}
         for r in self.times:
             if r["shot"] == shot and r["technique"]:
@@ -300,7 +300,7 @@ class Results:
         return stages
 
     def costs_of(self, shot, quantity):
-        """(technique, point) to {stage: Measured}, whose values are counts: exact, without an interval."""
+        """{(technique, point): {stage: Measured}} of counts, which are exact and have no interval."""
         stages = {}
         for r in self.costs:
             if r["shot"] == shot and r["quantity"] == quantity:
@@ -308,11 +308,11 @@ class Results:
         return stages
 
     def estimated_chips(self):
-        """Those that a stage has an estimate for, in the order of the study."""
+        """The chips with an estimate for some stage, in the order of the study."""
         return list(dict.fromkeys(r["chip"] for r in self.estimates if r["microseconds"]))
 
     def estimates_of(self, shot, chip):
-        """(technique, point) to {stage: Measured} in microseconds; without what has no estimate."""
+        """{(technique, point): {stage: Measured}} in microseconds; points and stages without an estimate are left out."""
         stages = {}
         for r in self.estimates:
             if r["shot"] == shot and r["chip"] == chip and not r["refusal"]:
@@ -320,7 +320,7 @@ class Results:
         return stages
 
     def warnings_of_times(self, shots):
-        """What must be known before the times of these shots are believed: sentences without a dot."""
+        """Reasons to doubt the times of these shots: sentences without a full stop."""
         shares = [number(r, "disturbed_share") or 0.0 for r in self.times if r["shot"] in shots and r["technique"]]
         proofs = self.manifest.get("clock", {}).get("proofs", [])
         proven = {shot for proof in proofs if proof["verdict"] == "passed" for shot in proof.get("shots", [])}
@@ -336,14 +336,14 @@ class Results:
         return max(frames, default=0)
 
     def frames_with_images(self, shot, target):
-        """Numbers of the frames that results were kept of, ascending."""
+        """Numbers of the frames whose images were kept, ascending."""
         images = self.manifest.get("images", [])
         own = [i for i in images if i.get("shot") == shot and i.get("target") == target and i.get("kind") in ("result", "played")]
         return sorted({i.get("frame") or 0 for i in own})
 
     def images_of(self, shot, target, frame=None, keys=None):
-        """(technique, point) to RGB image of the first seed; the reference's key is ("reference", ""). Of the last frame,
-        and of all points but single changes, unless others are asked for."""
+        """{(technique, point): RGB image} of the first seed; the reference has the key ("reference", ""). By default of the last frame, and
+        of all points but single changes."""
         frame = self._last_frame(shot) if frame is None else frame
         entries = [
             i

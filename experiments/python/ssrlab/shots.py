@@ -1,11 +1,11 @@
-"""Entries of a config's `shots` as scripts need them: one by one, and as `ssrlab scene-for` is asked for them."""
+"""Entries of a config's `shots` in the forms that scripts need: one by one, and as arguments of `ssrlab scene-for`."""
 
 import hashlib
 import itertools
 
 
 def in_a_row(shot):
-    """A shot of `room:*` is one of each of `count` scenes from number `first` on."""
+    """Expands a shot of `room:*` into `count` shots of single scenes, from number `first`."""
     numbers = {k: v for k, v in shot.items() if k in ("first", "count")}
     shot = {k: v for k, v in shot.items() if k not in numbers}
     if not shot.get("scene", "").endswith(":*"):
@@ -15,7 +15,7 @@ def in_a_row(shot):
 
 
 def single_shots(entries):
-    """Entries of `shots`, those that list scenes, cameras, settings, sizes or frames taken apart."""
+    """One entry for each combination of the scenes, cameras, settings, sizes and frames that entries of `shots` list."""
     found = []
     for entry in entries:
         names = ("scene", "camera", "lit", "lit_specular", "fallback", "depth_format", "depth_direction", "normal_encoding", "gbuffer_formats")
@@ -30,7 +30,7 @@ def single_shots(entries):
 
 
 def scene_for_words(shot, study):
-    """What `ssrlab scene-for any` is asked for, of one shot of a study: scene and options but --out, so that the study finds its light cached."""
+    """Arguments of `ssrlab scene-for any` for one shot of a study, without --out. The study then finds its light in the cache."""
     frames = shot.get("frames", [0])
     if isinstance(frames, dict):
         frames = range(frames["from"], frames["to"] + 1)
@@ -44,6 +44,6 @@ def scene_for_words(shot, study):
 
 
 def scene_folder_name(words):
-    """A name for what scene-for writes when it is asked for `words`, and for nothing else."""
+    """A folder name for the output of `ssrlab scene-for` with the arguments `words`, unique to them."""
     scene = "".join(c if c.isalnum() or c in "_-" else "_" for c in words[0])
     return f"{scene}_{hashlib.sha256(' '.join(words).encode()).hexdigest()[:8]}"

@@ -1,5 +1,6 @@
-"""Statistics over scenes of what tables and documents choose, by the rules of the C++ (experiments/results/verdicts/effects/over_scenes.h): scenes are the
-sample, shots of one asset are averaged first, and below four assets there is no interval."""
+"""Statistics over scenes for the values that tables and documents choose, by the rules of the C++
+(experiments/results/verdicts/effects/over_scenes.h): scenes are the sample, shots of one asset are averaged first, and below four assets
+there is no interval."""
 
 import math
 import statistics
@@ -13,7 +14,7 @@ COUNTS_SPREAD = 0.025  # relative, of a point's seeds: experiments/results/files
 
 
 def mean(values):
-    """(mean, low, high) by Student's t, of two values or more."""
+    """(mean, low, high) by Student's t, of two or more values."""
     half = stats.t.ppf(0.975, len(values) - 1) * statistics.stdev(values) / math.sqrt(len(values))
     return statistics.fmean(values), statistics.fmean(values) - half, statistics.fmean(values) + half
 
@@ -38,8 +39,8 @@ def geometric_mean_over_scenes(logarithms):
 
 
 def p_holm(effects, degrees):
-    """p-values of "the mean is 0" of (mean, half width of its 95 % interval by Student's t of so many degrees of freedom) pairs, adjusted
-    together (Holm 1979)."""
+    """p-values of "the mean is 0", adjusted together (Holm 1979), for pairs (mean, half-width of its 95 % interval). Intervals are
+    Student's with the given degrees of freedom."""
     quantile = stats.t.ppf(0.975, degrees)
     p_values = [2 * stats.t.cdf(-abs(mean) * quantile / half, degrees) for mean, half in effects]
     adjusted, most = [0.0] * len(p_values), 0.0

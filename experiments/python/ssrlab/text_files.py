@@ -1,4 +1,4 @@
-"""Reads files that somebody else may have written, and writes files whole or not at all."""
+"""Reads files of unknown authors, and writes files whole or not at all."""
 
 import contextlib
 import json
@@ -9,7 +9,7 @@ from ssrlab.mistakes import ResultsError
 
 
 def read_text(file):
-    """The UTF-8 of a regular file: pipes and devices, which may never end, are refused."""
+    """The UTF-8 text of a regular file. Pipes and devices, which may never end, are refused."""
     data = read_bytes(file)
     try:
         return data.decode("utf-8")
@@ -29,8 +29,8 @@ def read_bytes(file):
 
 
 def path_inside(folder, name, where=""):
-    """The path of what a file, or a folder that may come from a stranger, calls `name`, by the rule of core/path_inside.h: ResultsError where
-    it would lead out of `folder`, or a symbolic link is on the way. `where`: file and key that have the name, for the message."""
+    """The path that a file or folder of an unknown author calls `name`, by the rule of core/path_inside.h. Fails with ResultsError if it
+    leads out of `folder` or passes a symbolic link. `where`: file and key of the name, for the message."""
     where = where and where + ": "
     if not isinstance(name, str) or not name or name.startswith("/") or "\0" in name or ".." in name.split("/"):
         raise ResultsError(f"{where}{json.dumps(name)[:200]} is no path below {folder}: such a name is relative and has no '..'")
@@ -44,8 +44,8 @@ def path_inside(folder, name, where=""):
 
 @contextlib.contextmanager
 def whole_file(file):
-    """A name beside `file` to write to, which takes its place once the block has ended well: whole or not at all, and never through a link.
-    Makes the folders above it."""
+    """A name beside `file` to write to; it replaces `file` once the block has ended without an exception, never through a link. Makes
+    missing folders."""
     os.makedirs(os.path.dirname(file) or ".", exist_ok=True)
     temporary = f"{file}.partial-{os.getpid()}"
     try:

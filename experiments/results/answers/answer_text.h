@@ -6,16 +6,16 @@
 #include <string>
 #include <vector>
 
-// Numbers, intervals and names as the answers' sentences have them.
+// Numbers, intervals and names in the form that answers use.
 
-/// Three significant digits, as a reader compares them.
+/// Three significant digits.
 std::string shown(double value);
-/// Of a ratio `least_digits`; three near 1, where two would hide on which side it lies.
+/// A ratio with `least_digits` significant digits; with three near 1, where fewer would hide the side on which it lies.
 std::string shown_ratio(double ratio, int least_digits = 2);
 std::string interval_text(const std::optional<double>& low, const std::optional<double>& high);
 
 std::string name_of(const AnswerPoint& point);
-/// As of names (list_text.h).
+/// A list as in list_text.h.
 std::string listed(const std::vector<AnswerPoint>& points, size_t most);
 
 /// A quotient with its 95 % interval.
@@ -23,5 +23,5 @@ struct Ratio {
     double value;
     std::optional<double> low, high;
 };
-/// With a third digit where two would show an interval as a point.
+/// Uses a third digit where two would show the interval as a point.
 std::string shown(const Ratio& ratio);

@@ -24,18 +24,21 @@ std::string with_value(const AnswerPoint& p) {
     return name_of(p) + " (" + shown(p.value) + interval_text(p.low, p.high) + ")";
 }
 
-/// " Within 5 % of it for certain: B and C. Undecided beside it: D. The other 7 err more for certain."
+/// " Certainly within 5 % of this error: B and C. It is undecided whether A errs less than D. The other 7 points
+/// certainly have larger errors."
 std::string others_text(const ShotAnswer& answer, const Headline& headline) {
     constexpr size_t most_named = 3;
     std::string text;
     if (!answer.near.empty())
-        text +=
-            " Within " + percent_text(headline.margin) + " of it for certain: " + listed(answer.near, most_named) + ".";
-    if (!answer.tied.empty()) text += " Undecided beside it: " + listed(answer.tied, most_named) + ".";
+        text += " Certainly within " + percent_text(headline.margin) +
+                " of this error: " + listed(answer.near, most_named) + ".";
+    if (!answer.tied.empty())
+        text += " It is undecided whether " + name_of(*answer.best) + " errs less than " +
+                listed(answer.tied, most_named) + ".";
     if (text.empty() || answer.behind.empty()) return text;
-    return text + (answer.behind.size() == 1
-                       ? " " + name_of(answer.behind.front()) + " errs more for certain."
-                       : " The other " + std::to_string(answer.behind.size()) + " err more for certain.");
+    return text + (answer.behind.size() == 1 ? " " + name_of(answer.behind.front()) + " certainly has a larger error."
+                                             : " The other " + std::to_string(answer.behind.size()) +
+                                                   " points certainly have larger errors.");
 }
 
 /// What one shot's points scored, and how long they took.
@@ -89,8 +92,8 @@ struct ClockRecord {
     bool is_proven = false;  ///< the clock that timed the shot proved itself
 };
 
-/// " Y takes 0.6x its time at 1.8x the error.": of the front's cheaper points, the one with the least error among those
-/// that save a fifth of the time or more, and more than copies of the same point differ by.
+/// " Y takes 0.6x the time of X and has 1.8x the error of X.": of the front's cheaper points, the one with the least
+/// error among those that save a fifth of the time or more, and more than copies of the same point differ by.
 std::string cheaper_sentence(const ShotAnswer& answer, const std::vector<Scored>& scored, const ClockRecord& clock) {
     const double worth_while = std::min(0.8, 1 - clock.floor);
     const TimeSummary* own = find(scored, *answer.best).time;
@@ -98,11 +101,12 @@ std::string cheaper_sentence(const ShotAnswer& answer, const std::vector<Scored>
     for (auto p = answer.front.rbegin(); p != answer.front.rend(); ++p) {
         const TimeSummary* time = find(scored, *p).time;
         if (time->median > worth_while * own->median || !(answer.best->value > 0)) continue;
-        return " " + name_of(*p) + " takes " + shown(ratio_of(*time, *own)) + " its time" +
-               (clock.is_proven ? "" : " (timer not validated)") + " at " +
-               shown(over_best(find(scored, *p), *answer.best)) + " the error.";
+        const std::string best = name_of(*answer.best);
+        return " " + name_of(*p) + " takes " + shown(ratio_of(*time, *own)) + " the time of " + best +
+               (clock.is_proven ? "" : " (timer not validated)") + " and has " +
+               shown(over_best(find(scored, *p), *answer.best)) + " the error of " + best + ".";
     }
-    return " Nothing on the front is faster by a fifth, or by more than copies of one point differ.";
+    return " No point on the front saves " + percent_text(1 - worth_while) + " of this time.";
 }
 
 std::string limit_sentence(const ShotAnswer& answer) {
@@ -113,14 +117,14 @@ std::string limit_sentence(const ShotAnswer& answer) {
     const std::string limit = shown(answer.limit->value) + interval_text(answer.limit->low, answer.limit->high);
     const double least = answer.best->low.value_or(answer.best->value),
                  most = answer.limit->high.value_or(answer.limit->value);
-    return least > most ? " The" + what + " is " + limit + "." : " That reaches the" + what + ", " + limit + ".";
+    return least > most ? " The" + what + " is " + limit + "." : " This error reaches the" + what + ", " + limit + ".";
 }
 
 std::string gain_clause(const ShotAnswer& answer, const std::vector<Scored>& scored) {
     if (!answer.baseline || answer.baseline->technique == answer.best->technique || !(answer.baseline->value > 0))
         return "";
     return ", " + shown(inverse(over_best(find(scored, *answer.baseline), *answer.best))) +
-           " that of no reflections (none)";
+           " the error without reflections (none)";
 }
 
 /// "1 seed", of "none: 1 seed".
@@ -135,14 +139,15 @@ std::string unranked_text(const ShotAnswer& answer, const std::vector<Scored>& s
     if (answer.unranked.empty()) return "";
     const AnswerPoint& least = answer.unranked.front();
     const std::string why = " (" + why_not_ranked(*find(scored, least).error) + ")";
-    const std::string measured = name_of(least) + " measures least, " + headline.metric + " " + shown(least.value);
+    const std::string measured =
+        name_of(least) + " measures the least error, " + headline.metric + " " + shown(least.value);
     const std::string points =
         std::to_string(answer.unranked.size()) + " of " + std::to_string(scored.size()) + " points";
     if (!answer.best)
-        return "Nothing is ranked, as no " + headline.metric + " of this shot has an interval that holds all noise" +
-               why + ": " + measured + ".";
+        return "Nothing is ranked: no " + headline.metric + " of this shot has an interval that holds all noise" + why +
+               ". " + measured + ".";
     if (least.value < answer.best->value)
-        return measured + ", but is only measured, as are " + points + why + ". Among those that are ranked, ";
+        return measured + ", but has no rank. " + points + " have no rank" + why + ". ";
     return "";
 }
 
@@ -154,7 +159,8 @@ std::string sentence_of(const ShotAnswer& answer, const std::vector<Scored>& sco
                               interval_text(answer.best->low, answer.best->high) + gain_clause(answer, scored);
     const std::string name = name_of(*answer.best);
     if (scored.size() == 1) return name + " is the only point" + value + "." + limit_sentence(answer);
-    if (answer.unranked.size() + 1 == scored.size()) return text + name + " stands alone" + value + ".";
+    if (answer.unranked.size() + 1 == scored.size()) return text + name + " is the only ranked point" + value + ".";
+    if (!text.empty()) text += "Among the ranked points, ";
     const bool is_certain = find(scored, *answer.best).error->standing == standing::best;
     text += name + (is_certain ? " has the least error" : " measures the least error") + value + ".";
     return text + others_text(answer, headline) + cheaper_sentence(answer, scored, clock) + limit_sentence(answer);
@@ -169,20 +175,19 @@ std::string perceptual_sentence_of(const ShotAnswer& answer, const std::vector<S
     const Better better = metric_named(metric).better;
     const auto first =
         std::ranges::min_element(perceived, {}, [&](const Scored& s) { return shortfall(better, s.point.value); });
-    const std::string by = "By " + metric + ", which is nearer to what people see, ",
+    const std::string by = "By " + metric + ", which is closer to what people see, ", name = name_of(own->point),
                       own_value = shown(own->point.value) + interval_text(own->point.low, own->point.high);
-    if (perceived.size() == 1) return by + own_value + ".";
-    if (own->error->standing == standing::best) return by + "it is the best, too: " + own_value + ".";
+    if (perceived.size() == 1) return by + name + " has " + own_value + ".";
+    if (own->error->standing == standing::best) return by + name + " is the best, too: " + own_value + ".";
     if (own == first)
-        return by + "it measures best, too: " + own_value +
-               (own->error->standing.empty() ? "" : ", undecided beside others") + ".";
+        return by + name + " measures best, too: " + own_value + "." +
+               (own->error->standing.empty() ? "" : " Its lead over other points is undecided.");
+    const std::string is_better = with_value(first->point), than_own = " than " + with_value(own->point);
     if (own->error->standing == standing::behind)
-        return by + with_value(first->point) + " is significantly better in paired differences; " +
-               name_of(own->point) + " has " + own_value + ".";
+        return by + is_better + " is significantly better" + than_own + " in a paired comparison.";
     const bool are_ranked = !own->error->standing.empty() && !first->error->standing.empty();
-    return by + with_value(first->point) + " measures better" +
-           (are_ranked ? ", but that is not decided" : ", but is not ranked") + "; " + name_of(own->point) + " has " +
-           own_value + ".";
+    return by + is_better + " measures better" + than_own +
+           (are_ranked ? ", but the difference is undecided." : ", but not both points are ranked.");
 }
 
 }  // namespace

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-/// By which error a study answers: the one that it is made to compare (manifest.json's `primary`), and one that is near
-/// to what people see (flip, else ssim; empty if it measures neither).
+/// The errors by which a study answers: the one that it is made to compare (manifest.json's `primary`), and a
+/// perceptual one (flip, else ssim; empty if neither is measured).
 struct Headline {
     std::string metric, mask, target, perceptual_metric;
-    double margin = PrimaryComparisons().margin;  ///< within which errors are equivalent
+    double margin = PrimaryComparisons().margin;  ///< errors within this share are equivalent
 };
 Headline headline_of(const nlohmann::json& manifest, std::span<const MetricSummary> errors);
 
@@ -19,34 +19,33 @@ struct AnswerPoint {
     std::string technique, point;
     double value = 0;
     std::optional<double> low, high;  ///< 95 % interval
-    std::string label = "";           ///< how the study names it; "": by technique and point
+    std::string label = "";           ///< the study's name for the point; "": none
 };
 
-/// What a study says of one shot at first sight: which technique, at which cost, and how certain that is, by the
-/// standings that evaluation/standings.h decided. Points that use scene data (exact_scene, exact_rays) take no part.
+/// A study's first answer for one shot: which technique, at which cost, and how certain. Based on
+/// MetricSummary::standing (results/verdicts/standings.h). Points that use scene data (exact_scene, exact_rays) take no
+/// part.
 struct ShotAnswer {
     std::string shot;
-    std::optional<AnswerPoint> best;      ///< least error of those whose interval holds all noise
-    std::vector<AnswerPoint> near;        ///< certainly within the margin of `best`, significantly behind it or not
-    std::vector<AnswerPoint> tied;        ///< of which nothing is decided beside `best`
+    std::optional<AnswerPoint> best;      ///< the least error among points whose interval includes all noise
+    std::vector<AnswerPoint> near;        ///< certainly within the margin of `best`, even if significantly worse
+    std::vector<AnswerPoint> tied;        ///< undecided against `best`
     std::vector<AnswerPoint> behind;      ///< significantly worse than `best`, and not certainly within the margin
-    std::vector<AnswerPoint> unranked;    ///< measured, without an interval that holds all noise; the least error first
-    std::optional<AnswerPoint> baseline;  ///< `none`, where it was run: no reflections but the environment's
-    std::optional<AnswerPoint>
-        limit;  ///< error of the truth ladder's rung on_screen: see groundtruth/reference/truth_ladder.h
-    std::vector<AnswerPoint> front;  ///< that no other beats in both error and time, by ascending time; a hint, by
-                                     ///< means and medians alone
-    bool is_clock_proven = false;    ///< that timed the shot; false where nothing was timed
+    std::vector<AnswerPoint> unranked;    ///< measured, but without an interval of all noise; ascending errors
+    std::optional<AnswerPoint> baseline;  ///< `none`, if it was run: no reflections but the environment's
+    std::optional<AnswerPoint> limit;     ///< error of the rung on_screen (groundtruth/reference/truth_ladder.h)
+    std::vector<AnswerPoint> front;  ///< not beaten in both error and time, by means and medians alone; ascending time
+    bool is_clock_proven = false;    ///< of the clock that timed the shot; false if none did
     std::string sentence, perceptual_sentence;  ///< the latter is empty where no perceptual error was measured
 
-    /// How many are ranked beside the best.
+    /// Number of ranked points other than the best.
     size_t others() const { return near.size() + tied.size() + behind.size(); }
 };
 
-/// One for each shot that has an error of the headline, in the order of the results.
+/// One answer for each shot that has the headline's error, in the order of the results.
 std::vector<ShotAnswer> shot_answers(const StudyResults& tables);
 
-/// What is said first, on the page and in the terminal: what holds in the study's own scenes, and what may hold in
+/// The first sentences on the page and in the terminal: what holds in the study's own scenes, and what may hold in
 /// others (scenes_answer.h).
 struct StudyAnswers {
     std::string in_these_scenes, in_scenes_like_these;

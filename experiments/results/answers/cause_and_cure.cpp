@@ -46,7 +46,7 @@ double number_at(const json& object, const char* key) {
     return object.is_object() && object.contains(key) && object[key].is_number() ? object[key].get<double>() : 0;
 }
 
-/// " 1 % of the pixels hold 84 % of the reference's noise. Surfaces of roughness 0 to 0.1 hold 92 % of it."
+/// " 1 % of the pixels hold 84 % of the reference's noise. Surfaces of roughness 0 to 0.1 hold 92 % of this noise."
 std::string places_sentences(const json& noise) {
     const double share = number_at(noise, "noisiest_share");
     if (!(share > 0)) return "";
@@ -57,7 +57,7 @@ std::string places_sentences(const json& noise) {
     if (most == classes.end() || classes.size() < 2) return text;
     return text + " Surfaces of roughness " + number_text(number_at(*most, "from"), 2) + " to " +
            number_text(number_at(*most, "below"), 2) + " hold " + share_text(number_at(*most, "variance_share")) +
-           " of it.";
+           " of this noise.";
 }
 
 /// The counts that references have: 16 x 2^k.
@@ -65,7 +65,7 @@ double reference_count(double samples) { return 16 * std::exp2(std::ceil(std::lo
 
 std::string reference_sentences(const JudgedShot& shot, const std::vector<const MetricSummary*>& points) {
     const MetricSummary& first = *points.front();
-    if (!first.floor) return " This shot's reference came without halves, by which its noise is known.";
+    if (!first.floor) return " This shot's reference came without halves, so its noise is unknown.";
     if (first.metric.find("ssim") != std::string::npos)
         return " No number of samples gives " + first.metric + " an interval.";
     const double samples = number_at(shot.reference, "samples_median");
@@ -77,11 +77,12 @@ std::string reference_sentences(const JudgedShot& shot, const std::vector<const 
                (first.pixels == 1 ? " pixel." : " pixels.");
         needed = reference_count(least_noise_samples / double(std::max<size_t>(first.pixels, 1)));
     }
-    return text + " About " + fixed_text(needed) + " samples per pixel would give " + first.metric +
-           (points.size() == 1 ? " an interval" : " intervals") + " (reference.samples: " + fixed_text(samples) + ").";
+    return text + " About " + fixed_text(needed) + " samples per pixel (reference.samples) would give " + first.metric +
+           (points.size() == 1 ? " an interval" : " intervals") + ". This reference has " + fixed_text(samples) +
+           " samples per pixel.";
 }
 
-/// " flip decides now: it ranks all 4 points."
+/// " flip already ranks all 4 points."
 std::string deciding_sentence(const JudgedShot& shot, size_t ranked_by_own) {
     std::map<std::string, std::pair<size_t, size_t>> metrics;  // ranked points, and all
     for (const MetricSummary* e : shot.errors) {
@@ -92,19 +93,19 @@ std::string deciding_sentence(const JudgedShot& shot, size_t ranked_by_own) {
     const auto best = std::ranges::max_element(
         metrics, {}, [](const auto& m) { return std::pair(m.second.first, m.first == "flip"); });
     if (best == metrics.end())
-        return shot.metric == "flip" ? "" : " Add flip to metrics: few samples suffice for its intervals.";
+        return shot.metric == "flip" ? "" : " Add flip to the metrics: flip needs few samples for an interval.";
     const auto& [name, counts] = *best;
     if (counts.first < 2 || counts.first <= ranked_by_own) return "";
-    return " " + name + " decides now: it ranks " +
+    return " " + name + " already ranks " +
            (counts.first == counts.second ? "all " + std::to_string(counts.first)
                                           : std::to_string(counts.first) + " of " + std::to_string(counts.second)) +
            " points.";
 }
 
-std::string of_largest_clause(const VisibleDifference& visible, const std::string& name) {
+std::string of_largest_sentence(const VisibleDifference& visible, const std::string& name) {
     const bool is_far_worse =
         visible.largest > 1.5 * visible.typical && share_text(visible.largest) != share_text(visible.typical);
-    return is_far_worse ? "; of " + name + " it takes " + share_text(visible.largest) : "";
+    return is_far_worse ? " For " + name + " this difference is " + share_text(visible.largest) + "." : "";
 }
 
 }  // namespace
@@ -127,7 +128,8 @@ std::string cure_sentences(const JudgedShot& shot) {
     if (const auto& points = unranked[Cause::seeds]; !points.empty())
         text += " Run with seeds: 4 to rank " + listed_points(points, shot.labels) + ".";
     if (const auto& points = unranked[Cause::runs]; !points.empty())
-        text += " No number of seeds ranks " + listed_points(points, shot.labels) + ": results differ from run to run.";
+        text += " No number of seeds ranks " + listed_points(points, shot.labels) +
+                ", because results differ from run to run.";
     return text + deciding_sentence(shot, ranked);
 }
 
@@ -139,16 +141,16 @@ std::string power_sentence(const JudgedShot& shot) {
     if (!visible) return "";
     const auto largest = std::ranges::find_if(
         ranked, [&](const MetricSummary* e) { return PointName(e->technique, e->point) == visible->of_largest; });
-    return " Such a study sees a difference of " + share_text(visible->typical) + " to the best in 8 of 10 cases" +
-           of_largest_clause(*visible, point_name(**largest, shot.labels)) + ".";
+    return " A study like this detects a difference of " + share_text(visible->typical) +
+           " from the best in 8 of 10 cases." + of_largest_sentence(*visible, point_name(**largest, shot.labels));
 }
 
 std::string power_over_scenes_sentence(std::span<const OverScenesRow* const> rows) {
     const auto visible = visible_over_scenes(rows);
     const auto needed = scenes_needed_for(rows);
     if (!visible || !needed) return "";
-    return " Such a study sees a difference of " + share_text(visible->typical) + " in 8 of 10 cases; one of " +
-           share_text(worth_deciding) + " takes " + fixed_text(*needed) + " scenes.";
+    return " A study like this detects a difference of " + share_text(visible->typical) +
+           " in 8 of 10 cases. Detecting " + share_text(worth_deciding) + " takes " + fixed_text(*needed) + " scenes.";
 }
 
 std::string deciding_over_scenes_sentence(std::span<const OverScenesRow> rows, const OverScenesRow& unranked) {

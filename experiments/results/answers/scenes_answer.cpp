@@ -98,11 +98,11 @@ std::string in_these_scenes(const std::vector<ShotAnswer>& answers, const json& 
     if (ranked == 0) return all + "nothing is ranked by " + headline.metric + ".";
     std::string text =
         (ranked < answers.size() ? "In " + std::to_string(ranked) + " of these " + count + " shots " : all) +
-        "the least " + headline.metric + " has: " + first.text() + ".";
+        "these points have the least " + headline.metric + ": " + first.text() + ".";
     if (!near.is_empty())
-        text += " Within " + percent_text(headline.margin) + " of that for certain: " + near.text() + ".";
+        text += " Certainly within " + percent_text(headline.margin) + " of the least: " + near.text() + ".";
     if (const Names everywhere = behind.of(ranked); !everywhere.empty())
-        text += " In each of them behind for certain: " + listed(everywhere, most_named) + ".";
+        text += " Certainly worse in each of these shots: " + listed(everywhere, most_named) + ".";
     return text;
 }
 
@@ -129,19 +129,19 @@ std::string in_scenes_like_these(const StudyResults& tables) {
     if (rows.empty()) return "";
     const OverScenesRow& first = *rows.front();  // those that are ranked come first
     if (!first.rank)
-        return "Over scenes nothing is ranked: no shot has an error of every point." +
+        return "Nothing is ranked over scenes: no shot has an error of every point." +
                deciding_over_scenes_sentence(tables.over_scenes, first);
     std::set<std::string> scenes;
     for (const MetricSummary& e : tables.summary)
         if (is_of_headline(e)) scenes.insert(asset_of(manifest, e.shot));
     if (scenes.size() == 1)
-        return "Of other scenes one scene says nothing: a verdict over scenes takes " + std::to_string(least_scenes) +
-               ".";
+        return "One scene says nothing about other scenes: a verdict over scenes needs at least " +
+               std::to_string(least_scenes) + ".";
     const std::string name = names.at({first.technique, first.point}), count = std::to_string(first.scenes);
     if (first.scenes < least_scenes)
-        return "Of other scenes " + count + (first.scenes == 1 ? " scene says" : " scenes say") +
-               " nothing: a verdict over scenes takes " + std::to_string(least_scenes) + ". Here " + name +
-               " errs least on average.";
+        return count + (first.scenes == 1 ? " scene says" : " scenes say") +
+               " nothing about other scenes: a verdict over scenes needs at least " + std::to_string(least_scenes) +
+               ". In these scenes " + name + " has the least error on average.";
     const bool is_baseline = first.technique == first.baseline_technique && first.point == first.baseline_point;
     const AnswerPoint baseline{first.baseline_technique,
                                first.baseline_point,
@@ -156,15 +156,15 @@ std::string in_scenes_like_these(const StudyResults& tables) {
                           ", geometric mean over " + count +
                           (first.scenes < scenes.size() ? " of " + std::to_string(scenes.size()) : "") + " scenes";
     std::string text = "In scenes like these " + name;
-    if (first.standing == standing::best) return text + " errs least on average for certain" + gain + ".";
-    text += " measures least" + gain +
-            ". Probability to err least on average: " + chances_text(rows, &OverScenesRow::chance_first, names) +
-            ". To be within " + percent_text(near_first) +
+    if (first.standing == standing::best) return text + " certainly has the least error on average" + gain + ".";
+    text += " measures the least error on average" + gain +
+            ". Probability of the least mean error: " + chances_text(rows, &OverScenesRow::chance_first, names) +
+            ". Probability of a mean error within " + percent_text(near_first) +
             " of the least: " + chances_text(rows, &OverScenesRow::chance_near, names) + ".";
     if (!near.empty())
-        text += " Within " + percent_text(headline.margin) + " of " + name +
-                " for certain: " + listed(near, most_named) + ".";
-    text += behind.empty() ? " Nothing is ruled out." : " Behind for certain: " + listed(behind, most_named) + ".";
+        text += " Certainly within " + percent_text(headline.margin) + " of " + name + ": " + listed(near, most_named) +
+                ".";
+    text += behind.empty() ? " No point is certainly worse." : " Certainly worse: " + listed(behind, most_named) + ".";
     std::erase_if(rows, [](const OverScenesRow* row) { return !row->rank; });
     return text + power_over_scenes_sentence(rows);
 }

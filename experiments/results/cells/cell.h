@@ -9,15 +9,15 @@
 #include <string>
 #include <vector>
 
-/// One row of results.csv; the columns are explained in experiments/RESULTS.md.
+/// One row of results.csv; the columns are explained in experiments/docs/reference/result_columns.md.
 struct ResultRow {
     std::string shot, scene, camera;
-    std::string frame;  ///< its number, or over_frames
+    std::string frame;  ///< frame number, or over_frames
     unsigned width = 0, height = 0;
     std::string technique, point;
     unsigned seed = 0;
     std::string target, metric, formula, mask;
-    std::optional<double> value;  ///< none where it is not finite, e.g. the PSNR of equal images
+    std::optional<double> value;  ///< none if not finite, for example the PSNR of equal images
     bool corrected = false;
     std::optional<double> uncorrected, low, high, floor;
     std::optional<double> lit_noise, lit_half_width;  ///< see LitNoise
@@ -41,8 +41,8 @@ struct SplitRow {
     // Kept in cells, for effects, but not in splits.csv.
     std::vector<unsigned> seed_numbers;  ///< of `pairs`
     SeedPairs pairs;
-    std::vector<float> reference_noise;  ///< of bias_squared, see ReferenceNoise::sums
-    /// In bias_squared, as ResultRow has them; empty where `mse` is not measured.
+    std::vector<float> reference_noise;  ///< noise in bias_squared, see ReferenceNoise::sums
+    /// LitNoise of bias_squared, as in ResultRow; empty where `mse` is not measured.
     std::optional<double> lit_noise, lit_half_width;
 
     COLUMNS(SplitRow, shot, frame, technique, point, target, mask, seeds, mse, bias_squared, variance, variance_low,
@@ -66,15 +66,15 @@ struct TimeRow {
 /// One row of hits.csv: how the rays of one pass ended.
 struct HitRow {
     std::string shot, frame, technique, point;
-    std::string stage;     ///< the pass
-    std::string mask;      ///< of the pixels that they start from
-    std::string quantity;  ///< a verdict of judged_hits.h; "correct": the sum of right ones; "miss: " and the outcome
-                           ///< that the tracer gave for an avoidable one; "distance_error"; "fetches", "fetches: " and
-                           ///< "median", "90 %" or "most"
+    std::string stage;  ///< the pass
+    std::string mask;   ///< mask of the pixels where the rays start
+    /// a verdict of judged_hits.h; "correct": the sum of right ones; "miss: " and a tracer's outcome of avoidable
+    /// misses; "distance_error"; "fetches", "fetches: " and "median", "90 %" or "most"
+    std::string quantity;
     unsigned seeds = 0;
     double rays = 0;  ///< mean over the seeds
     double value = 0;
-    std::optional<double> low, high;  ///< over the seeds; none with a single one
+    std::optional<double> low, high;  ///< over the seeds; none for a single seed
 
     COLUMNS(HitRow, shot, frame, technique, point, stage, mask, quantity, seeds, rays, value, low, high)
 };
@@ -91,11 +91,11 @@ struct CostRow {
 /// One row of compiled.csv: what a GPU's compiler made of one shader of a stage.
 struct CompiledRow : CompilerNumbers {
     std::string shot, technique, point, stage;
-    unsigned pipeline = 0;  ///< a stage may run several, for its mips or materials
+    unsigned pipeline = 0;  ///< a stage may run several, for mips or materials
     std::string shader;     ///< "compute", "vertex" or "fragment"; "": refused
     std::string chip, driver;
-    std::optional<double> waves, most_waves;  ///< see Occupancy, ...
-    std::string limit;                        ///< ... of the waves
+    std::optional<double> waves, most_waves;  ///< see Occupancy
+    std::string limit;                        ///< what limits `waves`, see Occupancy
     std::string refusal;                      ///< why there are no numbers
 
     static constexpr auto columns() {
@@ -110,13 +110,13 @@ struct CompiledRow : CompilerNumbers {
     }
 };
 
-/// One row of estimates.csv: how long a chip would take for a stage, see gpu_estimates.h. Microseconds; numbers are
-/// missing where there is a refusal.
+/// One row of estimates.csv: a stage's estimated time on a chip in microseconds, see gpu_estimates.h. A row with a
+/// refusal has no numbers.
 struct EstimateRow {
     std::string shot, technique, point, stage;  ///< stage: also `total`
     std::string chip, product;
     std::optional<double> microseconds, low, high;
-    std::string bound;  ///< the part that takes longest, see ChipTime
+    std::string bound;  ///< the part of the chip that takes longest, see ChipTime
     std::optional<double> vector, scalar, shared_memory, textures, targets, memory, latency, caches;
     std::optional<double> waves, active_lanes, unmatched, cut_lanes;
     std::string refusal;  ///< why there are no numbers
@@ -137,7 +137,7 @@ struct MeasuredRows {
     std::vector<EstimateRow> estimates = {};
     std::vector<ReferenceNoise> reference_noise = {};
 
-    /// The lists of rows that have columns, by their names in the files of cells.
+    /// The lists of rows with columns, by their names in cell files.
     static constexpr auto lists() {
         return std::tuple_cat(std::tuple(Column{"rows", &MeasuredRows::results}),
                               MEMBER_COLUMNS(MeasuredRows, splits, times, hits, costs, compiled, estimates));
@@ -150,22 +150,22 @@ void for_each_list(Use use) {
     std::apply([&](const auto&... list) { (use(list), ...); }, MeasuredRows::lists());
 }
 
-/// The results of one shot and technique point with all its seeds, of the times of a shot, or of its references: the
-/// unit of work that is done once and kept.
+/// The unit of work that is done once and kept: one point in one shot with all its seeds, the times of a shot, or its
+/// references.
 struct Cell : MeasuredRows {
     nlohmann::json images = nlohmann::json::array();  ///< entries of manifest.json's `images`
-    nlohmann::json timing;                            ///< as timing_entry() gives it; null where nothing was timed
+    nlohmann::json timing;                            ///< timing_entry(); null where nothing was timed
     std::vector<std::string> notes;                   ///< sentences for the manifest: what is unknown, and why
-    std::string truth;    ///< ShotTruth::content_hash() of what its numbers were measured against
-    nlohmann::json shot;  ///< what the manifest says of the shot once its references are there; null in other cells
-    double seconds = 0;   ///< that making it took, with the opening of the shot for its references
-    nlohmann::json provenance;  ///< what made it, where and when, see experiments/results/cells/provenance.h
-    std::string name;           ///< as CellStore knows it
+    std::string truth;                                ///< ShotTruth::content_hash() of the truth behind its numbers
+    nlohmann::json shot;        ///< manifest entry of the shot with its references; null in other cells
+    double seconds = 0;         ///< time to make the cell; for references including opening the shot
+    nlohmann::json provenance;  ///< maker, place and time, see provenance.h
+    std::string name;           ///< the cell's name in CellStore
 };
 
 void to_json(nlohmann::json& json, const Cell& cell);
-/// Of what read_cell() has checked.
+/// Reads JSON that read_cell() has checked.
 void from_json(const nlohmann::json& json, Cell& cell);
-/// What to_json() made. Fails with Error, which names the member, where that has another type or length, is missing, or
-/// is not a cell's. `where`: file and place, for the message.
+/// Reads what to_json() wrote. Fails with Error that names the member if one is missing, unknown, or of another type or
+/// length. `where`: file and place, for the message.
 Cell read_cell(const nlohmann::json& json, const std::string& where);

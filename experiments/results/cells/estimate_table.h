@@ -2,7 +2,7 @@
 #include "experiments/gpu_costs/chips/model_range.h"
 #include "experiments/results/cells/cell.h"
 
-/// A row of estimates.csv: an estimate, and between what its model leaves the time (model_range).
+/// A row of estimates.csv: an estimate, and the bounds that the model's range leaves for the time (model_range).
 struct EstimateTableRow : EstimateRow {
     std::optional<double> model_low, model_high;
 
@@ -11,7 +11,7 @@ struct EstimateTableRow : EstimateRow {
     }
 };
 
-/// Rows as the file of their table has them.
+/// Rows in the form of their table's file.
 template <class Row>
 std::vector<Row> rows_in_file(const std::vector<Row>& rows) {
     return rows;

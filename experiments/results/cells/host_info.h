@@ -11,17 +11,17 @@ nlohmann::json host_info();
 /// The path of this program's file.
 std::filesystem::path this_program();
 
-/// This program: {"version", "commit", "dirty", "code", "compiler", "build"}. Commit and dirty are those of the source
-/// tree when it was built, as build_commit.json beside the program says; "" and false without that file. Dirty too if
-/// code_hash(), which is "code", is no longer what it was then.
+/// This program: {"version", "commit", "dirty", "code", "compiler", "build"}. "commit" and "dirty" describe the source
+/// tree at build time, from build_commit.json beside the program; "" and false without that file. "code" is
+/// code_hash(); "dirty" is also true if it has changed since the build.
 nlohmann::json build_info();
 
-/// The hash of this executable and of what it reads from the source tree at run time, shaders and the tables of
-/// techniques: a result computed by other code is another result.
+/// The hash of this executable and of what it reads from the source tree at run time (shaders, tables of techniques): a
+/// result computed by other code is another result.
 std::string code_hash();
 
-/// The sources that this program was compiled from, but those that it reads when it runs as they lie in the source tree
-/// now: shaders, what they include, tables.
+/// The sources that this program was compiled from. Files that it reads at run time (shaders, what they include,
+/// tables) are as they are now in the source tree.
 std::vector<SourceFile> present_sources();
 
 /// UTC, ISO 8601: 2026-01-31T12:00:00Z.

@@ -2,8 +2,8 @@
 #include <filesystem>
 #include <string>
 
-/// The path of an image that an entry of a cell or a manifest calls `name`: as path_inside(), and below images/, so
-/// that no entry reaches cells and tables.
+/// The path of the image `name` of a cell's or manifest's entry. Checked by path_inside(), and must lie below images/,
+/// so that no entry reaches cells and tables.
 std::filesystem::path image_path(const std::filesystem::path& results, const std::string& name,
                                  const std::string& where = "");
 

@@ -4,12 +4,12 @@
 
 #include <span>
 
-/// Who makes cells now: {"ssrlab": build_info(), "device": {"name", "driver", "api", "type", "memory_mib"}, "host":
-/// host_info()}.
+/// The present maker of cells: {"ssrlab": build_info(), "device": {"name", "driver", "api", "type", "memory_mib"},
+/// "host": host_info()}.
 nlohmann::json maker_of_cells(const Device& device);
 
-/// Cell::provenance: the maker, {"what": for readers, "started", "finished"}.
+/// Cell::provenance: the maker with {"what": for readers, "started", "finished"}.
 nlohmann::json cell_provenance(const nlohmann::json& maker, const std::string& what, const std::string& started);
 
-/// manifest.json's `provenance`: the makers of the cells, each once with the cells that it made, and when.
+/// manifest.json's `provenance`: each maker once, with its cells and their times.
 nlohmann::json provenance_entries(std::span<const Cell> cells);

@@ -50,7 +50,7 @@ void add_swapped_errors(SumsOfErrors& noise, const std::string& frame, const std
 
 void add_growth(SumsOfErrors& noise, const ErrorName& error, const NoiseGrowth& growth) {
     // No ratio of two counts of outliers was simulated, and the intervals of ratios of mean absolute differences did
-    // not cover (metrics/README.md): such effects have no interval.
+    // not cover (metrics/coverage.md): such effects have no interval.
     if (growth.empty() || !is_error(error.metric) || error.metric == "outliers" || error.metric == "mae") return;
     noise[error].add(growth);
 }

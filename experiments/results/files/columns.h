@@ -7,15 +7,15 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
-/// A column of a table: its name in CSV files, in kept cells and in the report's data, and the member of a row that
-/// holds it: a text, a number (`std::optional<double>` where it may be missing), or a bool (1 or 0 in CSV files).
+/// A column of a table: the name in CSV files, cells and the report's data, and the row's member. A member is a text, a
+/// number (`std::optional<double>` if it may be missing), or a bool (1 or 0 in CSV files).
 template <class Row, class Value>
 struct Column {
     const char* name;
     Value Row::*member;
 };
 
-/// A tuple of the columns that are called as the members which hold them.
+/// A tuple of columns that are named like their members.
 #define MEMBER_COLUMNS(Row, ...)                                                                  \
     [] {                                                                                          \
         using Of = Row;                                                                           \
@@ -23,26 +23,24 @@ struct Column {
     }()
 #define MEMBER_COLUMN(name) Column{#name, &Of::name},
 
-/// Declares the columns of a row, all of them called as its members. Where some are not, the row itself has a function
-/// `columns()`.
+/// Declares the columns of a row if all are named like their members. Otherwise the row defines `columns()` itself.
 #define COLUMNS(Row, ...) \
     static constexpr auto columns() { return MEMBER_COLUMNS(Row, __VA_ARGS__); }
 
-/// Calls `use(column)` for each column of a table, in order: files, cells and the report follow from the row's
-/// `columns()`.
+/// Calls `use(column)` for each column of a table, in order.
 template <class Row, class Use>
 void for_each_column(Use use) {
     std::apply([&](const auto&... column) { (use(column), ...); }, Row::columns());
 }
 
-/// How a folder has a table.
+/// When a results folder has a table's file.
 enum class TableUse {
     always,   ///< every folder has the file
-    of_runs,  ///< likewise; it has a row for each run, so that only who asks for them reads them
+    of_runs,  ///< every folder; one row for each run, so it is read on demand only
     if_any,   ///< no file where there are no rows
 };
 
-/// A table of a folder: the name of its file without `.csv`, and the member that holds its rows.
+/// A table of a results folder: the name of its file without `.csv`, and the member with its rows.
 template <class Tables, class Row>
 struct Table {
     const char* name;
@@ -66,7 +64,7 @@ std::string csv_row(const Row& row) {
     return line;
 }
 
-/// A table with its header; only that where there are no rows.
+/// Writes a table with its header; the header alone if there are no rows.
 template <class Rows>
 void write_rows(const std::filesystem::path& file, const Rows& rows) {
     using Row = std::remove_cvref_t<decltype(*std::begin(rows))>;
@@ -86,8 +84,8 @@ inline void read_field(const CsvReader& csv, const char* name, unsigned& value) 
     value = unsigned(std::min<size_t>(csv.count(name), std::numeric_limits<unsigned>::max()));
 }
 
-/// Fails with Error on a file that cannot be read, lacks a column, or holds what is no value of it. Columns that the
-/// table does not have are passed over.
+/// Reads a table; other columns are ignored. Fails with Error on a file that cannot be read, lacks a column, or holds
+/// an invalid value.
 template <class Row>
 std::vector<Row> read_rows(const std::filesystem::path& file) {
     std::vector<Row> rows;
@@ -115,7 +113,7 @@ void read_json(const nlohmann::json& json, Value& value) {
     json.get_to(value);
 }
 
-/// {column: value}, null where there is none.
+/// {column: value}; null for a missing value.
 template <class Row>
 nlohmann::json row_json(const Row& row) {
     nlohmann::json json = nlohmann::json::object();

@@ -1,13 +1,14 @@
 #pragma once
 #include <string_view>
 
-// Counts (costs.csv) of a point that draws random numbers are of one seed: another seed counts others.
+// Counts (costs.csv) of a point that draws random numbers are of one seed; another seed gives other counts.
 
-/// By so much the counts of two or three seeds spread at most, relative to the least: 17 points of seven techniques in
-/// `fence`, `roughness_gradient` and `room:3` at 160x90. The most was 2.2 %, of the operations of `composed_ssr` in
-/// `fence`. What seed 0 saves is left out (experiments/RESULTS.md). Larger images spread less.
+/// Largest spread of counts over two or three seeds, relative to the least count. Measured with 17 points of seven
+/// techniques in `fence`, `roughness_gradient` and `room:3` at 160x90: at most 2.2 %, for operations of `composed_ssr`
+/// in `fence`. The savings of seed 0 are left out: seed 0 does not move the texture of noise. Larger images spread
+/// less.
 inline constexpr double counts_spread = 0.025;
-/// The same of `idle` and `atomics`, of which there are few: the most was 51 %, of 68 to 103 idle invocations.
+/// Largest spread of `idle` and `atomics`, which count few: at most 51 %, for 68 to 103 idle invocations.
 inline constexpr double few_counts_spread = 0.55;
 
 constexpr double counts_spread_of(std::string_view quantity) {

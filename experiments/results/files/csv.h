@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-/// Reads a CSV file (RFC 4180, header first) row by row; values are asked for by the name of their column. Every
-/// mistake is an Error that names file, line and column.
+/// Reads a CSV file (RFC 4180, header first) row by row; columns are asked for by name. Every mistake is an Error that
+/// names file, line and column.
 ///
 ///     for (CsvReader csv("times.csv"); csv.next();) sum += csv.number("milliseconds");
 class CsvReader {
@@ -35,12 +35,11 @@ private:
 /// One line of a CSV file of the given values, with its line feed. Numbers are the shortest text that reads back
 /// exactly.
 std::string csv_field(double value);
-std::string csv_field(const std::optional<double>& value);  ///< empty if there is none
+std::string csv_field(const std::optional<double>& value);  ///< empty for nullopt
 std::string csv_field(unsigned value);
 std::string csv_field(size_t value);
 std::string csv_field(bool value);  ///< 1 or 0
-/// A text that a spreadsheet would take for a formula is written behind an apostrophe, which CsvReader takes away
-/// again.
+/// A text that a spreadsheet would read as a formula gets an apostrophe in front; CsvReader removes it.
 std::string csv_field(const std::string& value);
 
 template <class... Values>

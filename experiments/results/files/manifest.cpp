@@ -20,8 +20,8 @@ nlohmann::json metric_descriptions() {
     };
     for (const Metric& m : all_metrics()) describe(m);
     for (const TemporalMetric& m : temporal_metrics()) describe(m);
-    for (const auto& [name, doc] : {std::pair("bias_squared", "what of the squared error all seeds share"),
-                                    std::pair("variance", "what of the squared error differs from seed to seed")})
+    for (const auto& [name, doc] : {std::pair("bias_squared", "Part of the squared error that all seeds share"),
+                                    std::pair("variance", "Part of the squared error that differs from seed to seed")})
         all[name] = {
             {"formula", "seed_pairs"}, {"unit", "radiance^2"}, {"better", name_of(Better::lower)}, {"doc", doc}};
     return all;

@@ -6,26 +6,26 @@
 #include <optional>
 #include <string>
 
-// What is read from manifest.json (experiments/RESULTS.md).
+// Readers of manifest.json (experiments/docs/results_folder.md).
 
-/// What `shots` has of a shot; an empty object where it has nothing.
+/// The shot's entry in `shots`; an empty object if it has none.
 const nlohmann::json& shot_entry(const nlohmann::json& manifest, const std::string& shot);
 
-/// What a shot's scene shows, or its name where that is not known: scenes of one asset are no independent samples.
+/// The asset that a shot's scene shows, or the scene's name if unknown. Scenes of one asset are not independent
+/// samples.
 std::string asset_of(const nlohmann::json& manifest, const std::string& shot);
 
-/// A rung of a shot's truth ladder (groundtruth/reference/truth_ladder.h): the error that is left there, with its 95 %
-/// interval.
+/// A rung of a shot's truth ladder (groundtruth/reference/truth_ladder.h): its error with a 95 % interval.
 struct Rung {
     std::string name;
     double value = 0;
     std::optional<double> low, high;
 };
-/// Those that have a value of this error.
+/// The rungs of a shot that have a value of this error.
 std::vector<Rung> truth_ladder(const nlohmann::json& manifest, const std::string& shot,
                                const PrimaryComparisons& error);
 
-/// Whether the clock that timed the shot proved itself; false where nothing was timed.
+/// Whether the clock that timed the shot passed its proof; false where nothing was timed.
 bool is_clock_proven(const nlohmann::json& manifest, const std::string& shot);
 
 /// The values of all parameters of each point.
@@ -34,8 +34,8 @@ std::map<PointName, nlohmann::json> parameters_of_points(const nlohmann::json& m
 /// The names that the study gave its points.
 std::map<PointName, std::string> point_labels(const nlohmann::json& manifest);
 
-/// {name: {"formula", "unit", "better", "doc"}} of all metrics, and of both parts of a squared error: the one source of
-/// which values are good, for report, tables and figures.
+/// {name: {"formula", "unit", "better", "doc"}} of all metrics, and of both parts of a squared error. Report, tables
+/// and figures take from here which values are good.
 nlohmann::json metric_descriptions();
 
 /// The A/A floor of a shot, relative to the mean time; none where no point was timed twice.

@@ -2,8 +2,7 @@
 #include <string>
 #include <vector>
 
-/// What results can be compared with: `specular`, `image`, `incident`, and the rungs of the truth ladder
-/// (truth_ladder.h) that are means over the lobe like `incident`: `camera_radiance`, `on_screen`. The second rung is
-/// `incident` itself.
+/// Targets of comparisons: `specular`, `image`, `incident`, and the rungs of the truth ladder (truth_ladder.h) that are
+/// means over the lobe like `incident`: `camera_radiance`, `on_screen`. The second rung is `incident` itself.
 const std::vector<std::string>& target_names();
 bool is_ladder_rung(const std::string& target);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-/// What a case is called: a row of stability_cases.csv.
+/// Names of a case: a row of stability_cases.csv.
 struct StabilityCaseName {
     std::string name, group, why;
     std::string family;  ///< its name without the values of `each`
@@ -17,32 +17,32 @@ struct StabilityCaseName {
     }
 };
 
-/// What one image of one stage has held, over the frames that were looked at.
+/// The values of one image of one stage, over the scanned frames.
 struct StageFinding {
     std::string stage, image;
     size_t nan = 0, infinite = 0;  ///< values, summed over frames
-    double largest = 0;            ///< of the finite magnitudes
+    double largest = 0;            ///< largest finite magnitude
 };
 
-/// What is wrong with what one point made of one case.
+/// Defects in the result of one point in one case.
 struct CaseFindings {
-    size_t non_finite = 0;         ///< values of all stages
+    size_t non_finite = 0;         ///< number of values, over all stages
     std::string first_non_finite;  ///< "stage: image"
-    size_t spread_pixels = 0;      ///< most pixels of one frame that are not finite though their inputs are
+    size_t spread_pixels = 0;      ///< most non-finite pixels of one frame whose inputs are finite
     unsigned spread_frames = 0;    ///< frames with such pixels after the last one with a fault
     // Finite pixels of all frames:
-    size_t negative = 0, too_bright = 0;  ///< by radiance: brighter than all light
-    double excess = 0;                    ///< the largest radiance, less the brightest light
+    size_t negative = 0, too_bright = 0;  ///< by radiance; too bright: brighter than all light
+    double excess = 0;                    ///< largest radiance - brightest light
     size_t bad_confidence = 0;            ///< outside of [0, 1]
-    std::string refusal;                  ///< why it could not be rendered
+    std::string refusal;                  ///< why the case could not be rendered
 
     size_t out_of_range() const { return negative + too_bright + bad_confidence; }
 };
 
-/// From the best to the worst.
+/// Verdicts from best to worst.
 enum class Verdict { ok, worse, out_of_range, inside, spreads, refused };
 
-/// What a verdict is called in tables, and what it says.
+/// A verdict's name in tables, and its meaning.
 struct VerdictName {
     std::string name, meaning;
 };
@@ -60,10 +60,10 @@ struct StabilityRow : CaseFindings {
     std::optional<double> time_ratio;
     /// Amplification of inputs, see Perturbation.
     std::optional<double> depth_median, depth_p999, normal_median, normal_p999, lit_median, lit_p999;
-    /// Of long sequences: relative change of the mean from the first to the second half of the last three quarters of
-    /// the frames, and its standard error, from the means of blocks of frames.
+    /// For long sequences: relative change of the mean between both halves of the last three quarters of the frames,
+    /// and its standard error from means of blocks of frames.
     std::optional<double> drift, drift_noise;
-    /// Of a fed back image: by how much each change of the mean is smaller than the one before.
+    /// For a case that feeds images back: ratio of each change of the mean to the change before.
     std::optional<double> gain;
     std::vector<StageFinding> stages = {};
 
@@ -80,10 +80,10 @@ struct StabilityRow : CaseFindings {
 /// Sets both errors, and their ratio where there is one.
 void set_errors(StabilityRow& row, std::optional<double> error, std::optional<double> benign_error);
 Verdict verdict_of(const StabilityRow& row);
-/// Whether another seed might make a verdict of `worse`, or take it back, in a picture of so many pixels.
+/// Whether another seed might change the verdict to or from `worse`, in a picture of `pixels` pixels.
 bool is_near_worse(const StabilityRow& row, size_t pixels);
 
-/// What one image of one stage held in one row of stability.csv: a row of stability_stages.csv.
+/// A row of stability_stages.csv: values of one image of one stage, for one row of stability.csv.
 struct StageRow : StageFinding {
     std::string case_name, technique, point;
 
@@ -92,5 +92,5 @@ struct StageRow : StageFinding {
                               MEMBER_COLUMNS(StageRow, technique, point, stage, image, nan, infinite, largest));
     }
 };
-/// Those that hold a value that is not finite, or all.
+/// The stage rows that hold a non-finite value; with `has_all` all of them.
 std::vector<StageRow> stage_rows(const std::vector<StabilityRow>& rows, bool has_all);

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-// What the parts of answers.md share: names and numbers as its sentences have them.
+// Names and numbers that all parts of answers.md share.
 
 using Names = std::vector<std::string>;
 
@@ -18,7 +18,7 @@ std::string shown_number(const std::optional<double>& value);
 std::string measured(const std::optional<double>& value, const std::optional<double>& low,
                      const std::optional<double>& high);
 
-/// Each once, in order.
+/// The distinct names, in order of first use.
 Names distinct(auto&& items, auto&& name_of) {
     Names names;
     for (const auto& item : items)
@@ -29,7 +29,7 @@ Names distinct(auto&& items, auto&& name_of) {
 
 inline constexpr size_t most_listed = 4;  ///< names in a sentence
 
-/// What was asked and what was found. All must outlive it.
+/// The question and the results of answers.md. All references must outlive this object.
 struct AnswerContext {
     AnswerContext(const StudyResults& tables, const PrimaryComparisons& error, const Tradeoff& found,
                   const BetweenPoints& between, const std::vector<double>& costs, const std::vector<double>& factors);
@@ -41,16 +41,16 @@ struct AnswerContext {
     const std::vector<double>&costs, &factors;
     std::map<PointName, std::string> labels;
     std::string unit;              ///< of costs, in Markdown
-    std::string base_label, base;  ///< the point that errors are multiples of; `base` in Markdown
-    Names machines;                ///< those with points at a cost
+    std::string base_label, base;  ///< the point that errors are multiples of; `base`: its name in Markdown
+    Names machines;                ///< machines with points at a cost
 
     bool is_timed() const { return found.kind == CostKind::timed; }
     std::string label_of(const PointName& name) const { return point_text(name, labels); }
     const MeasuredShot& shot_of(const std::string& name) const;
 };
 
-/// Which technique at which cost, over scenes, and which at any cost.
+/// Which technique at which cost, over scenes, and which at any cost, as Markdown.
 std::string answers_at_costs(const AnswerContext& context);
 
-/// Each shot's front and curves, and the errors that no cost removes.
+/// Each shot's front and curves, and the errors that no cost removes, as Markdown.
 std::string answers_of_shots(const AnswerContext& context);

@@ -18,13 +18,14 @@ struct AtCosts : AnswerContext {
         std::string text;
         for (const std::string& machine : machines) {
             const bool is_nameless = machine.starts_with("not timed");  // frozen points need no times
-            const std::string where = is_nameless ? "N" + machine.substr(1) : "On " + machine;
+            const std::string where = is_nameless ? "N" + machine.substr(1) : "Machine: " + machine;
             const std::string who = who_stands();
-            text += message_text("## Which technique at which ", is_timed() ? "time" : "cost", "\n\n",
-                                 markdown_text(where), ", over scenes.", who.empty() ? "" : " ", who, "\n\n");
+            text +=
+                message_text("## Which technique at which ", is_timed() ? "time" : "cost", "\n\n", markdown_text(where),
+                             ". The tables compare means over scenes.", who.empty() ? "" : " ", who, "\n\n");
             std::vector<Names> cells;
             for (const double cost : costs) cells.push_back(short_answer(machine, cost));
-            text += markdown_table({unit, "least error", "error / " + base, "undecided beside it"}, cells);
+            text += markdown_table({unit, "least error", "error / " + base, "not certainly worse"}, cells);
             for (const double cost : costs) text += at_cost(machine, cost);
         }
         return text;
@@ -35,8 +36,8 @@ struct AtCosts : AnswerContext {
         for (const ChosenPoint& c : found.chosen)
             if (!c.point.empty()) (c.chosen_on == "frozen" ? some : others) = true;
         if (!some) return "";
-        return others ? "Some points were chosen on the scenes of another study (`frozen`), others here."
-                      : "Each technique stands at the point that was chosen for it on the scenes of another study "
+        return others ? "Some points were chosen on the scenes of another study (`frozen`), the others on these scenes."
+                      : "Each technique is judged by the point that was chosen on the scenes of another study "
                         "(`frozen`).";
     }
 
@@ -57,7 +58,8 @@ struct AtCosts : AnswerContext {
     Names short_answer(const std::string& machine, double cost) const {
         const Rows rows = rows_at(machine, cost);
         const AcrossRow* first = first_of(rows);
-        if (!first || first->label == base_label) return {shown_number(cost), "none that fits in all scenes", "", ""};
+        if (!first || first->label == base_label)
+            return {shown_number(cost), "no technique fits in all scenes", "", ""};
         Names near;
         for (const AcrossRow* row : rows)
             if (row->rank && row != first && row->standing != standing::behind) near.push_back(row->label);
@@ -74,19 +76,21 @@ struct AtCosts : AnswerContext {
         for (const AcrossRow* row : rows) {
             if (row->scenes < scenes)
                 partly.push_back(message_text(markdown_text(row->label), " (", row->scenes, " of ", scenes,
-                                              " scenes, there ", measured(row->ratio, row->low, row->high), " of ",
-                                              base, "'s error)"));
+                                              " scenes, where its error is ", measured(row->ratio, row->low, row->high),
+                                              " times the error of ", base, ")"));
             fitting.push_back(row->scenes_that_fit ? message_text(*row->scenes_that_fit, " of ", scenes) : "");
         }
-        if (!partly.empty()) text += "Not ranked, since they do not fit everywhere: " + joined(partly, "; ") + ".\n";
+        if (!partly.empty())
+            text += "Not ranked, because they do not fit in all scenes: " + joined(partly, "; ") + ".\n";
         for (const auto& shot : between.shots)
             for (const auto& [technique, curve] : shot->curves)
                 if (std::ranges::count(absent, technique) == 0 &&
                     std::ranges::count(rows, technique, &AcrossRow::technique) == 0)
                     absent.push_back(technique);
         std::ranges::sort(absent);
-        if (!absent.empty()) text += "In no scene fit " + markdown_text(listed(absent, most_listed)) + ".\n";
-        return text + "\n" + ranking("technique", rows, "surely fits in scenes", fitting) +
+        if (!absent.empty())
+            text += "No point fits in any scene: " + markdown_text(listed(absent, most_listed)) + ".\n";
+        return text + "\n" + ranking("technique", rows, "scenes where it surely fits", fitting) +
                groups_at(machine, cost, rows);
     }
 
@@ -114,9 +118,9 @@ struct AtCosts : AnswerContext {
                                                        shown_number((*row)->median));
             }
         }
-        return "\nIn each group (scenes): error / " + base +
-               ", geometric mean with its interval, then the median. Not behind: best, undecided beside the least, or "
-               "within the margin of it.\n\n" +
+        return "\nEach group of scenes, with the number of scenes. A cell holds error / " + base +
+               ": the geometric mean with its interval, then the median. \"not behind\" marks techniques that are not "
+               "certainly worse than the best of the group.\n\n" +
                markdown_table(head, cells);
     }
 
@@ -137,16 +141,18 @@ struct AtCosts : AnswerContext {
                              std::to_string(row.wins), std::to_string(row.shared), of_last[i]});
         }
         return markdown_table(
-            {what, "rank (without any one scene)", "error / " + base, "median of it", "error / first's", "p (adjusted)",
-             "probability to be first", "within 10 %", "scenes that 10 % need", "shots won", "shots shared", last},
+            {what, "rank (with any one scene left out)", "error / " + base, "median", "error / error of the first",
+             "p (adjusted)", "probability to be first", "probability within 10 %", "scenes needed to see 10 %",
+             "shots won", "shots shared", last},
             cells);
     }
 
     std::string first_sentence(const Rows& rows) const {
         const AcrossRow* first = first_of(rows);
         if (!first || (first->ratio == 1 && first->label == base_label))
-            return message_text("No technique fits in all ", rows.front()->of_scenes, " scenes") +
-                   (first ? " with less error than " + base + "." : ".");
+            return first ? message_text("No technique that fits in all ", rows.front()->of_scenes,
+                                        " scenes has less error than ", base, ".")
+                         : message_text("No technique fits in all ", rows.front()->of_scenes, " scenes.");
         Names beaten, near, undecided;
         for (const AcrossRow* row : rows)
             if (row->rank && row != first)
@@ -155,20 +161,25 @@ struct AtCosts : AnswerContext {
                                                          : undecided)
                     .push_back(row->label);
         std::string text = message_text("**", markdown_text(first->label), "** has the least error, ",
-                                        measured(first->ratio, first->low, first->high), " of that of ", base,
-                                        " (geometric mean, ", first->scenes, " scenes)");
-        if (beaten.empty() && near.empty() && undecided.empty()) return text + "; nothing else fits in all of them.";
-        text += ". ";
-        if (!first->low) return text + message_text("Of other scenes ", first->scenes, " scenes say nothing.");
+                                        measured(first->ratio, first->low, first->high), " times the error of ", base,
+                                        " (geometric mean, ", counted(first->scenes, "scene"), "). ");
+        if (beaten.empty() && near.empty() && undecided.empty())
+            return text + "Nothing else fits in all of these scenes.";
+        if (!first->low)
+            return text + message_text(counted(first->scenes, "scene"), first->scenes == 1 ? " says" : " say",
+                                       " nothing about other scenes.");
         if (first->standing == standing::best)
-            return text + "In scenes like these the rest is behind for certain (adjusted for all comparisons, 0.05).";
-        text += "In scenes like these the least on average is " + chances(rows, &AcrossRow::chance_first) +
-                " (probability); within 10 % of the least " + chances(rows, &AcrossRow::chance_near) + ".";
+            return text +
+                   "In scenes like these all others are certainly worse (p < 0.05, adjusted for all comparisons).";
+        text += "Probability of the least mean error in scenes like these: " + chances(rows, &AcrossRow::chance_first) +
+                ". Probability of a mean error within 10 % of the least: " + chances(rows, &AcrossRow::chance_near) +
+                ".";
         if (!near.empty())
-            text += " Within the margin of the first for certain: " + markdown_text(listed(near, most_listed)) + ".";
+            text += " Certainly within the margin of the first: " + markdown_text(listed(near, most_listed)) + ".";
         if (!undecided.empty())
-            text += " Undecided beside the first: " + markdown_text(listed(undecided, most_listed)) + ".";
-        if (!beaten.empty()) text += " Behind for certain: " + markdown_text(listed(beaten, most_listed)) + ".";
+            text += " It is undecided whether the first errs less than " +
+                    markdown_text(listed(undecided, most_listed)) + ".";
+        if (!beaten.empty()) text += " Certainly worse: " + markdown_text(listed(beaten, most_listed)) + ".";
         return text;
     }
 
@@ -178,7 +189,7 @@ struct AtCosts : AnswerContext {
         Names named;
         for (size_t i = 0; i < rows.size(); ++i)
             if (i == 0 || (i < 3 && *(rows[i]->*chance) >= 0.02))
-                named.push_back(markdown_text(rows[i]->label) + " with " + fixed_text(*(rows[i]->*chance), 2));
+                named.push_back(markdown_text(rows[i]->label) + " " + fixed_text(*(rows[i]->*chance), 2));
         return listed(named, most_listed);
     }
 

@@ -19,8 +19,8 @@ struct OfShots : AnswerContext {
         std::string text;
         if (!machines.empty())
             text =
-                "## Each shot\n\nA technique is its technique: all of its points make its front. Curves between two of "
-                "them are interpolated (logarithmic): nothing was run there.\n\n";
+                "## Each shot\n\nAll points of a technique make the front of the technique. Curves between two points "
+                "are interpolated (logarithmic): nothing was run between the points.\n\n";
         for (const auto& shot : between.shots)
             if (!shot->curves.empty())
                 text += "### " + markdown_text(shot->label) + "\n\n" + front_sentence(*shot) + "\n\n" +
@@ -46,7 +46,8 @@ struct OfShots : AnswerContext {
         std::string text = sure.empty() ? "No point is certainly on the front."
                                         : "Certainly on the front: " + joined(sure, ", ") + ".";
         if (!maybe.empty()) text += " Undecided: " + joined(maybe, ", ") + ".";
-        return beaten > 0 ? message_text(text, " ", beaten, " points are dominated.") : text;
+        if (beaten == 0) return text;
+        return message_text(text, " ", counted(beaten, "point"), beaten == 1 ? " is dominated." : " are dominated.");
     }
 
     /// The curves of more than the baseline alone.
@@ -73,8 +74,7 @@ struct OfShots : AnswerContext {
 
     static std::string error_text(const ErrorAtCostRow& row) {
         if (!row.error && row.point.empty())
-            return "below " + shown_number(row.start) + " no point was measured" +
-                   (row.fits == "maybe" ? " (may fit)" : "");
+            return "no point below " + shown_number(row.start) + (row.fits == "maybe" ? " (may fit)" : "");
         const std::string text = row.status == "past end"
                                      ? bound(row.error, row.high) + ", reached at " + shown_number(row.end)
                                      : measured(row.error, row.low, row.high);
@@ -85,7 +85,7 @@ struct OfShots : AnswerContext {
         if (!shot.divisor) return "";
         Names head = {"technique"};
         for (const double factor : factors)
-            head.push_back(unit + " to " + shown_number(factor) + " of " + base + "'s error (" +
+            head.push_back(unit + " for " + shown_number(factor) + " times the error of " + base + " (" +
                            shown_number(factor * *shot.divisor) + ")");
         std::vector<Names> cells;
         for (const auto& [technique, curve] : curves_of(shot)) {
@@ -98,9 +98,9 @@ struct OfShots : AnswerContext {
 
     static std::string cost_text(const CostToErrorRow& row) {
         if (row.status == "not reached")
-            return std::string(*row.share_that_reach < 0.025 ? "not" : "perhaps not") + " reached by " +
+            return std::string(*row.share_that_reach < 0.025 ? "not" : "perhaps not") + " reached up to " +
                    shown_number(row.end);
-        if (row.status == "before start") return bound(row.cost, row.high) + ", its cheapest";
+        if (row.status == "before start") return bound(row.cost, row.high) + ", the cheapest point";
         return row.low ? measured(row.cost, row.low, row.high) : bound(row.cost, row.high);
     }
 
@@ -125,12 +125,12 @@ struct OfShots : AnswerContext {
         if (cells.empty()) return "";
         std::string text =
             "`" + rung +
-            "` is the lower bound for any single-frame technique: all that the image shows is found, and "
-            "elsewhere the environment is seen. Only what earlier frames showed, or luck, goes below it. ";
+            "` is the lower bound for any single-frame technique. Such a technique finds all that the image shows, and "
+            "uses the environment elsewhere. Only knowledge of earlier frames, or luck, can go below this bound. ";
         if (clear > 0)
-            text +=
-                message_text("The least error of all points is significantly above it in ", above, " of the ", clear,
-                             " shots in which it is significantly above 0: there better techniques are possible.");
+            text += message_text("The bound is significantly above 0 in ", counted(clear, "shot"), ". In ", above,
+                                 " of these the least error of all points is significantly above the "
+                                 "bound: better techniques are possible there.");
         return text + "\n\n" +
                markdown_table({"shot", "least error", unit, "its error", "`" + rung + "`", "error / `" + rung + "`"},
                               cells);
@@ -142,9 +142,8 @@ struct OfShots : AnswerContext {
             return row.technique + (row.fixed.empty() ? "" : " " + row.fixed) + " along " + row.parameter;
         };
         std::string text =
-            "error = floor + a cost^-b along each axis of quality: the floor is a lower bound along that axis alone, "
-            "at "
-            "any cost.\n\n";
+            "The law error = floor + a cost^-b is fitted along each axis of quality. The floor is a lower bound at any "
+            "cost, along this axis alone.\n\n";
         std::vector<Names> cells;
         for (const std::string& axis : distinct(between.fits, axis_of)) {
             size_t of_axis = 0, floors = 0, above = 0;
@@ -161,9 +160,9 @@ struct OfShots : AnswerContext {
                                  measured(row.floor_over_rung, row.floor_over_rung_low, row.floor_over_rung_high),
                                  measured(row.b, row.b_low, row.b_high), shown_number(row.misfit), row.status});
             }
-            text += message_text("- ", markdown_text(axis), ": a floor is significantly above 0 in ", floors, " of ",
-                                 of_axis, " shots");
-            if (above > 0) text += message_text(", and above ", markdown_code(rung), " in ", above);
+            text += message_text("- ", markdown_text(axis), ": the floor is significantly above 0 in ", floors, " of ",
+                                 counted(of_axis, "shot"));
+            if (above > 0) text += message_text(", and significantly above ", markdown_code(rung), " in ", above);
             text += ".\n";
         }
         return text + "\n" +

@@ -3,16 +3,16 @@
 #include "experiments/results/tradeoff/curves.h"
 #include "experiments/results/tradeoff/fits.h"
 
-// What `ssrlab tradeoff` reads off curves between points, and off laws that are fitted to them.
+// What `ssrlab tradeoff` reads off curves between points, and off laws fitted to points.
 
-/// A number of these tables: nine significant digits in files.
+/// A number with nine significant digits in files.
 struct NineDigits : std::optional<double> {
     using std::optional<double>::optional;
     NineDigits(const std::optional<double>& value) : std::optional<double>(value) {}
 };
 std::string csv_field(const NineDigits& value);
 
-/// The error that a cost buys: on a technique's curve, and by the point that stands for it there (ChosenPoint).
+/// The error at a cost: on a technique's curve, and of the technique's ChosenPoint.
 struct ErrorAtCostRow {
     std::string shot, scene, machine, technique, label;
     NineDigits cost;
@@ -20,7 +20,7 @@ struct ErrorAtCostRow {
     std::string status;  ///< "between", "at", "past end" or "before start" of the front
     NineDigits error, low, high;
     std::string fits;
-    NineDigits start, end;  ///< costs between which the front was measured
+    NineDigits start, end;  ///< range of costs of the measured front
     std::string point;
     NineDigits point_error, point_low, point_high;
     std::string chosen_on;
@@ -29,10 +29,10 @@ struct ErrorAtCostRow {
             end, point, point_error, point_low, point_high, chosen_on)
 };
 
-/// The cost that an error asks for on a technique's curve.
+/// The cost of an error on a technique's curve.
 struct CostToErrorRow {
     std::string shot, scene, machine, technique, label;
-    NineDigits factor, error;  ///< the latter so many times the baseline's
+    NineDigits factor, error;  ///< `error` is `factor` times the baseline's
     std::string unit;
     std::string status;  ///< "between", "at", "before start" or "not reached"
     NineDigits cost, low, high, share_that_reach, start, end;
@@ -41,7 +41,7 @@ struct CostToErrorRow {
             share_that_reach, start, end)
 };
 
-/// A law along a QualityAxis, and its floor beside a rung of the truth ladder.
+/// A law fitted along a QualityAxis, and its floor relative to a rung of the truth ladder.
 struct FitRow {
     std::string shot, scene, machine, technique, label, parameter, fixed;
     size_t points = 0;
@@ -57,7 +57,7 @@ struct FitRow {
             rung_high, floor_over_rung, floor_over_rung_low, floor_over_rung_high)
 };
 
-/// The least error of all ranked points of a shot beside a rung of the truth ladder.
+/// The least error among a shot's ranked points, relative to a rung of the truth ladder.
 struct LimitRow {
     std::string shot, scene, machine, rung;
     NineDigits rung_error, rung_low, rung_high;
@@ -69,21 +69,21 @@ struct LimitRow {
             error_low, error_high, over_rung, over_rung_low, over_rung_high, cost, unit)
 };
 
-/// A shot of a Tradeoff with its points, and what is known of its truth and its clock.
+/// A shot of a Tradeoff with its points, truth ladder and clock.
 struct MeasuredShot {
     std::string name, label, scene, machine;
-    std::optional<double> divisor;  ///< the baseline's error; none where it is no measure
-    double floor = 0;               ///< relative difference of costs below which nothing is said
-    bool is_clock_proven = true;    ///< also of costs that are not timed
+    std::optional<double> divisor;  ///< the baseline's error; none where divisor_of() has none
+    double floor = 0;               ///< costs with a smaller relative difference are not distinguished
+    bool is_clock_proven = true;    ///< also true for costs that are not timed
     std::vector<MeasuredPoint> points;
     std::vector<Rung> ladder;
-    std::vector<std::pair<std::string, Curve>> curves;  ///< by technique, of its judged points
+    std::vector<std::pair<std::string, Curve>> curves;  ///< by technique, from its judged points
 };
 
-/// The rungs of the truth ladder that answers name, the first that a study has before the others.
+/// The rungs of the truth ladder that answers name; the first that a study has is preferred.
 inline constexpr std::array<const char*, 2> rungs = {"on_screen", "camera_radiance"};
 
-/// `found` as tradeoff_of() decided it; lists of shots refer to points of `shots`.
+/// Tables of all shots. Pointers in the lists refer to points of `shots`.
 struct BetweenPoints {
     std::vector<std::unique_ptr<MeasuredShot>> shots;
     std::vector<ErrorAtCostRow> error_at_cost;
@@ -92,6 +92,6 @@ struct BetweenPoints {
     std::vector<LimitRow> limits;
 };
 
-/// `costs`, and `factors` of the baseline's error: what is asked for.
+/// Computes the tables. `costs` and `factors` (of the baseline's error) are the question; `found` is tradeoff_of()'s.
 BetweenPoints between_points(const StudyResults& tables, const PrimaryComparisons& error, const Tradeoff& found,
                              std::span<const double> costs, std::span<const double> factors);

@@ -210,6 +210,6 @@ std::pair<std::vector<const MeasuredPoint*>, Fit> fit_axis(const QualityAxis& ax
     }
     const auto [least, most] = std::ranges::minmax(costs);
     if (most <= std::pow(1 + floor_of_costs, 2) * least)
-        return {points, {.status = "its costs hardly differ, for what copies of one point do"}};
+        return {points, {.status = "its costs differ by less than two copies of one point may"}};
     return {points, fit_law(costs, errors, of_errors, of_costs)};
 }

@@ -3,15 +3,14 @@
 
 #include <nlohmann/json.hpp>
 
-/// Points of a technique in one shot that differ in one number alone, four or more.
+/// At least four points of a technique in one shot that differ in one number alone.
 struct QualityAxis {
     std::string technique, parameter;
-    std::string fixed;  ///< what else the points have in common that a sweep or a preset gave them
+    std::string fixed;                         ///< other values that the points share, set by a sweep or a preset
     std::vector<const MeasuredPoint*> points;  ///< by rising value of the parameter
 };
 
-/// All axes among points of one shot; `parameters`: an object with all parameters of each point. A point may be in
-/// several axes.
+/// All axes among the points of one shot; a point may be in several. `parameters`: all parameter values of each point.
 std::vector<QualityAxis> quality_axes(std::span<const MeasuredPoint> points,
                                       const std::map<PointName, nlohmann::json>& parameters);
 
@@ -19,15 +18,16 @@ std::vector<QualityAxis> quality_axes(std::span<const MeasuredPoint> points,
 struct Fit {
     std::string status;  ///< "fitted", or why not
     std::optional<double> floor, floor_low, floor_high, a, b, b_low, b_high;
-    std::optional<double> misfit;  ///< root of chi^2 per degree of freedom
+    std::optional<double> misfit;  ///< square root of chi^2 per degree of freedom
 };
 
-/// By profile: the values whose weighted squares are within s^2 q of the least, where s^2 is the larger of 1 and chi^2
-/// per degree of freedom, and q the normal's quantile squared or, where s^2 is estimated by the misfit, Student's. A
-/// cost's uncertainty counts as the error that it moves along the curve. Deviations are of logarithms.
+/// Fits the law. Intervals are by profile: values whose weighted squares are within s^2 q of the least. Here s^2 is the
+/// larger of 1 and chi^2 per degree of freedom; q is the squared quantile of the normal, or of Student's t where the
+/// misfit estimates s^2. A cost's uncertainty counts as the error that it moves along the curve. Deviations are of
+/// logarithms.
 Fit fit_law(std::span<const double> costs, std::span<const double> errors, std::span<const double> error_deviations,
             std::span<const double> cost_deviations);
 
-/// The judged points of an axis with their law. `floor_of_costs`: the relative difference that copies of one point may
+/// The judged points of an axis, and their law. `floor_of_costs`: relative difference that copies of one point may
 /// have.
 std::pair<std::vector<const MeasuredPoint*>, Fit> fit_axis(const QualityAxis& axis, double floor_of_costs);

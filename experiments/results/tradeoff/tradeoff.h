@@ -5,7 +5,7 @@
 
 inline constexpr const char* unit_of_times = "ms";
 
-/// What `ssrlab tradeoff` is asked (experiments/results/tradeoff/README.md).
+/// The question to `ssrlab tradeoff` (experiments/results/tradeoff/README.md).
 struct TradeoffQuestion {
     PrimaryComparisons error;
     std::string cost;      ///< see cost_kind(); "": the median total of a technique's own stages, ms
@@ -16,11 +16,11 @@ struct TradeoffQuestion {
 
 /// A point of a shot with its error, its cost, and its place on the front of both.
 struct FrontRow {
-    std::string shot, scene, machine;  ///< the last: what costs must have in common to be compared
+    std::string shot, scene, machine;  ///< machine: costs of different machines are not compared
     std::string technique, point, label;
     std::optional<double> error, error_low, error_high, cost, cost_low, cost_high;
     std::string unit;
-    bool is_nominal_front = false;             ///< no other judged point has both less cost and less error
+    bool is_nominal_front = false;             ///< no other judged point has less cost and less error
     std::string verdict;                       ///< front, dominated, undecided, or why the point is not judged
     std::string dominated_by, undecided_with;  ///< labels
 
@@ -28,19 +28,19 @@ struct FrontRow {
             cost_high, unit, is_nominal_front, verdict, dominated_by, undecided_with)
 };
 
-/// What holds over the scenes of points, or of techniques at a cost, each at its ChosenPoint; of the shots of one
-/// machine where costs count.
+/// What holds over scenes: of points, or of techniques at a cost by their ChosenPoint. Rows with costs are of the shots
+/// of one machine.
 struct AcrossRow : OverScenes {
-    std::string group;  ///< of shots, as the study groups them; "": all
+    std::string group;  ///< the study's group of shots; "": all
     std::string machine;
-    std::string cost;  ///< as tables ask for it: up to nine digits; "": points, whatever they cost, over all shots
+    std::string cost;  ///< up to nine digits; "": points at any cost, over all shots
     std::string unit, label, baseline;
-    size_t of_scenes = 0;                                 ///< how many there are
+    size_t of_scenes = 0;                                 ///< number of all scenes
     std::optional<double> bootstrap_low, bootstrap_high;  ///< bootstrap_over_scenes()
-    double median = 1;                                    ///< over the scenes of error / the baseline's
+    double median = 1;                                    ///< over the scenes, of error / baseline's error
     std::optional<double> median_low, median_high;        ///< median_over_scenes()
-    std::optional<double> scenes_that_fit;  ///< at a cost: in how many it surely fits, if times were taken
-    size_t wins = 0, shared = 0;  ///< shots with certainly the least error; with one that is not certainly more
+    std::optional<double> scenes_that_fit;                ///< scenes where it surely fits the cost, if timed
+    size_t wins = 0, shared = 0;  ///< shots with certainly the least error; shots where it may have the least
 
     static constexpr auto columns() {
         return std::tuple_cat(
@@ -55,19 +55,20 @@ struct AcrossRow : OverScenes {
     }
 };
 
-/// What a change of one parameter costs and what it buys: of a stage that it switches off, what the stage is worth. In
-/// one shot by its effects, over the scenes of one machine by the geometric mean of the errors' ratios and the mean of
-/// the costs' differences.
+/// Cost and benefit of a change of one parameter; if it switches a stage off, the value of that stage. In one shot by
+/// the study's effects; over one machine's scenes by the geometric mean of errors' ratios and the mean of costs'
+/// differences.
 struct ChangeRow {
     std::string shot;  ///< empty: over scenes
     size_t scenes = 1;
     std::string machine, technique, point, label, against_technique, against_point, change;
     double error_ratio = 1;
     std::optional<double> error_low, error_high;
-    double cost = 0;  ///< by how much the point costs more
+    double cost = 0;  ///< difference: positive if the point costs more
     std::optional<double> cost_low, cost_high;
     std::string unit;
-    /// What the dearer costs more for each percent by which the cheaper errs more, where both signs are significant.
+    /// How much more the dearer costs for each percent by which the cheaper errs more, where both signs are
+    /// significant.
     std::optional<double> cost_per_percent, cost_per_percent_low, cost_per_percent_high;
     std::string verdict;
 
@@ -76,26 +77,26 @@ struct ChangeRow {
             cost_per_percent_high, verdict)
 };
 
-/// All changes of one parameter among the compared points (effects.csv) that have costs, as `front` has them; `unit`:
-/// FrontRow's; `cost`: see cost_kind(). Estimates that are closer than model_decides_from in a shot differ
-/// significantly neither there nor over scenes.
+/// All changes of one parameter among compared points (effects.csv) with costs, which are as in `front`. `unit`: of
+/// FrontRow; `cost`: see cost_kind(). Estimates closer than model_decides_from in a shot differ significantly neither
+/// in that shot nor over scenes.
 std::vector<ChangeRow> changes_of(const StudyResults& tables, const PrimaryComparisons& error,
                                   std::span<const FrontRow> front, const std::string& unit,
                                   const std::string& cost = "");
 
-/// All that is decided of a study's errors and costs; fits and curves between points are Python's.
+/// All decisions about a study's errors and costs. BetweenPoints has the fits and the curves between points.
 struct Tradeoff {
     PointName baseline;
-    std::vector<std::pair<std::string, std::optional<double>>> divisors;  ///< by shot: divisor_of() the baseline
+    std::vector<std::pair<std::string, std::optional<double>>> divisors;  ///< divisor_of() the baseline, by shot
     std::vector<PairRow> pairs;
     std::vector<FrontRow> front;
     std::vector<ChosenPoint> chosen;
-    std::vector<FrozenPoint> to_freeze;  ///< what a study that judges other scenes should hold as its "frozen"
+    std::vector<FrozenPoint> to_freeze;  ///< "frozen" points for a study of other scenes
     std::vector<AcrossRow> across;
     std::vector<ChangeRow> changes;
     CostKind kind = CostKind::timed;
     std::string unit;                      ///< of costs
-    std::vector<RefusedEstimate> refused;  ///< points without a cost
+    std::vector<RefusedEstimate> refused;  ///< points without an estimated cost
 };
 
 /// Fails with Error where the study has no such error, cost, baseline, shot or scene.

@@ -40,12 +40,13 @@ struct HeadAndChanges : AnswerContext {
         if (title.empty()) title = study.value("name", "");
         std::string text = "# " + markdown_text(title) + ": error against " + (is_timed() ? "time" : unit) + "\n\n";
         if (const std::string commits = commits_of(manifest); !commits.empty())
-            text += markdown_code("ssrlab run " + study.value("config", "")) + ", commit " + markdown_text(commits) +
-                    "; then `ssrlab tradeoff`.\n\n";
+            text += "Made by " + markdown_code("ssrlab run " + study.value("config", "")) + " (commit " +
+                    markdown_text(commits) + ") and `ssrlab tradeoff`.\n\n";
         const size_t scenes = distinct(between.shots, [](const auto& shot) { return shot->scene; }).size();
         text += message_text("Error: ", markdown_text(error.metric), " of ", markdown_code(error.target), " over ",
-                             markdown_code(error.mask), " pixels, ", between.shots.size(), " shots of ", scenes,
-                             " scenes; multiples are of the error of ", base, ". In brackets 95 % intervals.\n");
+                             markdown_code(error.mask), " pixels, in ", counted(between.shots.size(), "shot"), " of ",
+                             counted(scenes, "scene"), ". Ratios divide by the error of ", base,
+                             ". Brackets hold 95 % intervals.\n");
         text += about_costs();
         for (const RefusedEstimate& refused : found.refused) {
             const Names shots = distinct(refused.shots, [&](const auto& s) { return markdown_text(shot_of(s).label); });
@@ -56,20 +57,22 @@ struct HeadAndChanges : AnswerContext {
         for (const auto& shot : between.shots)
             if (!shot->divisor) without.push_back(markdown_text(shot->label));
         if (!without.empty())
-            text += "Multiples leave out " + joined(without, ", ") + ": the error of " + base +
-                    " is not known, or too small to divide by.\n";
+            text += "Ratios leave out " + joined(without, ", ") + ", because the error of " + base +
+                    " is unknown there, or too small to divide by.\n";
         if (!manifest.value("is_complete", true)) text += "**The study is not complete: shots are missing.**\n";
         return text + "\n";
     }
 
     std::string about_costs() const {
         if (machines.empty())
-            return is_timed() ? "Nothing was timed: errors alone are compared.\n" : "Nothing has " + unit + ".\n";
+            return is_timed() ? "Nothing was timed: errors alone are compared.\n"
+                              : "No point has a cost (" + unit + "): errors alone are compared.\n";
         if (std::ranges::none_of(found.front, [](const FrontRow& row) { return row.cost.has_value(); }))
-            return "Nothing was timed here: at a time stands what was chosen for it on the scenes of another study.\n";
+            return "Nothing was timed here. At each time, a technique is judged by the point that was chosen for this "
+                   "time on the scenes of another study.\n";
         switch (found.kind) {
             case CostKind::timed:
-                return "Times are medians of the sum of a technique's own stages. Taken on " +
+                return "Times are medians of the sum of a technique's own stages. Measured on: " +
                        joined(markdown_names(machines), "; ") + "." +
                        (machines.size() > 1 ? " **Times of different machines or sizes are never compared below.**"
                                             : "") +
@@ -77,19 +80,19 @@ struct HeadAndChanges : AnswerContext {
             case CostKind::estimated:
                 return markdown_code(found.unit) +
                        ": microseconds that the chip would take for a technique's own stages. **No GPU ran anything**: "
-                       "what is assumed stands in experiments/gpu_costs/chips/README.md, and no interval holds whether "
-                       "that is so. "
-                       "Those of costs hold the sampling of invocations, and code of which it is not known whether it "
-                       "ran. **What the model leaves open is wider**: " +
-                       model_range_text() + ". Two costs closer than " + number_text(model_decides_from) +
-                       " times are not decided, and a point surely fits what it would fit at the range's end.\n";
+                       "experiments/gpu_costs/chips/README.md lists what is assumed. Intervals of costs hold the "
+                       "sampling of invocations, and code of which it is unknown whether it ran. Intervals do not hold "
+                       "the error of the assumptions. **The range of the model is wider**: " +
+                       model_range_text() + ". Two costs that differ by less than a factor of " +
+                       number_text(model_decides_from) +
+                       " are undecided. A point surely fits a budget if it fits at the upper end of this range.\n";
             case CostKind::counted:
                 return markdown_code(found.unit) +
-                       ": counted over a technique's own stages with the first seed. Counts of a point's seeds spread "
+                       ": counted over a technique's own stages with the first seed. Counts of a point's seeds differ "
                        "by up to " +
                        number_text(100 * counts_spread, 2) +
-                       " %, so that points closer than twice that are not decided; times may order techniques "
-                       "otherwise.\n";
+                       " %. Points that differ by less than twice this share are undecided. Times may order techniques "
+                       "differently.\n";
         }
         return "";
     }
@@ -109,14 +112,14 @@ struct HeadAndChanges : AnswerContext {
         std::string text;
         if (floor > 0)
             text += "Two copies of one point may differ by " + fixed_text(100 * floor) +
-                    " % in a shot: times within that are not distinguishable.\n";
+                    " % in a shot: smaller differences of times are undecided.\n";
         if (!manifest.value("clock", json::object()).contains("aa_floors"))
-            text += "**No point was timed twice**: of their noise only the scatter of frames is known.\n";
+            text += "**No point was timed twice**: of the noise of times, only the scatter over frames is known.\n";
         if (!unproven.empty())
             text += message_text("**The timer was not validated in ", unproven.size(), " of ", shots,
                                  " shots** (manifest.json, `clock`).\n");
         if (most_busy > 0)
-            text += "Other work disturbed " + fixed_text(100 * sum_busy / points) + " % of the timed frames.\n";
+            text += "Other programs disturbed " + fixed_text(100 * sum_busy / points) + " % of the timed frames.\n";
         return text;
     }
 
@@ -128,9 +131,9 @@ struct HeadAndChanges : AnswerContext {
     std::string stages() const {
         if (found.changes.empty()) return "";
         std::string text =
-            "## What each change gains and costs\n\nPoints that differ in one parameter. A stage that is switched off "
-            "may "
-            "*save cost* and add error. The last column is the cost of each percent of error.\n\n";
+            "## What each change gains and costs\n\nEach row compares two points that differ in one parameter. A stage "
+            "that is switched off may *save cost* and add error. The last column is the cost of each percent of "
+            "error.\n\n";
         for (const std::string& machine : distinct(found.changes, &ChangeRow::machine)) {
             std::vector<const ChangeRow*> pooled, single;
             for (const ChangeRow& row : found.changes)
@@ -140,10 +143,10 @@ struct HeadAndChanges : AnswerContext {
                     std::ranges::count(pooled, change_key(&row), change_key) == 0)
                     single.push_back(&row);
             text += "On " + markdown_text(machine) +
-                    (pooled.empty() ? "" : ", over scenes: geometric mean of the ratios of errors, mean of the costs") +
+                    (pooled.empty() ? "" : ", over scenes (geometric mean of the error ratios, mean of the costs)") +
                     ":\n\n" + stage_table("scenes", pooled);
             if (!single.empty())
-                text += "In each shot, since three scenes or fewer are too few for an interval:\n\n" +
+                text += "In each shot, because an interval over scenes needs at least four scenes:\n\n" +
                         stage_table("shot", single);
         }
         return text;

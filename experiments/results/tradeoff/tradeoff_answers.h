@@ -1,8 +1,8 @@
 #pragma once
 #include "experiments/results/tradeoff/between_points.h"
 
-/// What `ssrlab tradeoff` found, as sentences and tables in Markdown: answers.md. `costs`, in ascending order, and
-/// `factors`, in descending order: what was asked for.
+/// The content of answers.md: sentences and tables in Markdown. `costs` (ascending) and `factors` (descending) are the
+/// question.
 std::string tradeoff_answers(const StudyResults& tables, const PrimaryComparisons& error, const Tradeoff& found,
                              const BetweenPoints& between, const std::vector<double>& costs,
                              const std::vector<double>& factors);

@@ -3,18 +3,18 @@
 #include "experiments/results/tradeoff/tradeoff.h"
 #include "experiments/results/verdicts/effects/over_scenes.h"
 
-// The shots of a study as tradeoff.cpp and chosen_points.cpp share them.
+// The shots of a study, in the form that tradeoff.cpp and chosen_points.cpp share.
 
 struct TradeoffPoint {
     FrontRow row;
     const MetricSummary* error = nullptr;
-    double fits_from = 0, may_fit_from = 0;  ///< as TimeSummary's
+    double fits_from = 0, may_fit_from = 0;  ///< as in TimeSummary
     bool is_judged = false;                  ///< by error and cost, in its own shot
     bool uses_scene_data = false;
     PointName name() const { return {row.technique, row.point}; }
-    /// Whether it can stand for its technique at a cost: in many scenes one seed in each is enough.
+    /// Whether the point can stand for its technique at a cost. One seed in each of many scenes is enough.
     bool can_be_chosen() const { return !uses_scene_data && has_error() && row.cost && *row.cost > 0; }
-    /// Whether others can be chosen by it.
+    /// Whether its error counts for choosing points in other shots.
     bool has_error() const { return error->counts_over_scenes() && error->extrapolated().low() > 0; }
 };
 
@@ -27,7 +27,7 @@ struct TradeoffShot {
         const auto found = std::ranges::find(points, name, &TradeoffPoint::name);
         return found == points.end() ? nullptr : &*found;
     }
-    /// Those that have a point which can be chosen.
+    /// The techniques with an error that counts.
     std::vector<std::string> techniques() const {
         std::vector<std::string> techniques;
         for (const TradeoffPoint& p : points)
@@ -37,9 +37,9 @@ struct TradeoffShot {
     }
 };
 
-/// The point by which a technique stands at a cost in a shot, `frozen` or by the other shots' errors.
+/// The point that stands for a technique at a cost in a shot: of `frozen`, or chosen by errors in the other shots.
 ChosenPoint choose(const TradeoffShot& shot, const std::string& technique, double cost,
                    const std::vector<TradeoffShot>& shots, std::span<const FrozenPoint> frozen);
 
-/// The points that a study of other scenes should judge: one of each technique at a cost on a machine, if any.
+/// The points that a study of other scenes should judge: at most one of each technique at a cost on a machine.
 std::vector<FrozenPoint> freeze(const std::string& machine, double cost, const std::vector<TradeoffShot>& shots);

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-/// A results folder (experiments/RESULTS.md): its manifest and its tables, but for parameters.csv. The reference's
-/// noise is in no table: it is there while a study runs.
+/// A results folder (experiments/docs/results_folder.md): manifest and tables, without parameters.csv. The reference's
+/// noise is in no table: it exists only while a study runs.
 struct StudyResults : MeasuredRows {
     nlohmann::json manifest = nlohmann::json::object();
     std::vector<EffectRow> effects = {};
@@ -35,11 +35,12 @@ void for_each_table(Use use) {
     std::apply([&](const auto&... table) { (use(table), ...); }, StudyResults::tables());
 }
 
-/// Writes all tables, and removes those of an earlier version of the study that it lacks.
+/// Writes all tables, and removes tables of an earlier version of the study that this one lacks.
 void write_tables(const std::filesystem::path& folder, const StudyResults& study);
 
 enum class Runs { left_out, read };  ///< tables with TableUse::of_runs
 
-/// Fails with Error on what is no results folder; with what to run where it lacks a table or a column, as half of one
-/// and one of another version of ssrlab do, so that no verdict is taken from columns that are missing.
+/// Reads a results folder. Fails with Error if it is none, or if it lacks a table or column, as folders of unfinished
+/// runs and of other versions of ssrlab do. The message then says what to run. No verdict is thus taken without its
+/// columns.
 StudyResults read_study_results(const std::filesystem::path& folder, Runs runs = Runs::read);

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-/// Those of `all` that `wanted` names, in the order of `all`; all of them if it names none. `names_of(one)`: the names
-/// that one answers to. Fails with Error, with a near miss, on a name that none answers to; `what` says there what it
-/// should be the name of.
+/// The elements of `all` that `wanted` names, in the order of `all`; every element if `wanted` is empty.
+/// `names_of(one)` returns the names that select an element. Fails with Error on a name that selects none, and suggests
+/// the nearest name; `what` says in the message what is named ("metric").
 template <class T, class NamesOf>
 std::vector<T> chosen(const std::vector<T>& all, const std::vector<std::string>& wanted, const char* what,
                       const NamesOf& names_of) {

@@ -31,8 +31,8 @@ void find_against_points(std::vector<PointConfig>& techniques, const std::string
         if (other == values_of(v)) continue;
         const auto found = points.find({v.technique, other});
         if (found == points.end())
-            fail(where, ": techniques: nothing is the same as '", v.technique, "' with the point '", v.point,
-                 "' but for ", shown(v.against), ", its 'against'; add that point");
+            fail(where, ": techniques: the 'against' of '", v.technique, "' with the point '", v.point,
+                 "' needs a point that differs in ", shown(v.against), " alone; add that point");
         v.against_point = found->second;
     }
 }

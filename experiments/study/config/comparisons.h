@@ -4,15 +4,15 @@
 #include <string>
 #include <vector>
 
-/// Finds what each point with PointConfig::against is compared with, wherever in the study it stands. Fails where no
-/// point is the same but for these values; `where` names the config.
+/// Finds the partner of each point with PointConfig::against among all points of the study. Fails with Error where no
+/// point differs in these values alone; `where` names the config.
 void find_against_points(std::vector<PointConfig>& techniques, const std::string& where);
 
-/// The study's points, as verdicts know them.
+/// The study's points, in the form that verdicts take.
 std::vector<ComparedPoint> compared_points(const std::vector<PointConfig>& techniques);
 
-/// A swept point that differs from a baseline of its technique in one parameter. A study may hold dozens: they belong
-/// into the list of effects, not into every table and chart.
+/// A swept point that differs from a baseline of its technique in one parameter. A study may hold dozens: the list of
+/// effects shows them, most tables and charts do not.
 struct SingleChange {
     std::string technique, point, parameter;
     nlohmann::json value;

@@ -32,130 +32,127 @@ Values names_of_masks() {
 
 Keys reference_keys() {
     const ReferenceSettings plain;
-    return {
-        {"samples", whole(16, 1 << 24),
-         otherwise(std::to_string(ReferenceSettings::default_samples) +
-                   "; no limit if `seconds` or `target_relative_error` is set"),
-         "per pixel, rounded up to 16 x 2^k"},
-        {"lit_samples", whole(16, 1 << 24),
-         otherwise("`samples`; where nothing else is rendered and `target_relative_error` is set " +
-                   std::to_string(ReferenceSettings::default_samples) + " at most"),
-         "the same of the lit colour alone, which techniques read: the rest of `samples` is of the specular light. "
-         "In frames that no result is compared with nothing else is rendered"},
-        {"lit_noise", flag(), true,
-         "false leaves out the two further plays of each point that measure what the noise of the lit colour adds "
-         "to its error, two thirds of the rendering with one seed: the error's interval then lacks it"},
-        {"lit_filter", flag(), false,
-         "true gives techniques the lit colour without most of its noise, as an engine has it: non-local means of the "
-         "light on the surfaces, so that few `lit_samples` serve. What is compared with the truth is not filtered, nor "
-         "are captures"},
-        {"guide_samples", whole(16, 4096), plain.guide_samples,
-         "per pixel of the guide, which weighs relative errors and tells roulette what to expect, rounded up to "
-         "16 x 2^k: 16 serve where `mse` alone is judged"},
-        {"seconds", number(0, 1e7), Default(0, "no limit"), "for each frame, beside those of its guide"},
-        {"target_relative_error", number(0, 1), Default(0, "none"),
-         "the relative standard error of the specular light at a pixel"},
-        {"max_depth", whole(1, 1024), plain.max_depth, "reflections of a path, the camera ray not counted"},
-        {"seed", whole(0, 1 << 30), plain.seed, "the reference's own"}};
+    return {{"samples", whole(16, 1 << 24),
+             otherwise(std::to_string(ReferenceSettings::default_samples) +
+                       "; no limit if `seconds` or `target_relative_error` is set"),
+             "Largest number of samples per pixel, rounded up to 16 x 2^k"},
+            {"lit_samples", whole(16, 1 << 24),
+             otherwise("`samples`; for frames without other samples and with `target_relative_error`, " +
+                       std::to_string(ReferenceSettings::default_samples) + " at most"),
+             "Largest number of samples per pixel of the lit colour, which techniques read. The other samples add "
+             "specular light only. Frames that are not compared with the truth need no other samples"},
+            {"lit_noise", flag(), true,
+             "`false` does not measure what the noise of the lit colour adds to errors. It saves two renderings of "
+             "each point, but the intervals of errors then lack that noise"},
+            {"lit_filter", flag(), false,
+             "`true` removes most noise from the lit colour that techniques read (non-local means), so that few "
+             "`lit_samples` are enough. The truth and captures are not filtered"},
+            {"guide_samples", whole(16, 4096), plain.guide_samples,
+             "Samples per pixel of the guide, rounded up to 16 x 2^k. The guide weighs relative errors and steers "
+             "Russian roulette; 16 are enough if only `mse` is measured"},
+            {"seconds", number(0, 1e7), Default(0, "no limit"),
+             "Time limit in seconds for each frame, not counting the guide"},
+            {"target_relative_error", number(0, 1), Default(0, "none"),
+             "Relative standard error of the specular light at a pixel at which rendering stops"},
+            {"max_depth", whole(1, 1024), plain.max_depth,
+             "Largest number of reflections of a path; the camera ray does not count"},
+            {"seed", whole(0, 1 << 30), plain.seed, "Seed of the path tracer"}};
 }
 
 Keys timing_keys() {
     const TimingConfig plain;
     return {{"frames", whole(0, 100000), plain.frames,
-             "measured for each point, after the warm-up: at least 15, or 0 for none"},
-            {"warm_up", whole(1, 1000), plain.warm_up, "frames before them"},
+             "Timed frames of each point after the warm-up: at least 15, or 0 to take no times"},
+            {"warm_up", whole(1, 1000), plain.warm_up, "Frames before the timed frames"},
             {"most_share", number(0, 1e6), Default(plain.most_share, "a third"),
-             "what they may take in all, as a share of the time that the shot's references, renders and counts took: "
-             "see \"What "
-             "the numbers mean\""},
+             "Time limit for timing, as a share of the time that the shot's references, renders and counts took"},
             {"copies", flag(), plain.has_copies,
-             "false times each point alone, in a third of the time, or half where no work can be skipped: the noise "
-             "of times is then unknown, and so is what skipped work saves"}};
+             "`false` times one copy of each point instead of two. This takes a third to a half of the time, but "
+             "neither the noise of times nor the time saved by skipped work is then known"}};
 }
 
 Keys hits_keys() {
     const JudgedRays plain;
-    return {{"every", whole(1, 64), plain.every, "one pixel in so many along each axis"},
-            {"seeds", whole(1, 1000000), Default(plain.seeds, "all"), "the first of a point's seeds, at most"}};
+    return {{"every", whole(1, 64), plain.every, "Judge one pixel in this many along each axis"},
+            {"seeds", whole(1, 1000000), Default(plain.seeds, "all"), "Judge at most this many seeds of each point"}};
 }
 
 Keys primary_keys() {
     const std::string or_first = ", or else the first that the study measures";
     const PrimaryComparisons plain;
-    return {{"metric", any_text(), otherwise("`" + plain.metric + "`" + or_first), "of which less is better"},
-            {"mask", any_text(), otherwise("`" + plain.mask + "`" + or_first), "one of `masks`"},
-            {"target", one_of(target_names()), otherwise("`" + plain.target + "`" + or_first), "one of `targets`"},
+    return {{"metric", any_text(), otherwise("`" + plain.metric + "`" + or_first), "Metric, for which less is better"},
+            {"mask", any_text(), otherwise("`" + plain.mask + "`" + or_first), "One of `masks`"},
+            {"target", one_of(target_names()), otherwise("`" + plain.target + "`" + or_first), "One of `targets`"},
             {"margin", number(0.001, 1), plain.margin,
-             "two errors, whichever the study measures, are equivalent where it is certain that they differ by a "
-             "smaller share than this"}};
+             "Margin of equivalence: two errors are equivalent if they certainly differ by a smaller share. It holds "
+             "for all errors"}};
 }
 
 /// `technique`: the schema of an entry of `techniques`.
 Keys study_keys(const json& technique = json::object()) {
     const Config plain;
     const Keys keys = {
-        {"$schema", any_text(), none, "for editors"},
-        {"extends", any_text(), none,
-         "another config, by its path from this one's folder, which this one patches, below"},
-        {"title", any_text(), otherwise("the file's name"), "heads the report"},
-        {"shots", list_of_shots(), otherwise("required, or extended"), "what is looked at"},
-        {"techniques", named(checked_inside(array_of({technique, "", {}}), "array"), "an array of techniques, below"),
-         otherwise("required, or extended"), "what is compared"},
+        {"$schema", any_text(), none, "Names a JSON Schema for editors; ignored"},
+        {"extends", any_text(), none, "Path of another config, relative to this one, which this config changes"},
+        {"title", any_text(), otherwise("the file's name"), "Title of the report"},
+        {"shots", list_of_shots(), otherwise("required, or extended"), "Shots that are rendered"},
+        {"techniques", named(checked_inside(array_of({technique, "", {}}), "array"), "an array of techniques"),
+         otherwise("required, or extended"), "Techniques that are compared"},
         {"seeds", seeds(), otherwise(std::to_string(default_seeds) + " where a point depends on its seed, else 1"),
-         "each is a run of its own. Points that draw no random numbers get the first of them only; a single seed of "
-         "one that does has no interval and is not ranked"},
+         "Seeds of random numbers; each is a separate run. Points without random numbers get only the first seed. A "
+         "single seed gives no interval and no rank to points with random numbers"},
         {"primary", object_of(primary_keys()), otherwise("as below"),
-         "the error that the study is made to compare. Its effects, over all points and shots, are adjusted together; "
-         "all others are exploratory. Report and figures show it first"},
+         "The main error of the study. Reports and figures show it first. Its effects, over all points and shots, are "
+         "adjusted together; effects on other errors are exploratory"},
         {"reference", named(either(object_of(reference_keys()), one_of({"none"})), "an object, or `none`"),
          otherwise("as below"),
-         "when the path tracer stops: at whichever of its limits comes first, and what is not set or 0 does not stop "
-         "it. `none`, with `\"lit\": \"direct\"`: no error is measured, frames are timed and rays judged"},
+         "Limits of the path tracer, which stops at the first one that it reaches. A limit of 0 counts as none. "
+         "`none`, together with `\"lit\": \"direct\"`, renders no truth: no error is measured, but frames are timed "
+         "and rays judged"},
         {"composite", one_of({"split_sum", "additive_fresnel"}), "split_sum",
-         "`split_sum`: (F0 A + F90 B) mix(fallback, radiance, confidence). `additive_fresnel`: as an engine adds "
-         "reflections to an image that holds those of its environment already (variants/four_mode_ssr); targets are "
-         "`specular` and `image` then"},
+         "How reflections enter the image. `split_sum`: (F0 A + F90 B) mix(fallback, radiance, confidence). "
+         "`additive_fresnel`: added to an image that already contains reflections of the environment, as in some "
+         "engines; the targets are then `specular` and `image`"},
         {"hits", object_of(hits_keys()), none,
-         "judges the rays of every measured frame by what they truly meet (`hits.csv`, maps); `{}` judges all. They "
-         "are traced a second time for it; times are not touched"},
+         "Judge the rays of every measured frame by what they truly meet (`hits.csv` and maps). `{}` judges all pixels "
+         "and seeds. The rays are traced once more for this, outside of timed frames"},
         {"costs", flag(), plain.counts_costs,
-         "counts what each stage of each point does in a shot's last frame (`costs.csv`): invocations, fetches, bytes, "
-         "operations, without a clock. Costs each point another run of one seed, and the compilation of its shaders"},
+         "Count what each stage does in the last frame of a shot: invocations, fetches, bytes and operations "
+         "(`costs.csv`). Each point then runs once more, with one seed"},
         {"gpu_compilers", array_of(any_text(), 0), json::array(),
-         "GPUs whose compiler is asked what it makes of each point's passes (`compiled.csv`): registers, occupancy, "
-         "instructions. No GPU is needed; `ssrlab list chips` names them, `navi21`, `gfx1100` and `vega10` among them"},
+         "GPUs for which each point's passes are compiled (`compiled.csv`: registers, occupancy, instructions). The "
+         "GPU itself is not needed. `ssrlab list chips` names the GPUs, for example `navi21`"},
         {"images", one_of({"last", "all", "played", "none"}), "last",
-         "of which frames results, references, confidence and verdicts are kept as images, which the report's viewer "
-         "plays: the last, or `all` that are measured. `played`: the last, and of each frame before it the reflections "
-         "alone (target `specular`), of the truth, too, where the frame has a reference. `none`: numbers alone, in "
-         "less "
-         "time and space"},
-        {"timing", object_of(timing_keys()), otherwise("as below"), "how times are taken"},
+         "Frames whose results, references, confidences and verdicts are stored as images. `last`: the last frame. "
+         "`all`: every measured frame. `played`: the last frame, and only the reflections of earlier frames. `none`: "
+         "no images"},
+        {"timing", object_of(timing_keys()), otherwise("as below"), "How times are measured"},
         {"metrics", names_of_metrics(), Names{"mse", "relmse", "smape", "bias", "energy_ratio", "flip", "ssim"},
-         "what is measured; which differences each sees: metrics/README.md, power"},
-        {"masks", names_of_masks(), mask_names(), "over which pixels"},
+         "Metrics that are measured"},
+        {"masks", names_of_masks(), mask_names(), "Masks: the sets of pixels over which metrics are computed"},
         {"frame_metrics",
          named(either(names_of_metrics(), {{{"type", "array"}, {"maxItems", 0}}, "", {}}),
                names_of_metrics().text + "; an empty array: nothing"),
          Names{"mse", "relmse", "bias"},
-         "in a shot of several frames, what is measured of each (target `specular`) besides the full measure of the "
-         "last"},
-        {"frame_masks", names_of_masks(), otherwise("of `masks` all, reflective and disoccluded, or else all"),
-         "the masks of that, which must be among `masks`"},
+         "Metrics that are measured in every frame of a sequence, for the target `specular`. The last frame is "
+         "measured in full"},
+        {"frame_masks", names_of_masks(),
+         otherwise("those of `all`, `reflective` and `disoccluded` in `masks`; if none, all `masks`"),
+         "Masks for `frame_metrics`, each one of `masks`"},
         {"targets", some_of(one_of(target_names())), Names{"specular", "image", "incident"},
-         "what is compared; `camera_radiance` and `on_screen` are rungs of the truth ladder, below"},
+         "What is compared with the truth. `camera_radiance` and `on_screen` are rungs of the truth ladder"},
         {"reflective_max_roughness", number(0, 1), json_number(plain.reflective_max_roughness),
-         "the mask `reflective`: perceptual roughness at most"},
+         "Largest perceptual roughness in the mask `reflective`"},
         {"reflective_min_reflectance", number(0, 1), json_number(plain.reflective_min_reflectance),
-         "the mask `reflective`: split-sum reflectance F0 A + F90 B (largest channel) at least"},
-        {"tables", named(checked_inside(array_of(object_of(table_keys()), 0), "array"), "an array of tables, below"),
-         none, "what `ssrlab tables` makes of the results, below"},
-        {"frozen", named(checked_inside(array_of(object_of(frozen_keys()), 0), "array"), "an array, below"), none,
-         "which point stands for a technique at a cost, chosen on other scenes by another study, before these are "
-         "seen; "
-         "without it each scene is judged by what errs least in the others"},
-        {"tune", checked_inside({schema_of(tune_keys()), "an object, below", {}}, "object"), none,
-         "what `ssrlab tune` varies, below; such a study is not run by itself"}};
+         "Smallest reflectance in the mask `reflective`: F0 A + F90 B, in the largest channel"},
+        {"tables", named(checked_inside(array_of(object_of(table_keys()), 0), "array"), "an array of tables"), none,
+         "Tables that `ssrlab tables` makes of the results"},
+        {"frozen", named(checked_inside(array_of(object_of(frozen_keys()), 0), "array"), "an array of frozen points"),
+         none,
+         "Points that stand for their techniques at a given cost, chosen by another study on other scenes. Without "
+         "this key, `ssrlab tradeoff` chooses for each scene the point with the least error in the other scenes"},
+        {"tune", checked_inside({schema_of(tune_keys()), "an object", {}}, "object"), none,
+         "What `ssrlab tune` varies. `ssrlab run` refuses such a study"}};
     return joined(keys, settings_of_shots());
 }
 
@@ -202,7 +199,8 @@ void check_probes(ConfigObject& study, const Config& config) {
     if (std::ranges::any_of(config.shots, &ShotConfig::has_probe) &&
         std::ranges::find(config.targets, "on_screen") != config.targets.end())
         fail(study.at("targets"),
-             ": the target 'on_screen' falls back to the environment, the shots to a probe: leave out one of both");
+             ": the target 'on_screen' needs shots that fall back to the environment; remove it, or \"fallback\": "
+             "\"probe\" of the shots");
 }
 
 void read_timing(ConfigObject timing, TimingConfig& config) {
@@ -309,7 +307,7 @@ Config read_config(const std::filesystem::path& file) {
     config.gpu_compilers = study.get<std::vector<std::string>>("gpu_compilers");
     for (auto at = config.gpu_compilers.begin(); at != config.gpu_compilers.end(); ++at)
         if (std::count(config.gpu_compilers.begin(), at, *at) > 0)
-            fail(study.at("gpu_compilers"), ": '", shortened(*at), "' stands there twice");
+            fail(study.at("gpu_compilers"), ": '", shortened(*at), "' is named twice; remove one of both");
     config.kept_images = study["images"] == "all"      ? KeptImages::measured
                          : study["images"] == "played" ? KeptImages::played
                          : study["images"] == "none"   ? KeptImages::none
@@ -324,11 +322,11 @@ Config read_config(const std::filesystem::path& file) {
 
     if (config.shots.empty()) fail(file.string(), ": 'shots' is missing or empty: name at least one scene");
     if (config.techniques.empty())
-        fail(file.string(), ": 'techniques' is missing or empty: name at least one technique, e.g. \"none\"");
+        fail(file.string(), ": 'techniques' is missing or empty: name at least one technique, for example \"none\"");
     find_against_points(config.techniques, file.string());
     if (!config.has_reference &&
         std::ranges::any_of(config.techniques, [](const PointConfig& v) { return v.external != nullptr; }))
-        fail(study.at("reference"), ": \"reference\": \"none\" leaves nothing to judge external images by");
+        fail(study.at("reference"), ": external images are compared with the truth; remove \"reference\": \"none\"");
     return config;
 }
 
@@ -352,22 +350,14 @@ json config_schema(const std::string& technique) {
     return schema;
 }
 
-std::string with_key_tables(const std::string& markdown) {
-    const std::vector<std::pair<std::string, Keys>> objects = {{"study", study_keys()},
-                                                               {"scene", scene_keys()},
-                                                               {"capture", capture_keys()},
-                                                               {"shot", keys_of_all_shots()},
-                                                               {"technique", technique_keys(*make_technique("none"))},
-                                                               {"external", external_keys()},
-                                                               {"table", table_keys()},
-                                                               {"frozen", frozen_keys()},
-                                                               {"tune", tune_keys()}};
-    std::string text = markdown;
-    for (const auto& [name, keys] : objects) {
-        const std::string head = "<!-- keys of " + name + " -->\n", end = "<!-- end of keys -->";
-        const size_t begin = text.find(head), stop = text.find(end, begin);
-        if (begin == std::string::npos || stop == std::string::npos) fail("no line ", head, "followed by ", end);
-        text.replace(begin + head.size(), stop - begin - head.size(), key_table(keys));
-    }
-    return text;
+json key_descriptions() {
+    return {{"study", described(study_keys())},
+            {"scene", described(scene_keys())},
+            {"capture", described(capture_keys())},
+            {"shot", described(keys_of_all_shots())},
+            {"technique", described(technique_keys(*make_technique("none")))},
+            {"external", described(external_keys())},
+            {"table", described(table_keys())},
+            {"frozen", described(frozen_keys())},
+            {"tune", described(tune_keys())}};
 }

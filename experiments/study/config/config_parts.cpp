@@ -23,7 +23,7 @@ const std::string milliseconds = "milliseconds";
 /// The one point that all others are compared with.
 void check_baseline(ConfigObject& study, std::vector<PointConfig>& points) {
     const auto baselines = std::ranges::count_if(points, &PointConfig::is_baseline);
-    if (baselines > 1) fail(study.at("techniques"), ": ", baselines, " points are baselines; 'tune' needs one");
+    if (baselines > 1) fail(study.at("techniques"), ": ", baselines, " points are baselines; 'tune' needs exactly one");
     if (baselines == 0) points.front().is_baseline = true;
 }
 
@@ -32,12 +32,12 @@ void check_tuned_points(ConfigObject& study, ConfigObject& tune, Config& config)
     std::vector<PointConfig>& points = config.techniques;
     for (JsonObject& entry : study.elements("techniques"))
         for (const char* key : {"seeds", "only_if", "skip_if", "timing", "against"})
-            if (entry.has(key)) fail(entry.at(key), ": '", key, "' is not for points of a study with 'tune'");
+            if (entry.has(key)) fail(entry.at(key), ": '", key, "' is not allowed in a study with 'tune'; remove it");
     std::vector<std::string> names;
     for (const PointConfig& point : points) {
         if (point.technique != points.front().technique)
-            fail(study.at("techniques"), ": 'tune' searches one technique, but here are '", points.front().technique,
-                 "' and '", point.technique, "'");
+            fail(study.at("techniques"), ": 'tune' searches one technique; remove '", points.front().technique,
+                 "' or '", point.technique, "'");
         names.push_back(point.point);
         if (point.depends_on_seed && point.seeds.size() < 2)
             fail(study.at(study.has("seeds") ? "seeds" : "techniques"), ": '", point.point,
@@ -49,15 +49,15 @@ void check_tuned_points(ConfigObject& study, ConfigObject& tune, Config& config)
 
 Keys axis_keys() {
     const Values ends = range_values(0);
-    return joined({{"values", array_of({json::object(), "a value", {}}), none, "what is tried"},
-                   {"lin", ends, none, "a range"},
-                   {"log", ends, none, "a range, whose logarithm is sampled evenly"}},
+    return joined({{"values", array_of({json::object(), "a value", {}}), none, "Values to try"},
+                   {"lin", ends, none, "Range of values"},
+                   {"log", ends, none, "Range of values, sampled evenly by the logarithm"}},
                   condition_keys());
 }
 
 Keys judge_keys() {
-    return {{"shots", list_of_shots(), required, "the scenes to judge on"},
-            {"seeds", seeds(), otherwise("the study's"), "of the points there"}};
+    return {{"shots", list_of_shots(), required, "Shots of the judging scenes"},
+            {"seeds", seeds(), otherwise("the study's"), "Seeds in these shots"}};
 }
 
 void check_axes(ConfigObject& tune, const ParameterSet& declared) {
@@ -85,7 +85,8 @@ void check_program(ConfigObject& study, ConfigObject& tune, Config& config) {
     for (const char* key : {"start", "time", "budgets"})
         if (tune.has(key))
             fail(tune.at(key), ": '", key,
-                 "' is not for a search over a 'program', which begins at its defaults and whose time is not measured");
+                 "' is not allowed with 'program': the search begins at the program's defaults and measures no times; "
+                 "remove it");
     check_baseline(study, config.techniques);
     if (!tune.has("axes")) return;
     JsonObject axes = tune.plain("axes");
@@ -96,7 +97,8 @@ void check_program(ConfigObject& study, ConfigObject& tune, Config& config) {
         for (const char* kind : {"values", "lin", "log"})
             if (object.has(kind)) static_cast<void>(object[kind]), ++kinds;
         if (kinds != 1 || axis.size() != 1)
-            fail(object.where(), ": a setting of a program has one of 'values', 'lin' and 'log', and no conditions");
+            fail(object.where(),
+                 ": a setting of a program needs exactly one of 'values', 'lin' and 'log', and no conditions");
         object.finish();
     }
 }
@@ -106,9 +108,10 @@ void check_technique(ConfigObject& study, ConfigObject& tune, Config& config) {
     if (tune.has("axes"))  // which one that others extend may leave to them
         check_axes(tune, make_technique(config.techniques.front().technique)->params);
     if (tune["time"] == milliseconds && config.timing.frames == 0)
-        fail(tune.where(),
-             ": needs 'timing' of 15 frames or more, a counted 'time', such as \"operations\", or an "
-             "estimated one, such as \"navi21\"");
+        fail(
+            tune.where(),
+            ": no times are measured; set 'frames' of 'timing' to 15 or more, or 'time' to a count (\"operations\") or "
+            "a chip (\"navi21\")");
 }
 
 }  // namespace
@@ -119,30 +122,29 @@ Keys table_keys() {
     const Values names = some_of(any_text()),
                  name = {{{"type", "string"}, {"pattern", "^[A-Za-z0-9_]+$"}}, "letters, digits and _", {}};
     const Values any_object = {{{"type", "object"}}, "an object", {}};
-    return {
-        {"name", name, required, "of its files"},
-        {"caption", any_text(), required, "what stands above it"},
-        {"of",
-         one_of({"effects", "results", "splits", "times", "time_effects", "hits", "costs", "compiled", "estimates",
-                 "limits", "agreement", "eye", "variance", "at_cost", "changes", "over_scenes"}),
-         required, "where its numbers come from, below"},
-        {"where", any_object, otherwise("all rows"),
-         "column to the value, or array of values, of the rows that count; rows and columns of the table stand in "
-         "the order of such an array. `\"!value\"` leaves those rows out"},
-        {"rows", names, required,
-         "a column of the file, or several, names of parameters, or `group` and `shot_group` (of points and shots "
-         "that have one; else technique and scene): what each row of the table is named by. Points and shots with a "
-         "display name are called by it"},
-        {"columns", names, required, "the same of its columns"},
-        {"over", any_text(), otherwise("no mean"),
-         "in place of a cell for each `shot`, say, the geometric mean over them with their range, below"},
-        {"sort", any_text(), otherwise("as in the file"), "the column of the table that its rows are sorted by"},
-        {"best", one_of({"column", "row"}), otherwise("none is marked"),
-         "among which cells those that are the best of their shot are bold, and those that are tied or equivalent "
-         "italic, as "
-         "summary.csv says (`standing`). Of `results` and `limits`, without `over`"},
-        {"labels", any_object, none,
-         "names in the table to better ones: `{\"lobe = normals\": \"normals\"}`; \"\" leaves one out"}};
+    return {{"name", name, required, "Name of the table's files"},
+            {"caption", any_text(), required, "Text above the table"},
+            {"of",
+             one_of({"effects", "results", "splits", "times", "time_effects", "hits", "costs", "compiled", "estimates",
+                     "limits", "agreement", "eye", "variance", "at_cost", "changes", "over_scenes"}),
+             required, "Source of the numbers"},
+            {"where", any_object, otherwise("all rows"),
+             "Selects rows: from the name of a column to a value or an array of values. The table keeps the order of "
+             "such an array. `\"!value\"` leaves rows out"},
+            {"rows", names, required,
+             "What names the rows of the table: columns of the file, names of parameters, or `group` and `shot_group`, "
+             "which are the groups of points and shots, or else technique and scene. Points and shots appear by their "
+             "labels"},
+            {"columns", names, required, "What names the columns of the table, as for `rows`"},
+            {"over", any_text(), otherwise("no mean"),
+             "Column over which the cells are averaged, for example `shot`. The mean is geometric and has a range or "
+             "an interval"},
+            {"sort", any_text(), otherwise("as in the file"), "Column of the table by which its rows are sorted"},
+            {"best", one_of({"column", "row"}), otherwise("none is marked"),
+             "Marks the best cells of each column or row: bold if best in the shot, italic if tied or equivalent "
+             "(`standing` in summary.csv). Only for `results` and `limits`, and without `over`"},
+            {"labels", any_object, none,
+             "Replaces names in the table: `{\"lobe = normals\": \"normals\"}`; an empty text leaves a name out"}};
 }
 
 void check_tables(ConfigObject& study, const Config& config) {
@@ -154,16 +156,17 @@ void check_tables(ConfigObject& study, const Config& config) {
         if (of == "costs" && !config.counts_costs)
             fail(table.at("of"), ": the study counts no costs; add \"costs\": true");
         if (of == "compiled" && config.gpu_compilers.empty())
-            fail(table.at("of"), ": the study asks no compiler; add \"gpu_compilers\": [\"navi21\"]");
+            fail(table.at("of"), ": the study compiles for no GPU; add \"gpu_compilers\": [\"navi21\"]");
         if (of == "estimates" && !(config.counts_costs && !config.gpu_compilers.empty()))
             fail(table.at("of"),
                  ": the study estimates no GPU's times; add \"costs\": true and \"gpu_compilers\": "
                  "[\"navi21\"]");
         if (table.has("best") && of != "results" && of != "limits")
-            fail(table.at("best"), ": 'best' is of 'results' and 'limits', which have a standing, not of '", of, "'");
+            fail(table.at("best"), ": 'best' is for tables of 'results' and 'limits', which have a standing, not of '",
+                 of, "'");
         if (table.has("best") && table.has("over"))
             fail(table.at("best"), ": means over ", table["over"].dump(),
-                 " have no 'best': `ssrlab tradeoff` compares over scenes");
+                 " have no 'best'; remove it: `ssrlab tradeoff` compares over scenes");
         if (of == "hits" && !config.hits) fail(table.at("of"), ": the study judges no rays; add \"hits\": {}");
     }
 }
@@ -174,8 +177,8 @@ Keys frozen_keys() {
     return {{"cost",
              {{{"type", "number"}, {"exclusiveMinimum", 0}}, "a number above 0", {}},
              required,
-             "milliseconds, or what `ssrlab tradeoff --cost` counts or estimates"},
-            {"points", points, required, "technique to the name of one of its points"}};
+             "Cost: milliseconds, or the quantity or estimate of `ssrlab tradeoff --cost`"},
+            {"points", points, required, "For each technique, the name of a point"}};
 }
 
 void check_frozen(ConfigObject& study, const Config& config) {
@@ -205,30 +208,29 @@ Keys tune_keys() {
     return {
         {"axes",
          {{{"type", "object"}, {"additionalProperties", axis.schema}}, "an object of axes", {}, {{"type", "object"}}},
-         otherwise("required, but for a config that others extend"),
-         "parameter to what is tried: an array of values, `{\"lin\": [from, to]}` or `{\"log\": [from, to]}`, or an "
-         "object of `values`, `lin` or `log` with `only_if` and `skip_if`, conditions on parameters: where they leave "
-         "an axis out, the parameter keeps the value that it has at the start"},
+         otherwise("required, except in a config that others extend"),
+         "For each parameter, what is tried: an array of values, `{\"lin\": [from, to]}`, `{\"log\": [from, to]}`, or "
+         "an object with `values`, `lin` or `log` and the conditions `only_if` and `skip_if`. Where conditions exclude "
+         "an axis, the parameter keeps its starting value"},
         {"program", some_of(any_text()), none,
-         "a program that renders in place of a technique, and its first arguments: axes are then settings of it, "
-         "below"},
-        {"start", any_text(), otherwise("the baseline"), "the point that the axes change, by its name"},
+         "External program that renders, and its first arguments. The axes are then settings of the program"},
+        {"start", any_text(), otherwise("the baseline"), "Point that the axes change, by its name"},
         {"time", one_of(times), milliseconds,
-         "what a point takes: the clock's, a quantity of `costs.csv`, which is exact and needs no quiet machine, or a "
-         "GPU's "
-         "estimated `total` in `estimates.csv`, which needs none either"},
+         "Cost of a point: measured time, a quantity of `costs.csv`, or the estimated total time of a GPU in "
+         "`estimates.csv`. Counts and estimates need no quiet machine"},
         {"budgets", array_of(budget), json::array({0.5, 1, 2}),
-         "of each the point of least error is found that takes no more than so many times the baseline's time"},
+         "Budgets, as multiples of the baseline's cost. For each, the point with the least error is found"},
         {"metrics", names_of_metrics(), otherwise("the study's `primary`"),
-         "the error: geometric mean over shots and metrics of the ratio to the baseline's"},
-        {"target", one_of(target_names()), otherwise("the study's `primary`"), "of that error"},
-        {"mask", any_text(), otherwise("the study's `primary`"), "of that error"},
+         "Error of a point: the geometric mean of its ratio to the baseline's error, over shots and metrics"},
+        {"target", one_of(target_names()), otherwise("the study's `primary`"), "Target of that error"},
+        {"mask", any_text(), otherwise("the study's `primary`"), "Mask of that error"},
         {"judge", object_of(judge_keys()), otherwise("none: nothing is judged"),
-         "other scenes, which the search does not see"},
-        {"most_runs", whole(1, 1 << 30), 1000, "where the search ends; a run is one seed of one point in one shot"},
-        {"most_minutes", number(0, 1e7), Default(1e7, "no limit"), "where the search ends"},
-        {"batch", whole(1, 256), 8, "points that are proposed together"},
-        {"seed", whole(0, 1 << 30), 0, "of the optimiser's random numbers"}};
+         "Scenes for judging, which the search does not see"},
+        {"most_runs", whole(1, 1 << 30), 1000,
+         "Largest number of runs of the search. A run is one seed of one point in one shot"},
+        {"most_minutes", number(0, 1e7), Default(1e7, "no limit"), "Time limit of the search in minutes"},
+        {"batch", whole(1, 256), 8, "Number of points that are proposed together"},
+        {"seed", whole(0, 1 << 30), 0, "Seed of the optimiser"}};
 }
 
 void check_tune(ConfigObject& study, Config& config) {
@@ -246,7 +248,7 @@ void check_tune(ConfigObject& study, Config& config) {
     if (!tune.has("judge")) return;
     ConfigObject judge = tune.object("judge");
     if (read_shots(judge, study, config.file.parent_path()).empty())
-        fail(judge.where(), ": names no shots to judge on");
+        fail(judge.where(), ": names no shots; add 'shots'");
     read_seeds(judge);
 }
 

@@ -9,16 +9,18 @@ Values names_of_metrics();
 Keys table_keys();
 Keys tune_keys();
 
-/// "tables" of the study, if it has any; `config`: what has been read of `study`.
+/// Checks "tables" of the study, if there is one. `config` holds what has been read of `study` so far.
 void check_tables(ConfigObject& study, const Config& config);
 
-/// An entry of `frozen`: which points stand for their techniques at a cost (evaluation/tradeoff/chosen_points.h).
+/// The keys of an entry of `frozen`: the points that stand for their techniques at a cost
+/// (results/tradeoff/chosen_points.h).
 Keys frozen_keys();
 void check_frozen(ConfigObject& study, const Config& config);
 
-/// "tune", if there is one; `config`: what has been read of `study`. All points are of one technique, the first becomes
-/// the baseline if none is, and axes are parameters of it with allowed values. Sets config.is_tuned.
+/// Checks "tune", if there is one, and sets config.is_tuned. All points must be of one technique; the first becomes the
+/// baseline if none is. Axes must be its parameters, with allowed values. `config` holds what has been read so far.
 void check_tune(ConfigObject& study, Config& config);
 
-/// "tune" of a study that read_config() has read, with its defaults, "seeds" and those of "judge" one by one.
+/// "tune" of a study that read_config() has read, with defaults filled in, and with "seeds" and the seeds of "judge" as
+/// lists.
 nlohmann::json tuning_of(const Config& config);

@@ -103,11 +103,10 @@ JsonDocument merged_techniques(const JsonDocument& base, const JsonDocument& pat
         change.value.erase("remove");
         const std::vector<size_t> meant = entries_for(change.value, entries);
         if (meant.size() > 1)
-            fail(place_of(change, file), ": techniques: ", meant.size(),
-                 " entries of what is extended have this 'technique' and 'preset'; give them a 'label' each, and name "
-                 "it");
+            fail(place_of(change, file), ": techniques: the extended config has ", meant.size(),
+                 " entries with this 'technique' and 'preset'; give each a 'label' there, and name one here");
         if (meant.empty() && removes == true)
-            fail(place_of(change, file), ": techniques: nothing to remove: what is extended has no such entry");
+            fail(place_of(change, file), ": techniques: nothing to remove: the extended config has no such entry");
         if (removes == true)
             entries.erase(entries.begin() + long(meant.front()));
         else if (meant.size() == 1)

@@ -69,15 +69,15 @@ void add_names(const json& schema, std::vector<std::string>& names) {
     if (schema.contains("items")) add_names(schema["items"], names);
 }
 
-std::string rows_of(const Keys& keys, const std::string& outer) {
-    std::string rows;
+void add_rows(const Keys& keys, const std::string& outer, json& rows) {
     for (const Key& key : keys) {
         const Default& initial = key.initial;
-        const std::string words = initial.words.empty() ? "`" + initial.value.dump() + "`" : initial.words;
-        rows += "| `" + outer + key.name + "` | " + key.values.text + " | " + key.meaning + " | " + words + " |\n" +
-                rows_of(key.values.members, outer + key.name + ".");
+        rows.push_back({{"key", outer + key.name},
+                        {"values", key.values.text},
+                        {"default", initial.words.empty() ? "`" + initial.value.dump() + "`" : initial.words},
+                        {"meaning", key.meaning}});
+        add_rows(key.values.members, outer + key.name + ".", rows);
     }
-    return rows;
 }
 
 std::string alternatives(const std::vector<std::string>& names) {
@@ -155,8 +155,10 @@ json schema_of(const Keys& keys) {
     return {{"type", "object"}, {"properties", members}, {"required", needed}, {"additionalProperties", false}};
 }
 
-std::string key_table(const Keys& keys) {
-    return "| key | values | meaning | default |\n|---|---|---|---|\n" + rows_of(keys, "");
+json described(const Keys& keys) {
+    json rows = json::array();
+    add_rows(keys, "", rows);
+    return rows;
 }
 
 ConfigObject::ConfigObject(JsonObject object, std::shared_ptr<const Keys> keys)
@@ -232,6 +234,6 @@ std::vector<unsigned> numbers_of(const json& value, const std::string& where) {
     }
     const auto list = value.get<std::vector<unsigned>>();
     if (std::ranges::adjacent_find(list, std::greater_equal()) != list.end())
-        fail(where, " must hold numbers each of which is greater than the one before");
+        fail(where, " must hold numbers in ascending order, each once");
     return list;
 }

@@ -4,9 +4,9 @@
 
 class Device;
 
-/// Nothing is drawn on it, and nothing behind it; with all layers.
+/// A G-buffer with all layers in which nothing is drawn.
 HostGBuffer empty_gbuffer(glm::uvec2 extent);
 
-/// Renders one frame of a few pixels with each point of a study, so that a mistake in a shader or in a pass is an Error
-/// before a reference is rendered, not after.
+/// Renders one frame of a few pixels with each point of a study. A mistake in a shader or pass is thus an Error before
+/// a reference is rendered.
 void rehearse(Device& device, const std::vector<PointConfig>& techniques);

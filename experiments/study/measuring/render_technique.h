@@ -3,12 +3,12 @@
 #include "experiments/study/config/config.h"
 #include "variants/common/technique.h"
 
-/// One frame of a technique with images of its own, measured or timed: the camera is that of the G-buffer, but for the
-/// seed, so that histories go on from the frame before. A pass outside the technique's limits is an Error.
+/// Renders one frame of a technique that has its own images. The camera is the G-buffer's except for the seed, so that
+/// histories continue from the previous frame. Fails with Error if a pass exceeds the technique's limits.
 Reflections render_technique(PassList& pass_list, Technique& technique, CameraData camera, unsigned seed,
                              const GBuffer& gbuffer);
 
-/// A technique with images and histories of its own, and what composites its results.
+/// A technique with its own images and histories, and a compositor of its results.
 struct Renderer {
     std::unique_ptr<Technique> technique;
     std::unique_ptr<RayProbe> probe;  ///< of the technique
@@ -18,7 +18,7 @@ struct Renderer {
     Renderer(Device& device, glm::uvec2 extent, const PointConfig& point,
              CompositeFormula formula = CompositeFormula::split_sum);
 
-    /// As render_technique().
+    /// See render_technique().
     Reflections render(const CameraData& camera, unsigned seed, const GBuffer& gbuffer) const {
         return render_technique(*pass_list, *technique, camera, seed, gbuffer);
     }

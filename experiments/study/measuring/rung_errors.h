@@ -4,12 +4,12 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-/// Errors of the rungs of the truth ladder themselves, against the truth: PoseTruth::rungs x targets that are none of
-/// them x metrics x masks, as manifest.json lists them. That of `on_screen` is the information limit of
-/// one frame (metrics/README.md, "Glossary").
+/// Errors of the rungs of the truth ladder against the truth, as manifest.json lists them: PoseTruth::rungs x targets
+/// that are not rungs x metrics x masks. The error of `on_screen` is the information limit of one frame
+/// (experiments/docs/glossary.md).
 ///
-/// Metrics are those without the reference's noise: means of weighted squares and their roots, and `bias`. A rung
-/// shares its samples with the truth; of the differences a, b of their halves the product is without noise on average,
-/// and with the noise that both share. Intervals (95 %) are of noise_half_width(), null where it gives none. Masks
-/// without any pixel, and those of a technique's own confidence, have no entry.
+/// Only metrics without the reference's noise are used: means of weighted squares, their roots, and `bias`. A rung
+/// shares its samples with the truth. The product of the differences a, b of their halves has no noise on average, and
+/// is free of the noise that both share. 95 % intervals are of noise_half_width(), null where it gives none. Masks
+/// without any pixel, and masks of a technique's own confidence, have no entry.
 nlohmann::json rung_entries(const PoseTruth& truth, std::span<const Mask> masks);

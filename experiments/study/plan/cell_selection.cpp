@@ -66,7 +66,7 @@ CellSelection::CellSelection(const std::vector<std::string>& terms) {
         else {
             std::vector<std::string> known = cell_kind_names();
             known.insert(known.end(), {"shot=NAME", "technique=NAME", "shard=I/N", "cell=HASH"});
-            fail("--cells: '", term, "' is no selection", suggestion(term, known));
+            fail("--cells: '", term, "' is not a selection of cells", suggestion(term, known));
         }
     }
 }

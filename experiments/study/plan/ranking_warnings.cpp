@@ -34,12 +34,12 @@ std::optional<std::string> warning_of_seeds(const Config& config, const StudyPla
     std::set<std::string> assets;
     for (const PlannedShot& shot : plan.shots) assets.insert(shot.entry.value("asset", shot.name));
     const std::string one = listed_names(points) + (points.size() == 1 ? " has" : " have") +
-                            " 1 seed, so that no shot ranks " + (points.size() == 1 ? "it" : "them");
+                            " 1 seed, so no shot ranks " + (points.size() == 1 ? "it" : "them");
     if (assets.size() >= least_scenes)
-        return one + ". Over the " + std::to_string(assets.size()) + " scenes " +
-               (points.size() == 1 ? "it is" : "they are") + " compared all the same. Seeds: 4 rank " +
-               (points.size() == 1 ? "it" : "them") + " in each shot, too.";
-    return one + ". Give the study \"seeds\": 4.";
+        return one + ". The " + std::to_string(assets.size()) + " scenes together still compare " +
+               (points.size() == 1 ? "it" : "them") + ". To rank " + (points.size() == 1 ? "it" : "them") +
+               " in each shot, set \"seeds\": 4.";
+    return one + ". Set \"seeds\": 4.";
 }
 
 std::optional<std::string> warning_of_pixels(const Config& config, const StudyPlan& plan) {
@@ -51,8 +51,7 @@ std::optional<std::string> warning_of_pixels(const Config& config, const StudyPl
     if (shots.empty()) return {};
     return listed_names(shots) + ": all pixels together have fewer than " +
            std::to_string(unsigned(least_noise_samples)) +
-           " samples of the reference, so that no error has an interval. Give reference.samples or the resolution a "
-           "larger number.";
+           " samples of the reference, so no error has an interval. Increase reference.samples or the resolution.";
 }
 
 std::optional<std::string> warning_of_rooms(const Config& config, const StudyPlan& plan) {
@@ -64,11 +63,11 @@ std::optional<std::string> warning_of_rooms(const Config& config, const StudyPla
             rooms.push_back(shot.config.scene);
     if (rooms.empty()) return {};
     const bool has_flip = std::ranges::count(config.metrics, "flip") > 0;
-    return listed_names(rooms) + ": few paths find the lamps that furnished scenes reflect, so that " +
-           config.primary.metric + " of " + std::to_string(samples) +
-           " samples sees only large differences there (metrics/README.md, power). " +
+    return listed_names(rooms) + ": few paths find the lamps that furnished scenes reflect, so " +
+           config.primary.metric + " with " + std::to_string(samples) +
+           " samples detects only large differences there (metrics/README.md). " +
            (has_flip ? "Make flip the primary metric" : "Measure flip, and make it the primary metric") +
-           ", or give reference.samples: " + std::to_string(samples_of_rooms) + ".";
+           ", or set reference.samples to " + std::to_string(samples_of_rooms) + ".";
 }
 
 }  // namespace

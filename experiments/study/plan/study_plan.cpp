@@ -218,9 +218,8 @@ StudyPlan plan_study(const Config& config, const DeviceInfo& device,
     for (const ShotConfig& of_shot : config.shots) {
         const Shot shot = load(of_shot, search_path);
         if (!known.insert(shot.name()).second)
-            fail("two shots are called '", shot.name(),
-                 "': they differ in nothing that results are named by; give them other frames, another camera or "
-                 "another resolution");
+            fail("two shots have the name '", shot.name(),
+                 "' in results; give one of both other frames, another camera or another resolution");
         const std::string request = request_of(shot, config, keep_all);
         PlannedShot& planned = plan.shots.emplace_back();
         planned.config = shot.config, planned.name = shot.name();

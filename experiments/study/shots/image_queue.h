@@ -6,18 +6,18 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-/// Saves images in a thread of its own, while others are rendered: one call at a time, so that few are held.
+/// Saves images in a second thread while others are rendered. One call runs at a time, so that few images are held.
 class ImageQueue {
 public:
-    using Entries = std::vector<nlohmann::json>;  ///< of the manifest, see result_images.h
+    using Entries = std::vector<nlohmann::json>;  ///< manifest entries, see result_images.h
 
-    /// Waits for the call before it. `save` holds or outlives what it needs until finish(). Fails with what the call
-    /// before it failed with.
+    /// Waits for the previous call, then starts `save`, whose data must live until finish(). Throws what the previous
+    /// call threw.
     void add(std::function<Entries()> save) {
         collect();
         saving_ = std::async(std::launch::async, std::move(save));
     }
-    /// Of all calls, in the order of add().
+    /// Waits for the last call. Returns the entries of all calls, in the order of add().
     Entries finish() {
         collect();
         return std::move(entries_);

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-/// What opening a shot needs beside its config.
+/// Settings for opening a shot, besides its config.
 struct OpenShotSettings {
-    std::filesystem::path out;                       ///< results folder, for images
+    std::filesystem::path out;                       ///< results folder, where images go
     std::filesystem::path cache;                     ///< of references
     std::vector<std::filesystem::path> search_path;  ///< of scenes
     bool keep_all = false;
@@ -21,24 +21,24 @@ struct OpenShotSettings {
     std::function<void(double share, const std::string& what)> report;  ///< of references that are rendered
 };
 
-/// A shot on its way: everything that its cells are made from.
+/// An open shot: everything that its cells are made from.
 struct OpenShot {
     Shot shot;
-    std::unique_ptr<Capture> capture;  ///< null of a scene
-    std::optional<Environment> probe;  ///< what reflections fall back to, if the shot asks for one; outlives the source
+    std::unique_ptr<Capture> capture;  ///< null: the shot is of a scene
+    std::optional<Environment> probe;  ///< fallback of reflections, if the shot asks for one; outlives `source`
     std::unique_ptr<FrameSource> source;
     std::unique_ptr<FrameStore> store;
     ShotTruth truth;
-    bool has_rendered_references = false;  ///< else all were in the cache, or there are none
+    bool has_rendered_references = false;  ///< false: all were in the cache, or there are none
     double opening_seconds = 0;
-    /// What the manifest says of the shot once its truth is known.
+    /// Manifest entry of the shot, complete once its truth is known.
     nlohmann::json entry = nlohmann::json::object();
-    nlohmann::json images = nlohmann::json::array();  ///< of the truth and of surfaces, for the manifest
+    nlohmann::json images = nlohmann::json::array();  ///< manifest entries of images of the truth and of surfaces
 };
 
-/// Loads scene or capture, draws its G-buffers, and renders its references or takes them from the cache.
+/// Loads a scene or capture, draws its G-buffers, and renders its references or takes them from the cache.
 std::unique_ptr<OpenShot> open_shot(Device& device, const ShotConfig& shot, const Config& config,
                                     const OpenShotSettings& settings);
 
-/// What is kept of a shot beside the results of techniques.
+/// The cell of a shot's references: all that is kept of it besides results of techniques.
 Cell references_cell(const OpenShot& run);

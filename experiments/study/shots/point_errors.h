@@ -8,7 +8,7 @@
 
 #include <set>
 
-/// What is known of one seed's errors while its frames are rendered.
+/// One seed's errors while its frames are rendered.
 struct SeedErrors {
     unsigned seed = 0;
     std::vector<ResultRow> frame_rows = {};
@@ -16,21 +16,22 @@ struct SeedErrors {
     FlickerMoments held = {};
     FrameDifference difference = {};
     std::vector<HostImage> after_change = {};
-    HostImage before = {};  ///< `specular` of the frame before
+    HostImage before = {};  ///< `specular` of the previous frame
 };
 
 /// The errors of a point in a shot, over all of its seeds.
 class PointErrors {
 public:
-    /// `lit_noise`: what the noise of the lit colour adds to them.
+    /// `lit_noise`: what the noise of the lit colour adds to these errors.
     PointErrors(const PointInShot& point, LitNoiseOfErrors lit_noise)
         : point_(point), lit_noise_(std::move(lit_noise)) {}
 
     /// Adds one rendered frame, in the order of the shot's steps.
     void add(SeedErrors& seed, const FrameStep& step, const CompositedImages& images);
-    /// Adds what only all frames of a seed tell.
+    /// Adds errors that need all frames of a seed.
     void add_whole(const SeedErrors& seed);
-    /// Everything, once all seeds are whole: rows, splits, noise of the reference, and why some values are missing.
+    /// Moves everything into the cell once all seeds are complete: rows, splits, the reference's noise, and notes about
+    /// missing values.
     void move_to(Cell& cell);
 
 private:
@@ -47,7 +48,7 @@ private:
     const PointInShot& point_;
     LitNoiseOfErrors lit_noise_;
     std::vector<ResultRow> rows_;
-    std::map<std::string, SeedSplit> splits_;  ///< by target, of the last frame
+    std::map<std::string, SeedSplit> splits_;  ///< of the last frame, by target
     SumsOfErrors noise_;
     /// Masks under which a temporal metric has no value, by its name and the reason.
     std::map<std::pair<std::string, std::string>, std::set<std::string>> missing_;

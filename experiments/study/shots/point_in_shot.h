@@ -1,7 +1,7 @@
 #pragma once
 #include "experiments/study/measuring/shot_truth.h"
 
-/// A technique point in an open shot, as it was asked for: nothing of it changes while it is rendered and measured.
+/// A technique point in an open shot; constant while it is rendered and measured.
 struct PointInShot {
     const Shot& shot;
     const ShotTruth& truth;
@@ -11,7 +11,7 @@ struct PointInShot {
     const FrameStep& last_step() const { return shot.steps.back(); }
     bool is_last(const FrameStep& step) const { return &step == &last_step(); }
 
-    /// What all rows of a seed's frame have in common. `frame`: its number, or over_frames.
+    /// The common part of all rows of a seed's frame. `frame`: its number, or over_frames.
     ResultRow row(const std::string& frame, unsigned seed) const {
         return {.shot = shot.name(),
                 .scene = shot.scene.name,

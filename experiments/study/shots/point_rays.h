@@ -6,25 +6,24 @@
 #include "experiments/study/measuring/rays/judged_hits.h"
 #include "experiments/study/shots/point_in_shot.h"
 
-/// A point's rays, as they were recorded, against what they truly meet in the scene, over the seeds whose rays the
-/// study judges.
+/// A point's recorded rays compared with their true hits in the scene, over the seeds whose rays the study judges.
 class PointRays {
 public:
     explicit PointRays(const PointInShot& point) : point_(point) {}
 
-    /// Answers requests for scene data in this step, in which `seed` is rendered from `gbuffer`; a capture has no
-    /// scene.
+    /// Answers requests for scene data in this step, in which `seed` is rendered from `gbuffer`. Does nothing for a
+    /// capture, which has no scene.
     void plug_in_scene(RayProbe& probe, PassList& pass_list, const FrameStep& step, const CameraData& camera,
                        const GBuffer& gbuffer, unsigned seed);
     bool judges(unsigned seed, const FrameStep& step) const;
 
-    /// Where rays of one stage are judged: a picture of the verdicts.
+    /// A picture of the verdicts on one stage's rays.
     struct VerdictMap {
         std::string stage;
         HostImage map;
     };
-    /// Judges what `recorded` holds of a step, and the error (of `specular`) that lies on the rays' pixels. Gives the
-    /// verdicts as pictures, if `has_maps` and every pixel's rays are judged.
+    /// Judges the recorded rays of a step, and the error of `specular` at their pixels. Returns pictures of the
+    /// verdicts if `has_maps` and every pixel's rays are judged.
     std::vector<VerdictMap> judge(unsigned seed, const std::vector<RecordedRays>& recorded, const FrameStep& step,
                                   const CameraData& camera, const HostImage& specular, std::span<const Mask> masks,
                                   bool has_maps);
@@ -37,7 +36,7 @@ private:
 
     const PointInShot& point_;
     std::map<unsigned, ExactRays> exact_;     ///< by frame
-    std::optional<AnsweredRays> answered_;    ///< of the step that is rendered
+    std::optional<AnsweredRays> answered_;    ///< of the current step
     std::map<unsigned, JudgedHits> judged_;   ///< by frame
     std::map<unsigned, ErrorCauses> causes_;  ///< by frame
 };

@@ -1,9 +1,8 @@
 #pragma once
 #include "experiments/study/study_session.h"
 
-/// The cells of a shot that are asked for, into study.finished. What was done before is loaded; what other processes
-/// are at is left to the end, and taken over from them. Nothing of the shot itself is loaded if all is done.
-/// `rendered`: called when errors or times have been added to study.finished and the shot's references are there, too,
-/// so that tables and report can be written.
+/// Adds the selected cells of a shot to study.finished. Finished cells are loaded; cells that other processes work on
+/// come last, and their results are taken over. If all are done, the shot itself is not loaded. `rendered` is called
+/// when errors or times have been added and the shot's references exist, so that tables and report can be written.
 void do_cells(StudySession& study, const PlannedShot& shot, const CellSelection& selection,
               const std::function<void()>& rendered);

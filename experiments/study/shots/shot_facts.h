@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-// What manifest.json says of a shot's scene and pixels (`needs`) and of its references.
+// Entries of manifest.json about a shot's scene and pixels (`needs`) and its references.
 
 nlohmann::json fact_entries(const std::vector<SceneFact>& facts);
 nlohmann::json reference_entry(const Reference& reference, unsigned frame, const Config& config);

@@ -14,24 +14,24 @@ struct CaseFrame {
     CameraData camera;
 };
 
-/// What a case shows, and the truth of its last frame. Frames that look alike share their images.
+/// The frames of a case, and the truth of its last frame. Frames that look alike share their images.
 struct CaseFrames {
     std::shared_ptr<const Shot> shot;
     std::vector<CaseFrame> steps;
-    HostImage truth;                 ///< RGB: specular radiance of the last frame; empty: not known
-    std::vector<uint8_t> is_judged;  ///< by pixel: all that the last G-buffer holds of it is finite, and it reflects
+    HostImage truth;                 ///< RGB: specular radiance of the last frame; empty: unknown
+    std::vector<uint8_t> is_judged;  ///< by pixel: it reflects, and its values in the last G-buffer are finite
     std::shared_ptr<const Reference> reference;  ///< null with `truth` empty
-    std::vector<std::shared_ptr<void>> owners;   ///< of what the frames' images lie in
+    std::vector<std::shared_ptr<void>> owners;   ///< owners of the frames' images
 };
 
-/// Draws cases, by what draws the shots of a study. References come from the cache that studies have.
+/// Draws cases with the code that draws shots of studies. References come from the same cache as those of studies.
 class CaseDrawer {
 public:
-    /// `points`: who will read the frames. `cache`: of references.
+    /// `points`: the points that will read the frames. `cache`: of references.
     CaseDrawer(Device& device, std::vector<std::filesystem::path> search_path, std::filesystem::path cache,
                const std::vector<PointConfig>& points);
 
-    /// `perturbation`, if there is one, changes each G-buffer after the case's faults.
+    /// Draws the frames of a case; `perturbation`, if there is one, changes each G-buffer after the case's faults.
     CaseFrames draw(const CaseScene& scene, const std::vector<InputFault>& faults = {},
                     const std::function<void(HostGBuffer&)>& perturbation = {});
 
@@ -42,5 +42,5 @@ private:
     Config config_;
 };
 
-/// Whether every value that the G-buffer holds of the pixel is finite.
+/// Whether all values of the pixel in the G-buffer are finite.
 bool is_sound(const HostGBuffer& gbuffer, size_t pixel);

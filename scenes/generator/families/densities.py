@@ -1,4 +1,4 @@
-"""What rooms and streets are drawn from, all of it: scenes/README.md's table is made of this file (generate.py --fill).
+"""What rooms and streets are drawn from, all of it: scenes/rooms.md's tables are made of this file (generate.py --fill).
 
 "ours": no statistic was found; chosen by looking at rooms, and corrected where ray statistics said so.
 """

@@ -1,4 +1,4 @@
-"""The tables of scenes/README.md that say what is drawn: made of densities.py and refusals.py."""
+"""The tables of scenes/rooms.md that say what is drawn: made of densities.py and refusals.py."""
 from . import densities  # noqa: F401  (it states them)
 from .dice import TABLE
 from .refusals import RULES

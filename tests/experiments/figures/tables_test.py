@@ -117,17 +117,26 @@ def test_names_in_prose(temporary):
     said = {
         'first("made_up", "levels", column="floor")': "sssr, taps=4",
         'first("made_up", "levels", column="floor", without=["sssr, taps=4"])': "sssr, default",
-        'shown("made_up", "levels", "default", "floor")': "0.0123 [0.0111, 0.0135]",
-        'number(most("made_up", "changes", "taps = 4", "mse"))': "2.00",
+        'shown("made_up", "levels", "default", "floor")': "0.012 [0.011, 0.014]",
+        'number(most("made_up", "changes", "taps = 4", "mse"))': "2.0",
         'len(shots("made_up", "levels"))': "2",
-        'number(rank_correlation(("made_up", "levels", "floor"), ("made_up", "levels", "wall")))': "1.00",
+        'number(rank_correlation(("made_up", "levels", "floor"), ("made_up", "levels", "wall")))': "1.0",
     }
-    write(document, "".join(f"<!-- table made_up {name} -->\n<!-- end of table -->\n" for name in ("levels", "changes")) + "".join(f"<!--= {asked} -->?<!--/-->\n" for asked in said))
+    write(document, "".join(f"<!-- table made_up {name} -->\n<!-- end of table -->\n" for name in ("levels", "changes")) + "".join(f"<!--=n{i}-->?<!--/-->\n" for i in range(len(said))))
+    expressions = os.path.join(root, "README.numbers.json")
+    write(expressions, json.dumps({f"n{i}": asked for i, asked in enumerate(said)}))
     result = tables(folder, "--keep", "--root", root)
     check(result.returncode == 0, result.stderr)
-    for asked, answer in said.items():
-        check(f"<!--= {asked} -->{answer}<!--/-->" in read(document), f"{asked}: {read(document)}")
-    write(document, read(document).replace('column="floor")', 'column="ceiling")', 1))
+    for i, (asked, answer) in enumerate(said.items()):
+        check(f"<!--=n{i}-->{answer}<!--/-->" in read(document), f"{asked}: {read(document)}")
+    write(os.path.join(root, "more", "a.md"), "<!--=../README.md#n0-->?<!--/-->")
+    check(tables("--fill", "--root", root).returncode == 0 and "-->sssr, taps=4<" in read(os.path.join(root, "more", "a.md")), "another page's number")
+    kept = read(expressions)
+    write(expressions, kept.replace("n1", "least"))
+    check("no number 'n1'" in tables("--fill", "--root", root).stderr, "a number without an expression")
+    write(expressions, kept.replace("{", '{"left": "1", ', 1))
+    check("the page says 'left' nowhere" in tables("--fill", "--root", root).stderr, "an expression without a number")
+    write(expressions, kept.replace('column=\\"floor\\")', 'column=\\"ceiling\\")', 1))
     check("is not one line of made_up levels" in tables("--fill", "--root", root).stderr, "a column that is not there")
 
 
@@ -342,7 +351,8 @@ def test_what_intervals_hold(folder):
     write_results(folder, [TABLES[0], single], RATIOS | one_seed)
     root = os.path.join(folder, "tree")
     block = "<!-- table made_up {} -->\n<!-- end of table -->\n"
-    write(os.path.join(root, "README.md"), block.format("single") + block.format("changes") + 'At most <!--= fixed(max(cells("made_up", "single")), 2) -->?<!--/-->.\n')
+    write(os.path.join(root, "README.md"), block.format("single") + block.format("changes") + "At most <!--=most-->?<!--/-->.\n")
+    write(os.path.join(root, "README.numbers.json"), '{"most": "fixed(max(cells(\'made_up\', \'single\')), 2)"}')
     result = tables(folder, "--keep", "--root", root)
     check(result.returncode == 0, result.stderr)
     text = read(os.path.join(folder, "tables", "single.md"))
@@ -359,7 +369,7 @@ def test_what_intervals_hold(folder):
     check(number in read(document), "a number in prose is made with the tables")
     write(document, read(document).replace(number, "-->2.01<!--/-->"))
     check("tables or numbers differ" in tables("--check", "3", "--root", root).stderr, "a number that was edited is found")
-    write(document, read(document).replace('"single")), 2', '"absent")), 2'))
+    write(os.path.join(root, "README.numbers.json"), '{"most": "max(cells(\'made_up\', \'absent\'))"}')
     check("made_up has no table 'absent'" in tables("--fill", "--root", root).stderr, "a number of no table")
     latex = read(os.path.join(folder, "tables", "single.tex"))
     # Too wide for a page's text: values in one line, all else in the next.

@@ -68,9 +68,9 @@ TEST(Answers, NameTheBestItsGainTheCheaperAndTheLimit) {
     made.add("exact", 0.01, 0.001);
     const ShotAnswer a = made.answer();
     EXPECT_EQ(a.sentence,
-              "slow has the least error: mse 0.065 [0.06, 0.07], 0.1x that of no reflections (none). quick takes 0.6x "
-              "[0.49x, 0.73x] its "
-              "time at 1.8x the error. The lower bound for any single-frame technique is 0.05 [0.049, 0.051].");
+              "slow has the least error: mse 0.065 [0.06, 0.07], 0.1x the error without reflections (none). quick "
+              "takes 0.6x [0.49x, 0.73x] the time of slow and has 1.8x the error of slow. The lower bound for any "
+              "single-frame technique is 0.05 [0.049, 0.051].");
     ASSERT_EQ(a.front.size(), 3u);
     EXPECT_EQ(a.front[1].technique, "quick");
     EXPECT_EQ(a.perceptual_sentence, "");
@@ -81,7 +81,8 @@ TEST(Answers, NameTheBestItsGainTheCheaperAndTheLimit) {
 
     json doubtful = manifest;
     doubtful["clock"]["proofs"][0]["verdict"] = "failed";
-    EXPECT_NE(made.answer(doubtful).sentence.find("its time (timer not validated) at 1.8x"), std::string::npos);
+    EXPECT_NE(made.answer(doubtful).sentence.find("the time of slow (timer not validated) and has 1.8x"),
+              std::string::npos);
     doubtful["clock"]["aa_floors"]["s"] = 0.45;  // 0.6 of the time is then no difference
     EXPECT_EQ(made.answer(doubtful).sentence.find("quick takes"), std::string::npos);
 }
@@ -92,10 +93,10 @@ TEST(Answers, GiveTheEndsOfNarrowIntervalsAThirdDigit) {
     made.add("quick", 0.0806, 0.0001, 6);
     TimeSummary &slow = made.tables.time_summary[0], &quick = made.tables.time_summary[1];
     slow.low = slow.high = 10, quick.low = 5.98, quick.high = 6.02;
-    EXPECT_NE(made.answer().sentence.find("takes 0.6x [0.598x, 0.602x] its time"), std::string::npos)
+    EXPECT_NE(made.answer().sentence.find("takes 0.6x [0.598x, 0.602x] the time of slow"), std::string::npos)
         << made.answer().sentence;
     quick.low = 5.5;
-    EXPECT_NE(made.answer().sentence.find("takes 0.6x [0.55x, 0.6x] its time"), std::string::npos)
+    EXPECT_NE(made.answer().sentence.find("takes 0.6x [0.55x, 0.6x] the time of slow"), std::string::npos)
         << made.answer().sentence;
 }
 
@@ -108,8 +109,8 @@ TEST(Answers, RankNothingThatIntervalsCannotTellApart) {
     ASSERT_EQ(a.tied.size(), 1u);
     EXPECT_EQ(a.tied[0].technique, "b");
     EXPECT_NE(
-        a.sentence.find(
-            "a measures the least error: mse 0.06 [0.058, 0.062]. Undecided beside it: b. c errs more for certain."),
+        a.sentence.find("a measures the least error: mse 0.06 [0.058, 0.062]. It is undecided whether a errs less "
+                        "than b. c certainly has a larger error."),
         std::string::npos)
         << a.sentence;
 }
@@ -134,30 +135,31 @@ TEST(Answers, SayWhatIsRankedAndWhatIsOnlyMeasured) {
     ASSERT_EQ(alone.unranked.size(), 2u);
     EXPECT_EQ(alone.sentence.find("has the least error"), std::string::npos) << alone.sentence;
     EXPECT_TRUE(
-        alone.sentence.starts_with("a measures least, mse 0.06, but is only measured, as are 2 of 3 points (1 "
-                                   "seed). Among those that are ranked, none stands alone: mse 0.6"))
+        alone.sentence.starts_with("a measures the least error, mse 0.06, but has no rank. 2 of 3 points have no rank "
+                                   "(1 seed). none is the only ranked point: mse 0.6"))
         << alone.sentence;
 
     made.add("c", 0.1, 0.002);
     EXPECT_TRUE(
-        made.answer().sentence.starts_with("a measures least, mse 0.06, but is only measured, as are 2 of 4 "
-                                           "points (1 seed). Among those that are ranked, c has the least"))
+        made.answer().sentence.starts_with("a measures the least error, mse 0.06, but has no rank. 2 of 4 points have "
+                                           "no rank (1 seed). Among the ranked points, c has the least"))
         << made.answer().sentence;
 
     for (MetricSummary& e : made.tables.summary) e.ranked = false, e.interval = interval::one_seed;
     EXPECT_FALSE(made.answer().best);
-    EXPECT_EQ(made.answer().sentence,
-              "Nothing is ranked, as no mse of this shot has an interval that holds all noise (1 seed): a measures "
-              "least, mse 0.06. Run with seeds: 4 to rank none, a and 2 more. Add flip to metrics: few samples suffice "
-              "for its intervals.");
+    EXPECT_EQ(
+        made.answer().sentence,
+        "Nothing is ranked: no mse of this shot has an interval that holds all noise (1 seed). a measures the "
+        "least error, mse 0.06. Run with seeds: 4 to rank none, a and 2 more. Add flip to the metrics: flip needs "
+        "few samples for an interval.");
 }
 
 TEST(Answers, SayWhereALimitOfOneFrameIsReached) {
     Made made;
     made.add("a", 0.0505, 0.001);
-    EXPECT_NE(
-        made.answer().sentence.find("That reaches the lower bound for any single-frame technique, 0.05 [0.049, 0.051]"),
-        std::string::npos)
+    EXPECT_NE(made.answer().sentence.find(
+                  "This error reaches the lower bound for any single-frame technique, 0.05 [0.049, 0.051]"),
+              std::string::npos)
         << made.answer().sentence;
 }
 
@@ -178,19 +180,19 @@ TEST(Answers, SayWhereTheEyeDisagrees) {
     made.add("a", 0.2, 0.01, 0, "flip");
     made.add("b", 0.1, 0.01, 0, "flip");
     EXPECT_NE(made.answer().perceptual_sentence.find(
-                  "b (0.1 [0.09, 0.11]) is significantly better in paired differences; a has 0.2 [0.19, 0.21]"),
+                  "b (0.1 [0.09, 0.11]) is significantly better than a (0.2 [0.19, 0.21]) in a paired comparison."),
               std::string::npos)
         << made.answer().perceptual_sentence;
     made.tables.summary[3].value = 0.195, made.tables.summary[3].low = 0.185, made.tables.summary[3].high = 0.205;
-    EXPECT_NE(made.answer().perceptual_sentence.find("b (0.195 [0.185, 0.205]) measures better, but that is not "
-                                                     "decided; a has 0.2"),
+    EXPECT_NE(made.answer().perceptual_sentence.find("b (0.195 [0.185, 0.205]) measures better than a (0.2 [0.19, "
+                                                     "0.21]), but the difference is undecided."),
               std::string::npos);
     made.tables.summary[3].ranked = false;
-    EXPECT_NE(made.answer().perceptual_sentence.find("measures better, but is not ranked"), std::string::npos)
+    EXPECT_NE(made.answer().perceptual_sentence.find("), but not both points are ranked."), std::string::npos)
         << "its noise is not known";
     made.tables.summary[3].ranked = true;
     made.tables.summary[3].value = made.tables.summary[3].low = made.tables.summary[3].high = 0.3;
-    EXPECT_NE(made.answer().perceptual_sentence.find("it is the best, too"), std::string::npos);
+    EXPECT_NE(made.answer().perceptual_sentence.find("a is the best, too"), std::string::npos);
 }
 
 TEST(Answers, SayFirstWhatMayHoldInOtherScenes) {
@@ -217,19 +219,20 @@ TEST(Answers, SayFirstWhatMayHoldInOtherScenes) {
     };
     EXPECT_EQ(sentence({}, 5), "");
     EXPECT_EQ(sentence({"best", "behind"}, 5),
-              "Of other scenes one scene says nothing: a verdict over scenes takes 4.");
+              "One scene says nothing about other scenes: a verdict over scenes needs at least 4.");
     for (const char* shot : {"t", "u", "v", "w", "x"})
         made.tables.summary.push_back(made.tables.summary.front()), made.tables.summary.back().shot = shot;
     EXPECT_EQ(sentence({"best", "behind", "behind"}, 6),
-              "In scenes like these A, labelled errs least on average for certain: 0.1x [0.05x, 0.2x] the mse of no "
-              "reflections (none), geometric mean over 6 scenes.");
+              "In scenes like these A, labelled certainly has the least error on average: 0.1x [0.05x, 0.2x] the mse "
+              "of no reflections (none), geometric mean over 6 scenes.");
     EXPECT_EQ(sentence({"tied", "tied", "behind"}, 5),
-              "In scenes like these A, labelled measures least: 0.1x [0.05x, 0.2x] the mse of no reflections (none), "
-              "geometric mean over 5 of 6 scenes. Probability to err least on average: A, labelled 0.68, b 0.30. To be "
-              "within 10 % of the least: A, labelled above 0.99, b 0.50, c 0.25. Behind for certain: c.");
+              "In scenes like these A, labelled measures the least error on average: 0.1x [0.05x, 0.2x] the mse of no "
+              "reflections (none), geometric mean over 5 of 6 scenes. Probability of the least mean error: A, labelled "
+              "0.68, b 0.30. Probability of a mean error within 10 % of the least: A, labelled above 0.99, b 0.50, c "
+              "0.25. Certainly worse: c.");
     EXPECT_EQ(sentence({"", ""}, 3),
-              "Of other scenes 3 scenes say nothing: a verdict over scenes takes 4. Here A, labelled errs least on "
-              "average.");
+              "3 scenes say nothing about other scenes: a verdict over scenes needs at least 4. In these scenes A, "
+              "labelled has the least error on average.");
 }
 
 TEST(Answers, SayWhatIsCertainInTheseScenes) {
@@ -245,14 +248,13 @@ TEST(Answers, SayWhatIsCertainInTheseScenes) {
     EXPECT_EQ(in_these_scenes({answers.front()}, json::object(), headline), "") << "the shot has its own sentence";
     EXPECT_EQ(
         in_these_scenes(answers, json::object(), headline),
-        "In these 3 shots the least mse has: a in p and q; b in r. Within 5 % of that for certain: b in q. In each "
-        "of them behind for certain: none and c.");
+        "In these 3 shots these points have the least mse: a in p and q; b in r. Certainly within 5 % of the least: b "
+        "in q. Certainly worse in each of these shots: none and c.");
     const json scenes = {{"shots", {{{"shot", "p"}, {"scene", "hall"}}, {{"shot", "q"}, {"scene", "yard"}}}}};
     answers[2].best = {};
     EXPECT_EQ(in_these_scenes(answers, scenes, headline),
-              "In 2 of these 3 shots the least mse has: a in hall and yard. Within 5 % of that for certain: b in yard. "
-              "In each "
-              "of them behind for certain: none and c.");
+              "In 2 of these 3 shots these points have the least mse: a in hall and yard. Certainly within 5 % of the "
+              "least: b in yard. Certainly worse in each of these shots: none and c.");
     for (ShotAnswer& a : answers) a.best = {};
     EXPECT_EQ(in_these_scenes(answers, json::object(), headline), "In these 3 shots nothing is ranked by mse.");
 }

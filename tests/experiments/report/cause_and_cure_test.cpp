@@ -50,15 +50,15 @@ TEST(CauseAndCure, NamesThePixelsTheSamplesAndTheMetricThatDecides) {
     MadeShot made;
     made.add("a", interval::few_paths), made.add("b", interval::few_paths);
     EXPECT_EQ(made.cure(),
-              " 1 % of the pixels hold 84 % of the reference's noise. Surfaces of roughness 0 to 0.1 hold 92 % of it. "
-              "About 128 samples per pixel would give mse intervals (reference.samples: 64). Add flip to metrics: few "
-              "samples suffice for its intervals.");
+              " 1 % of the pixels hold 84 % of the reference's noise. Surfaces of roughness 0 to 0.1 hold 92 % of this "
+              "noise. About 128 samples per pixel (reference.samples) would give mse intervals. This reference has 64 "
+              "samples per pixel. Add flip to the metrics: flip needs few samples for an interval.");
     EXPECT_EQ(samples_needed(60), 128) << "references have 16 x 2^k";
     for (const char* technique : {"a", "b"}) made.add(technique, "", "flip");
     made.add("a", "", "ssim");
-    EXPECT_TRUE(made.cure().ends_with(" flip decides now: it ranks all 2 points.")) << made.cure();
+    EXPECT_TRUE(made.cure().ends_with(" flip already ranks all 2 points.")) << made.cure();
     made.reference = json();  // a folder of another version
-    EXPECT_EQ(made.cure(), " flip decides now: it ranks all 2 points.");
+    EXPECT_EQ(made.cure(), " flip already ranks all 2 points.");
 }
 
 TEST(CauseAndCure, TellsSeedsFromRunsAndFromMissingHalves) {
@@ -72,8 +72,7 @@ TEST(CauseAndCure, TellsSeedsFromRunsAndFromMissingHalves) {
     e.ranked = false, e.standing.clear();
     runs.add("a", "", "flip"), runs.add("b", "", "flip");
     EXPECT_EQ(runs.cure(),
-              " No number of seeds ranks a: results differ from run to run. flip decides now: it ranks all 2 "
-              "points.");
+              " No number of seeds ranks a, because results differ from run to run. flip already ranks all 2 points.");
 
     MadeShot foreign;
     foreign.add("a", interval::unknown_reference).floor = std::nullopt;
@@ -88,8 +87,8 @@ TEST(CauseAndCure, CountsThePixelsOfASmallMask) {
     MadeShot made;
     made.add("a", interval::few_paths).pixels = 3;
     EXPECT_NE(
-        made.cure().find(" The mask reflective holds only 3 pixels. About 2048 samples per pixel would give mse an "
-                         "interval (reference.samples: 64)."),
+        made.cure().find(" The mask reflective holds only 3 pixels. About 2048 samples per pixel (reference.samples) "
+                         "would give mse an interval. This reference has 64 samples per pixel."),
         std::string::npos)
         << made.cure() << ": 4096 samples of 3 pixels are 1366 each";
 }
@@ -104,10 +103,13 @@ TEST(CauseAndCure, SaysWhichDifferencesAreSeen) {
     made.add("best", "");
     pair("a", 0.02), pair("c", 0.02);
     // Two comparisons: (2.241 + 0.842) / 1.960 half-widths, 3.2 %.
-    EXPECT_EQ(power_sentence(made.judged(2)), " Such a study sees a difference of 3.2 % to the best in 8 of 10 cases.");
+    EXPECT_EQ(power_sentence(made.judged(2)),
+              " A study like this detects a difference of 3.2 % from the best in 8 of 10 cases.");
     pair("b", 0.2);
-    EXPECT_EQ(power_sentence(made.judged(3)),
-              " Such a study sees a difference of 3.4 % to the best in 8 of 10 cases; of Bee it takes 39 %.");
+    EXPECT_EQ(
+        power_sentence(made.judged(3)),
+        " A study like this detects a difference of 3.4 % from the best in 8 of 10 cases. For Bee this difference "
+        "is 39 %.");
     MadeShot single;
     single.add("best", "");
     EXPECT_EQ(power_sentence(single.judged()), "");
@@ -117,7 +119,7 @@ TEST(CauseAndCure, SaysWhichDifferencesAreSeen) {
     row.over_best_low = 0.8, row.over_best_high = 1.25;
     const std::vector<const OverScenesRow*> rows = {&first, &row};
     EXPECT_EQ(power_over_scenes_sentence(rows),
-              " Such a study sees a difference of 36 % in 8 of 10 cases; one of 10 % takes 95 scenes.");
+              " A study like this detects a difference of 36 % in 8 of 10 cases. Detecting 10 % takes 95 scenes.");
     EXPECT_EQ(power_over_scenes_sentence(std::span(rows).first(1)), "");
 
     OverScenesRow unranked, other;

@@ -94,9 +94,9 @@ def test_why(page, folder, shot, part, errors):
     wanted = (
         f"sssr · first in {scene}, frame {frame}: 38 % of its error lies where rays missed what the screen shows, "
         "25 % where rays hit the wrong place, 19 % where the truth is not on the screen, 13 % where rays were right (filter, fallback, "
-        f"view dependence), 6.3 % where nothing is there to be hit. {missed} of its rays missed so: {off_screen} left the screen, "
-        f"{too_thick} went too far behind a surface. Its mse, {ours}, is {ratio} times the least (sssr · fixed, {least}); "
-        f"it errs more above all where rays missed what the screen shows: {more} against {less}. Its\u00a0rays Its\u00a0images"
+        f"view dependence), 6.3 % where nothing is there to be hit. {missed} of its rays missed what the screen shows: {off_screen} left the screen, "
+        f"{too_thick} went too far behind a surface. Its mse, {ours}, is {ratio} times the least (sssr · fixed, {least}). "
+        f"The largest part of the difference lies where rays missed what the screen shows: {more} against {less}. Its\u00a0rays Its\u00a0images"
     )
     text = "return document.querySelector(arguments[0]).textContent"
     page.execute_script("document.querySelector(arguments[0] + ' .bar').dispatchEvent(new Event('click'))", part)

@@ -87,7 +87,7 @@ def test_first_sentence(page, folder):
     with open(os.path.join(folder, "manifest.json"), encoding="utf-8") as stream:
         labels = {(v["technique"], v["point"]): v.get("label") for v in json.load(stream)["techniques"]}
     name = re.escape(labels[first["technique"], first["point"]] or f"{first['technique']} {first['point']}")
-    wanted = rf"In these \d+ shots the least relmse has: .*\nIn scenes like these {name} (errs least on average for certain|measures least): .*geometric mean over {first['scenes']} scenes"
+    wanted = rf"In these \d+ shots these points have the least relmse: .*\nIn scenes like these {name} (certainly has|measures) the least error on average: .*geometric mean over {first['scenes']} scenes"
     check(re.match(wanted, said), f"what is said first is of these scenes and of others: {said[:400]}, in place of {wanted}")
 
 
@@ -285,10 +285,10 @@ def test_estimates(page, folder):
     equal([fills, len(set(keys))], [keys * 2, 2], "colours of what bounds a stage, as the legend has them")
     equal([e.text for e in section.find_elements(By.CSS_SELECTOR, ".stage-names .stage")], ["memory", "latency"], "the legend")
     sentences = [s.text for s in section.find_elements(By.CSS_SELECTOR, ".sentences li")]
-    said = "{}: {} µs by estimate (95 % interval of sampling from {} to {}; with what the model leaves open [{}, {}]), most of it bound by latency."
+    said = "{}: {} µs by estimate (95 % interval of sampling from {} to {}; model range [{}, {}]). Most of this time is bound by latency."
     equal(sentences, [said.format("sssr · first", 20, 15, 25, "3.3", 320), said.format("sssr · fixed", 16, 12, 20, "2.64", 256)], "totals in words")
     notes = section.text
-    check("of sampling alone: measured times of stages were 0.22 to 12.8 times such estimates (NVIDIA H200" in notes, notes)
+    check("sampling alone: measured times of stages were 0.22 to 12.8 times such estimates (NVIDIA H200" in notes, notes)
     page.execute_script("document.querySelector('#estimates details').open = true")
     columns = "microseconds vector scalar shared_memory textures targets memory latency caches".split()
     rows = rows_of(folder, "estimates.csv", chip="navi21", shot=still)
@@ -309,7 +309,7 @@ def test_estimates(page, folder):
     refusals = lambda: section.find_element(By.CSS_SELECTOR, ".refusals").text
     equal(refusals(), "sssr/stage_1 of sssr · fixed: its compiler ended: <b>signal 9</b>.", "a stage without an estimate, once")
     sentences = [s.text for s in section.find_elements(By.CSS_SELECTOR, ".sentences li")]
-    equal(sentences[1], "sssr · fixed: no total, since a stage has no estimate.", "a point without a total")
+    equal(sentences[1], "sssr · fixed: no total, because a stage has no estimate.", "a point without a total")
     check("sssr · fixed (in part)" in section.find_element(By.CSS_SELECTOR, ".chart").text, "its bar says so")
     choose_in(page, "estimates", "Chip", "vega20")
     equal(refusals(), "All points: ssrlab has no published rates of vega20.", "a chip without rates")

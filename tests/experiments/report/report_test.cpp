@@ -268,7 +268,7 @@ TEST_F(Report, WarnsOfAllThatSpoilsNumbers) {
     std::vector<MetricSummary> many(40, errors.front());
     for (size_t i = 0; i < many.size(); ++i) many[i].point = std::to_string(i), many[i].negative = 2;
     const auto counted = report_warnings(manifest, many, times);
-    EXPECT_TRUE(contains(counted, "28 more warnings of pixels"));
+    EXPECT_TRUE(contains(counted, "28 more warnings about pixels"));
     EXPECT_EQ(counted.size(), warnings.size() - 2 + 12 + 1);
     manifest["shots"][0]["warnings"] = {"a texture is missing"};
     manifest["is_complete"] = false;
@@ -294,20 +294,20 @@ TEST_F(Report, WarnsOfDisturbedTimesAndOfSeveralMakers) {
     EXPECT_EQ(now().size(), before + 1) << "the same maker";
     manifest["provenance"][1]["host"]["cores"] = 64;
     EXPECT_TRUE(contains(now(), "Parts of this study were made by different hosts:"));
-    EXPECT_TRUE(contains(now(), "says which; compare times within one shot only."));
+    EXPECT_TRUE(contains(now(), "says which. Compare times within one shot only."));
     nlohmann::json& load = manifest["clock"]["load"];
     const nlohmann::json node = {{"name", "node1"}, {"cpu", "a CPU"}};
     load = {{{"shot", "one"}, {"host", node}}, {{"shot", "two"}, {"host", node}}, {{"shot", "three"}, {"host", node}}};
-    EXPECT_TRUE(contains(now(), "all times were taken on one machine"));
+    EXPECT_TRUE(contains(now(), "All times were measured on one machine"));
     load[1]["host"]["name"] = "node2";
     EXPECT_TRUE(
-        contains(now(), "compare them within one shot only: one, three on node1 (a CPU); two on node2 (a CPU)."));
+        contains(now(), "Compare times within one shot only: one, three on node1 (a CPU); two on node2 (a CPU)."));
     EXPECT_TRUE(contains(now(), "`provenance` in manifest.json says which."));
     manifest["provenance"][1]["ssrlab"]["commit"] = "another";
     EXPECT_TRUE(contains(now(), "Parts of this study were made by different hosts, versions of ssrlab:"));
-    EXPECT_FALSE(contains(now(), "are not those of the commit"));
+    EXPECT_FALSE(contains(now(), "differ from the commit"));
     manifest["provenance"][1]["ssrlab"]["dirty"] = true;
-    EXPECT_TRUE(contains(now(), "are not those of the commit"));
+    EXPECT_TRUE(contains(now(), "differ from the commit"));
 }
 
 TEST_F(Report, WarnsOfLightThatIsTooNoisy) {

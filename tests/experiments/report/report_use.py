@@ -187,7 +187,7 @@ def test_budget(page, folder, shot):
             over = least_of(misses[0]) / budget if misses else 0
             check((kind == "needs more") == (over > 1.1), f"{over} times the budget are called {kind}")
         note = texts(page, "#budget-note")[0]
-        check("timer was not validated" in note and "Times within 2 % are not distinguishable" in note, f"the clock and the A/A floor: {note}")
+        check("timer was not validated" in note and "Times within 2 % are undecided" in note, f"the clock and the A/A floor: {note}")
     axes = page.execute_script("return [...document.querySelectorAll('#answer-charts svg')].map(s => s.textContent)")
     check(axes and all(re.search(r"total time \(ms\), .*\d+x\d+", a) for a in axes), f"machine and size at the axes of times: {axes}")
     page.execute_script("const b = at('budget'); b.value = ''; b.dispatchEvent(new Event('input'))")

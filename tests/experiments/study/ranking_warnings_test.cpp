@@ -25,22 +25,23 @@ using Sentences = std::vector<std::string>;
 TEST_F(RankingWarnings, NameSeedsAndSamples) {
     EXPECT_EQ(of(R"("fence")", R"("seeds": 4, )"), Sentences());
     EXPECT_EQ(of(R"("fence")", R"("seeds": 1, )"),
-              Sentences{"amd_sssr best has 1 seed, so that no shot ranks it. Give the study \"seeds\": 4."});
-    EXPECT_EQ(of(R"(["fence", "rails", "grazing", "corridor"])", R"("seeds": 1, )"),
-              Sentences{"amd_sssr best has 1 seed, so that no shot ranks it. Over the 4 scenes it is compared all the "
-                        "same. Seeds: 4 rank it in each shot, too."});
+              Sentences{"amd_sssr best has 1 seed, so no shot ranks it. Set \"seeds\": 4."});
+    EXPECT_EQ(
+        of(R"(["fence", "rails", "grazing", "corridor"])", R"("seeds": 1, )"),
+        Sentences{"amd_sssr best has 1 seed, so no shot ranks it. The 4 scenes together still compare it. To rank "
+                  "it in each shot, set \"seeds\": 4."});
     EXPECT_EQ(
         of(R"("fence")", R"("seeds": 4, "reference": {"samples": 16}, )", "[16, 9]"),
-        Sentences{"fence.main.16x9: all pixels together have fewer than 4096 samples of the reference, so that no "
-                  "error has an interval. Give reference.samples or the resolution a larger number."});
+        Sentences{"fence.main.16x9: all pixels together have fewer than 4096 samples of the reference, so no error "
+                  "has an interval. Increase reference.samples or the resolution."});
 }
 
 TEST_F(RankingWarnings, KnowWhatFurnishedScenesTake) {
     EXPECT_EQ(
         of(R"(["room:3", "fence"])", R"("seeds": 4, "metrics": ["mse", "flip"], "reference": {"samples": 64}, )"),
-        Sentences{"room:3: few paths find the lamps that furnished scenes reflect, so that mse of 64 samples sees only "
-                  "large differences there (metrics/README.md, power). Make flip the primary metric, or give "
-                  "reference.samples: 1024."});
+        Sentences{"room:3: few paths find the lamps that furnished scenes reflect, so mse with 64 samples detects only "
+                  "large differences there (metrics/README.md). Make flip the primary metric, or set "
+                  "reference.samples to 1024."});
     const std::string enough = R"("seeds": 4, "metrics": ["mse"], "reference": {"samples": 1024}, )";
     EXPECT_EQ(of(R"("room:3")", enough), Sentences());
     EXPECT_EQ(of(R"("room:3")", R"("seeds": 4, "primary": {"metric": "flip"}, "metrics": ["flip"], )"), Sentences());

@@ -1,4 +1,4 @@
-// Asks the screen what lies in the directions of each texel, and remembers what has left it.
+// Gathers what the screen shows in the directions of each texel, and keeps what has left the screen.
 #include "common/mirror_ray.glsl"
 #include "common/half.glsl"
 #include "common/luminance.glsl"

@@ -1,4 +1,4 @@
-// What may lie where no ray found anything.
+// Reads the screen probe for rays that found nothing.
 #ifndef SCREEN_PROBE_LOOKUP_GLSL
 #define SCREEN_PROBE_LOOKUP_GLSL
 #include "common/screen_probe/octahedral_map.glsl"

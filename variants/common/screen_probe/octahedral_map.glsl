@@ -1,4 +1,4 @@
-// Directions by texels of a map. Places are those of core/shaders/gbuffer/octahedral.glsl.
+// The directions of a map's texels. Places are those of core/shaders/gbuffer/octahedral.glsl.
 #ifndef SCREEN_PROBE_OCTAHEDRAL_MAP_GLSL
 #define SCREEN_PROBE_OCTAHEDRAL_MAP_GLSL
 #include "common/screen_probe/width.h"

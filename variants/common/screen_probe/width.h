@@ -2,7 +2,7 @@
 #define SCREEN_PROBE_WIDTH_H
 #include "core/shared/language.h"
 
-/// Of the map of all directions, in texels, each about 13 degrees wide; even.
+/// Width of the map of all directions in texels of about 13 degrees; must be even.
 const uint screen_probe_width = 16u;
 
 #endif

@@ -1,6 +1,6 @@
-// What AMD's denoiser reads of each glossy pixel: what its ray saw, with the fallback for what is not known, and its
-// length. Rays that hit nothing are as long as the far plane is away, as with far_misses; with misses = weight
-// those of which it is known that they bring no light have no length.
+// The inputs of AMD's denoiser for each glossy pixel: what its ray saw, with the fallback for the unknown part, and the
+// ray's length. Rays that hit nothing reach to the far plane, as with far_misses; with misses = weight, rays that are
+// known to bring no light have no length.
 #include "amd_sssr/lists.glsl"
 #include "core/shaders/view.glsl"
 

@@ -1,4 +1,4 @@
-// Of each traced pixel: what its rays see, as the finest of the mips, and the level that its cone chooses.
+// Writes, for each traced pixel, what its rays see as the finest mip, and the level that its cone chooses.
 #include "common/mirror_ray.glsl"
 #include "core/shared/brdf.h"
 #include "frostbite_sssr/lobe_cone.h"

@@ -1,4 +1,4 @@
-// What each pixel shows of the mips. With half_resolution from the four traced pixels around it, each at its own level.
+// Reads the mips for each pixel: with half_resolution at the four traced pixels around it, each at its own level.
 #include "common/mirror_ray.glsl"
 #include "denoisers/cone_mips/stored_color.glsl"
 #include "denoisers/traced_pixel.glsl"

@@ -1,6 +1,6 @@
-// One ratio estimator over neighbours and frames: the sum of what rays see times the density of the pixel's own lobe
-// over theirs, over the sum of these ratios. So a mirror takes nothing from rays that are not its own, and a pixel that
-// had no ray of its own in this frame keeps what it knew.
+// One ratio estimator over neighbours and frames. A ray's weight is the density of the pixel's own lobe over the ray's
+// density; the result is the weighted sum of what rays see over the sum of weights. A mirror thus takes nothing from
+// other pixels' rays, and a pixel without a ray in this frame keeps its history.
 #include "common/screen_probe/lookup.glsl"
 #include "denoisers/ratio_accumulation/history.glsl"
 #include "denoisers/seen_rays.glsl"

@@ -1,4 +1,4 @@
-// What a pixel reflected in the frames before, and how much of that still holds.
+// What a pixel reflected in earlier frames, and how far that is still valid.
 #ifndef RATIO_ACCUMULATION_HISTORY_GLSL
 #define RATIO_ACCUMULATION_HISTORY_GLSL
 #include "denoisers/place_before.glsl"

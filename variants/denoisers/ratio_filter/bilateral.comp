@@ -1,4 +1,4 @@
-// Averages neighbours on a pixel's plane where what was accumulated still scatters.
+// Averages neighbours on a pixel's plane where accumulated values still scatter.
 #include "common/mirror_ray.glsl"
 #include "denoisers/ratio_filter/averages.glsl"
 #include "denoisers/ratio_filter/kernel.glsl"

@@ -1,4 +1,4 @@
-// Colours as passes hand them on.
+// Colours as passes hand them to each other.
 #ifndef RATIO_FILTER_SHOWN_GLSL
 #define RATIO_FILTER_SHOWN_GLSL
 

@@ -1,5 +1,4 @@
-// What every pixel makes of its neighbours' rays, weighed by its own lobe over the densities with which they were
-// drawn.
+// Combines each pixel's neighbouring rays, weighed by its own lobe over the densities with which they were drawn.
 #include "common/ggx_lobe.h"
 #include "common/mirror_ray.glsl"
 #include "denoisers/aimed_ray.glsl"

@@ -1,5 +1,5 @@
-// Blends each pixel with what was reflected in the frame before: where its surface was, and where a mirror showed what
-// its rays meet. Which of both counts is decided by how well they go with this frame's neighbours.
+// Blends each pixel with the previous frame's reflection at two places: where its surface was, and where a mirror
+// showed what its rays meet. The place that agrees better with this frame's neighbours counts more.
 #include "common/ycocg.glsl"
 #include "denoisers/place_before.glsl"
 #include "denoisers/ratio_filter/shown.glsl"

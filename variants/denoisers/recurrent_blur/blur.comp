@@ -1,5 +1,5 @@
-// History and rays are blurred by the same eight neighbours and blended; the result is the next frame's history, so that
-// it is blurred again, by a disk that shrinks while it ages.
+// Blurs history and rays by the same eight neighbours and blends them. The result is the next frame's history and is
+// blurred again, by a disk that shrinks with age.
 #include "denoisers/lobe_disk.glsl"
 #include "denoisers/pixel_scale.glsl"
 #include "denoisers/recurrent_blur/ray_statistics.glsl"

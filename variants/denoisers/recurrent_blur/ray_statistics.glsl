@@ -1,4 +1,4 @@
-// What is known of the rays around a pixel.
+// Statistics of the rays around a pixel.
 #ifndef RECURRENT_BLUR_RAY_STATISTICS_GLSL
 #define RECURRENT_BLUR_RAY_STATISTICS_GLSL
 #include "common/luminance.glsl"

@@ -1,5 +1,5 @@
-// Where each pixel's reflection was in the frame before, and how many frames that holds. Two places are asked: where its
-// surface was, and where a flat mirror showed what its rays meet.
+// Finds each pixel's reflection in the previous frame, and how many frames it holds. Looks at two places: where the
+// surface was, and where a flat mirror showed what the pixel's rays meet.
 #include "common/ycocg.glsl"
 #include "frostbite_sssr/previous_view.glsl"
 #include "denoisers/place_before.glsl"

@@ -1,4 +1,4 @@
-// Neighbours' reservoirs as the pixel's own lobe weighs them.
+// Combines neighbours' reservoirs, weighed by the pixel's own lobe.
 #include "denoisers/lobe_disk.glsl"
 #include "denoisers/pixel_scale.glsl"
 #include "denoisers/reservoirs/reservoir.glsl"

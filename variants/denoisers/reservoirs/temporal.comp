@@ -1,5 +1,5 @@
-// Of this frame's ray and the one that the reservoir of the frame before kept, one is kept, by what it sees times its
-// density: in the mean over frames the others are not lost (Talbot et al. 2005, "Importance Resampling").
+// Keeps either this frame's ray or the ray in the previous frame's reservoir, at random in proportion to what each sees
+// times its density. On average over frames no ray is lost (Talbot et al. 2005, "Importance Resampling").
 #include "frostbite_sssr/previous_view.glsl"
 #include "denoisers/place_before.glsl"
 #include "denoisers/reservoirs/reservoir.glsl"

@@ -1,5 +1,5 @@
-// Blends what each pixel reflects with its history, of which the less is left the faster the surface or what it
-// reflects moves.
+// Blends each pixel's reflection with its history, which counts less the faster the surface or the reflected object
+// moves.
 #include "denoisers/reflector_history.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

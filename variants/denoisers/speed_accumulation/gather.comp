@@ -1,4 +1,4 @@
-// The mean of the rays of a pixel and of the four next to it, and how fast what its own rays met moves.
+// The mean of the rays of a pixel and of the four next to it, and the speed of what its own rays met.
 #include "common/ggx_lobe.h"
 #include "common/mirror_ray.glsl"
 #include "common/motion.glsl"

@@ -1,5 +1,5 @@
 // Mode HiZ of an engine's reflection pass (its documentation, "Hi-Z Ray Marching"): from wall to wall of a depth
-// pyramid's cells, a level coarser after some of them in which the ray stayed in front, a level finer where it is
+// pyramid's cells. The level gets coarser after some cells in which the ray stayed in front, and finer where the ray is
 // behind.
 #ifndef TRACERS_CELLS_GLSL
 #define TRACERS_CELLS_GLSL

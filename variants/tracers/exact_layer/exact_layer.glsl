@@ -1,5 +1,5 @@
-// The most that one layer of depth contains: every pixel that the ray crosses is tested, and what it shows is
-// the plane through its sample, as its geometric normal says, not a step. Nothing of it is meant to be fast.
+// The most that one layer of depth contains. Every pixel that the ray crosses is tested; it shows the plane through its
+// sample with its geometric normal, not a step. Speed is no goal.
 #ifndef TRACERS_EXACT_LAYER_GLSL
 #define TRACERS_EXACT_LAYER_GLSL
 #include "tracers/screen_cells.glsl"

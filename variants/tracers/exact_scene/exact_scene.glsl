@@ -1,5 +1,5 @@
-// The most that any tracer can find: what the ray meets in the scene, answered between two passes, and whether
-// the screen shows it. RayProbe::exact_hits of core/ray_probe.h answers, in the order of the records.
+// The most that any tracer can find: what the ray meets in the scene, and whether the screen shows it.
+// RayProbe::exact_hits of core/ray_probe.h answers between two passes, in the order of the records.
 #ifndef TRACERS_EXACT_SCENE_GLSL
 #define TRACERS_EXACT_SCENE_GLSL
 #include "tracers/record.glsl"

@@ -1,5 +1,5 @@
-// The march of rough surfaces' rays: equal steps on the screen, which may pass over thin things; the blur hides it
-// (slides). Number, start and end of the steps and their refinement are ours.
+// The march of rough surfaces' rays: equal steps on the screen, which may pass over thin objects; the blur hides it
+// (slides). Number, start and end of the steps and their refinement are ssrlab's.
 #ifndef TRACERS_FROSTBITE_LINEAR_GLSL
 #define TRACERS_FROSTBITE_LINEAR_GLSL
 #include "tracers/frostbite/solid.glsl"

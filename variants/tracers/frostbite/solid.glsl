@@ -1,5 +1,5 @@
-// What a ray meets within a pixel: the surface that the pixel shows and, for want of knowledge, as much behind it as
-// `frostbite.relative_thickness` says.
+// What a ray meets within a pixel: the surface that the pixel shows and an assumed thickness behind it,
+// `frostbite.relative_thickness`.
 #ifndef TRACERS_FROSTBITE_SOLID_GLSL
 #define TRACERS_FROSTBITE_SOLID_GLSL
 #include "tracers/screen_line.glsl"

@@ -1,6 +1,6 @@
 // The march of Godot 4.6: through a pyramid of nearest depths, a level coarser after each cell in which the ray stays
 // in front and a level finer where it comes behind, straight to the depth of the cell's nearest surface. Only single
-// pixels tell what is thin: behind that the ray goes on pixel by pixel.
+// pixels show whether an object is thin; behind a thin one the ray goes on pixel by pixel.
 #ifndef TRACERS_GODOT_GLSL
 #define TRACERS_GODOT_GLSL
 #include "common/depth_pyramid.glsl"

@@ -1,5 +1,5 @@
-// The walk of FidelityFX SSSR and of its adaptation in DiligentFX through a pyramid of nearest depths, down to the first
-// surface that the ray falls behind, and their judgements of whether that surface is what it met.
+// The walk of FidelityFX SSSR and of its adaptation in DiligentFX through a pyramid of nearest depths, down to the
+// first surface that the ray falls behind. Both then decide whether the ray met that surface.
 #ifndef TRACERS_HIERARCHY_GLSL
 #define TRACERS_HIERARCHY_GLSL
 #include "common/depth_pyramid.glsl"

@@ -1,7 +1,8 @@
 // The march of Bevy's reflections, a port of Stachowiak's raymarch.hlsl: a few equal steps between the ray's start and
-// the border of the screen, the first one that ends behind what is seen halved, and one step of the secant method.
-// A place is behind only if it is behind the depth of its pixel and that between the four nearest pixels: the first
-// alone is a stair that rays near their own surface catch on, the second alone spans what lies apart.
+// the border of the screen. The first step that ends behind the visible surface is halved repeatedly; one step of the
+// secant method follows. A place is behind only if it is behind the depth of its pixel and the depth interpolated
+// between the four nearest pixels. The first depth alone is a stair that catches rays near their own surface; the
+// second alone joins separate surfaces.
 #ifndef TRACERS_SECANT_GLSL
 #define TRACERS_SECANT_GLSL
 #include "tracers/screen_line.glsl"

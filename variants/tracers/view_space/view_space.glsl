@@ -1,5 +1,5 @@
-// The plain march that the slides on stochastic reflections begin with: equal steps along the ray in view space, each
-// point projected and compared with the depth seen there. Refinement and confidence are those of Lettier's tutorial.
+// The plain march that the slides on stochastic reflections begin with: equal steps along the ray in view space, with
+// each point projected and compared with the depth there. Refinement and confidence are those of Lettier's tutorial.
 #ifndef TRACERS_VIEW_SPACE_GLSL
 #define TRACERS_VIEW_SPACE_GLSL
 #include "tracers/fades.glsl"

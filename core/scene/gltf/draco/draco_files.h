@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-// What ssrlab and draco_decoder (main.cpp) say to each other, both on one machine: JSON after its size (uint64), then
+// The protocol between ssrlab and draco_decoder (main.cpp), both on one machine: the size of JSON (uint64), JSON,
 // bytes.
 
-/// Of one mesh. If `problem` is not empty it could not be decoded; if `error` is not, the file is to be refused.
+/// The result of one mesh. A `problem` says why it could not be decoded, an `error` why to refuse the file.
 struct DracoResult {
     std::string problem = {}, error = {};
     uint64_t point_count = 0;
@@ -23,14 +23,14 @@ inline void write_json(std::ostream& out, const nlohmann::json& value) {
     out.write(reinterpret_cast<const char*>(&size), sizeof size) << text;
 }
 
-/// Empty at the end of the stream.
+/// `size` bytes; empty at the end of the stream.
 inline std::string read_bytes(std::istream& in, uint64_t size) {
     std::string bytes(size, '\0');
     if (!in.read(bytes.data(), std::streamsize(size))) bytes.clear();
     return bytes;
 }
 
-/// Discarded at the end of the stream.
+/// A JSON value; discarded at the end of the stream.
 inline nlohmann::json read_json_value(std::istream& in) {
     uint64_t size = 0;
     in.read(reinterpret_cast<char*>(&size), sizeof size);
@@ -41,7 +41,7 @@ inline nlohmann::json read_json_value(std::istream& in) {
 /// (glTF's), and `what`. The data of all jobs follow, one after the other.
 inline nlohmann::json read_draco_jobs(std::istream& in) { return read_json_value(in); }
 
-/// The sign that the decoder runs.
+/// Tells ssrlab that the decoder runs.
 inline void write_draco_start(std::ostream& out) { out.put('D').flush(); }
 
 inline void write_draco_result(std::ostream& out, const DracoResult& result) {
@@ -57,8 +57,8 @@ inline void write_draco_result(std::ostream& out, const DracoResult& result) {
     out.flush();
 }
 
-/// False at the end of the stream, or where the decoder ended within the result. `set_aside` is told the bytes that
-/// follow before they are read.
+/// False at the end of the stream, or if the decoder ended within the result. `set_aside` gets the number of bytes
+/// before they are read.
 template <class SetAside>
 bool read_draco_result(std::istream& in, DracoResult& result, const SetAside& set_aside) {
     const nlohmann::json header = read_json_value(in);

@@ -13,8 +13,8 @@ class Mesh;
 /// A mesh that the library Draco has decoded (bitstream 2.2, as KHR_draco_mesh_compression has it).
 class DracoMesh {
 public:
-    /// None if the bytes are damaged or of another kind: `problem` says so then. Memory is set aside by what the bytes
-    /// announce, before it is spent; fails with Error, which begins with `what`, where that is too much.
+    /// None if the bytes are damaged or no mesh; `problem` then says so. Sets aside the memory that the bytes announce,
+    /// and fails with Error, which begins with `what`, if that is too much.
     static std::unique_ptr<DracoMesh> decode(std::span<const uint8_t> bytes, const std::string& what,
                                              std::string& problem);
     ~DracoMesh();

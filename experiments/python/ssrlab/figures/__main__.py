@@ -1,4 +1,4 @@
-"""Paper figures from a results folder, as PDF, SVG and PNG: those that figures.json asks for (experiments/README.md), else all
+"""Paper figures from a results folder, as PDF, SVG and PNG: those that figures.json asks for (experiments/docs/figures.md), else all
 that the study has results for. Of each shot: error against time, times, counted costs and estimated GPU times of stages, crops with error maps, and
 of shots in motion an animated GIF.
 Of the study: error and bias by roughness, bias and variance, effects of changes, temporal metrics, the error of each frame,
@@ -7,7 +7,7 @@ errors against the truth ladder, what error a cost buys, and depth fetches per r
 usage: python3 experiments/python figures RESULTS [--out DIR] [--choice figures.json] [--target specular] [--metric mse] [--mask reflective]
 
 It reads manifest.json, summary.csv, time_summary.csv, splits.csv, effects.csv, hits.csv, costs.csv, estimates.csv, the EXR images
-(experiments/RESULTS.md) and what `ssrlab tradeoff` wrote, and writes the same bytes whenever they are the same. Needs Debian's python3-matplotlib and python3-numpy.
+(experiments/docs/results_folder.md) and what `ssrlab tradeoff` wrote, and writes the same bytes whenever they are the same. Needs Debian's python3-matplotlib and python3-numpy.
 """
 
 import argparse
@@ -78,14 +78,14 @@ UNMEASURED = ("stage_times", "stage_costs", "stage_estimates", "fetches")  # of 
 
 
 def parse_arguments():
-    parser = argparse.ArgumentParser(prog="ssrlab figures", description="Paper figures (PDF, SVG, PNG) from a results folder, and shots in motion as animated GIFs.")
-    parser.add_argument("results", help="a folder that `ssrlab run` filled")
-    parser.add_argument("--out", help="default: figures in the results folder")
-    parser.add_argument("--choice", metavar="figures.json", help="which figures, and how they look; crops that the report's viewer collected")
-    parser.add_argument("--target", help="default: specular")
-    parser.add_argument("--metric", help="default: what the study is made to compare (`primary`), else its first metric")
-    parser.add_argument("--mask", help="default: reflective")
-    parser.add_argument("--max-memory", metavar="SIZE", type=memory.size_in_bytes, help=f"what an image may take, e.g. 8GB; default: {memory.VARIABLE}, else half of this machine's memory")
+    parser = argparse.ArgumentParser(prog="ssrlab figures", description="Draws figures for papers (PDF, SVG, PNG) from a results folder, and animations of shots in motion (GIF).")
+    parser.add_argument("results", help="results folder that `ssrlab run` filled")
+    parser.add_argument("--out", help="output folder; default: figures in the results folder")
+    parser.add_argument("--choice", metavar="figures.json", help="file that says which figures are drawn and how they look; the report's viewer writes one with crops")
+    parser.add_argument("--target", help="target of the error; default: specular")
+    parser.add_argument("--metric", help="metric of the error; default: that of the study's primary error, else the first")
+    parser.add_argument("--mask", help="mask of the error; default: reflective")
+    parser.add_argument("--max-memory", metavar="SIZE", type=memory.size_in_bytes, help=f"memory that reading an image may take, for example 8GB; default: {memory.VARIABLE}, else half of this machine's memory")
     arguments = parser.parse_args()
     if arguments.max_memory is not None:
         os.environ[memory.VARIABLE] = str(arguments.max_memory)

@@ -1,5 +1,5 @@
-"""How errors fall, both axes logarithmic, with the fitted slope of each line and its 95 % interval: over a parameter, over
-time, over the frames of a sequence; or, without a fit, over how many seeds are averaged."""
+"""How errors fall, with both axes logarithmic: over a parameter, over time, or over the frames of a sequence, with each line's fitted slope
+and its 95 % interval; or, without a fit, over the number of averaged seeds."""
 
 import numpy
 
@@ -22,7 +22,7 @@ def _over_parameter(results, chosen, errors, shot):
 
 
 def front(places):
-    """Of {key: (time, error)} those that no other is at most as slow and at most as wrong as, by time."""
+    """Of {key: (time, error)} the keys on the front, by time: no other key is at most as slow and errs at most as much."""
     ordered = sorted(places, key=lambda k: (places[k][0].value, places[k][1].value))
     found, least = [], float("inf")
     for key in ordered:
@@ -33,7 +33,7 @@ def front(places):
 
 
 def _over_time(results, chosen, errors, shot):
-    """Of each technique the points that none of its own beats in both."""
+    """Each technique's points on its own front."""
     totals = {key: stages["total"] for key, stages in results.times_of(shot).items() if "total" in stages}
     places = {}
     for (s, *key), error in errors.items():
@@ -45,7 +45,7 @@ def _over_time(results, chosen, errors, shot):
 
 
 def _over_frames(results, chosen, errors, shot):
-    """Since the start of the history: frames of the warm-up count."""
+    """The error by the number of frames since the start of the history, including the warm-up."""
     entry = results.shot_entries.get(shot, {})
     frames = entry.get("frames") or []
     first = 1 + (entry.get("warm_up") or 0)
@@ -60,7 +60,7 @@ def _over_frames(results, chosen, errors, shot):
 
 
 def _over_seeds(results, chosen, errors, shot):
-    """bias^2 + variance / n: what the mean over n of the seeds' images has to be expected to err, up to the seeds that ran."""
+    """bias^2 + variance / n: the expected error of the mean image of n seeds, up to the seeds that ran."""
     lines = {}
     for s in results.splits:
         key = (s["technique"], s["point"])

@@ -1,4 +1,4 @@
-"""The crops of figures.json: those that the report's viewer collects (its page/viewer/crops.js writes the file)."""
+"""The crops of figures.json, as the report's viewer collects them (its page/viewer/crops.js writes the file)."""
 
 import json
 import math
@@ -22,7 +22,7 @@ class Crop:
 
 @dataclass
 class ShotCrops:
-    """What the figure of a shot shows."""
+    """The crops and points in the figure of a shot."""
 
     crops: list
     target: str
@@ -31,7 +31,7 @@ class ShotCrops:
 
 
 class _Reader:
-    """One crop of the file; mistakes are said with file and key."""
+    """Reads one crop of the file; messages name file and key."""
 
     def __init__(self, file, index, crop):
         self.where, self.crop = f"{file}: crops[{index}]", crop
@@ -68,7 +68,7 @@ def is_exposure(value):
 
 
 def _present(point):
-    """A point whose technique is called so: `variant` is the name that the key had."""
+    """A point with the key `technique`, which files of older versions call `variant`."""
     return {"technique" if key == "variant" else key: text for key, text in point.items()}
 
 
@@ -81,8 +81,7 @@ def _are_points(value):
 
 
 def read_crops(file, content, results):
-    """{shot: ShotCrops} of the `crops` of a file, in its order; whether boxes and points are the images' own is found when they are
-    drawn."""
+    """{shot: ShotCrops} of the `crops` of a file, in its order. Drawing checks whether boxes and points fit the images."""
     shots = {}
     for index, crop in enumerate(content.get("crops", [])):
         read = _Reader(file, index, crop)

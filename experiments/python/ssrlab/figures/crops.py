@@ -1,4 +1,4 @@
-"""Crops of the reference and of techniques with their error maps and numbers: where they fail, and how badly."""
+"""Crops of the reference and of techniques, with error maps and numbers: where techniques fail, and how badly."""
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -30,7 +30,7 @@ TONE_CURVES = {
 
 
 def display(image, exposure, tone_curve="none"):
-    """sRGB (IEC 61966-2-1) at this exposure (EV); pixels that are not finite are magenta."""
+    """The image in sRGB (IEC 61966-2-1) at this exposure (EV); pixels that are not finite are magenta."""
     exposed = np.maximum(np.nan_to_num(image.astype(np.float64) * 2.0**exposure), 0.0)
     linear = np.clip(TONE_CURVES[tone_curve](exposed), 0.0, 1.0)
     coded = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
@@ -46,7 +46,7 @@ def absolute_error(image, reference):
 
 
 def crop_boxes(error, count):
-    """The `count` disjoint boxes (x, y, width, height) of the largest mean `error`, in descending order."""
+    """The `count` disjoint boxes (x, y, width, height) of largest mean `error`, in descending order."""
     height, width = error.shape
     size_y = max(height // 4, min(height, 4))
     size_x = min(width, max(round(size_y * 4 / 3), 4))
@@ -83,8 +83,8 @@ def _frame(axes, place):
 
 
 def auto_exposure(truth, tone_curve="none"):
-    """EV, in steps of a quarter, at which the 99th percentile of the truth's largest channels lies just below white, so that
-    few pixels are clipped and dark scenes are seen. A tone curve takes highlights in: then it lies at a radiance of 1."""
+    """The exposure (EV, in quarters) that puts the 99th percentile of the truth's largest channels just below white, so that few pixels are
+    clipped and dark scenes are visible. With a tone curve, which keeps highlights, that percentile gets a radiance of 1."""
     finite = truth[np.isfinite(truth).all(axis=-1)]
     bright = float(np.quantile(finite.max(axis=-1), 0.99)) if len(finite) else 0.0
     if bright <= 0:
@@ -93,7 +93,7 @@ def auto_exposure(truth, tone_curve="none"):
 
 
 def best_of_each(results, images, errors, shot, metric):
-    """`none`, and of each technique the point of least error that an engine could have, in the order of their errors."""
+    """`none`, and the point of least error of each technique without scene data, by ascending error."""
     techniques = {}
     for key in images:
         is_exact = results.techniques.get(key, {}).get("uses_scene_data", False)
@@ -165,7 +165,7 @@ def _parts(chosen):
 
 
 def draw(results, shot, chosen):
-    """With the boxes, points and exposures of the crops that figures.json has of this shot, else of the largest errors."""
+    """Uses the boxes, points and exposures that figures.json has for this shot, else the largest errors."""
     collected = chosen.crops.get(shot)
     target = collected.target if collected else _target(results, shot)
     if target is None:

@@ -1,5 +1,5 @@
-"""Forest plots, one panel per shot: what each change does to the error of its baseline, and what points do to the error of
-those that differ in one value alone."""
+"""Forest plots with one panel for each shot: the effect of each change on its baseline's error, and of each point on the error of the point
+that differs in one value alone."""
 
 import matplotlib.pyplot as plt
 
@@ -17,8 +17,8 @@ def _preset(point):
 
 
 def _groups(results, rows):
-    """(technique, point) to its label: single changes of the baseline in the order of the study, then whole points, to which
-    changes of other baselines belong."""
+    """{(technique, point): label}: single changes of the baseline in the order of the study, then all other points, including changes of
+    other baselines."""
     found = dict.fromkeys((e["technique"], e["point"]) for e in rows)
     preset = _preset(rows[0]["against_point"])
     changes = {k: c for k, c in results.single_changes.items() if k in found and _preset(k[1]) == preset}
@@ -31,8 +31,8 @@ def _rows(results, chosen):
 
 
 def comparisons(results, chosen):
-    """What `draw` draws, by the name of the figure's file: for each baseline its changes, and for each value that points
-    are compared with which are otherwise the same (`against` of a config) those points."""
+    """The comparisons to draw, by the name of the figure's file: each baseline's changes, and for each `against` value of a config the
+    points that have it."""
     found = {}
     for e in _rows(results, chosen):
         is_baseline = e["against"] == "baseline"
@@ -130,7 +130,7 @@ def _is_near(ratio):
 
 
 def _limit(axes, results, rows):
-    """One scale for all panels. An interval of few seeds may reach far beyond all ratios: it is cut."""
+    """One scale for all panels. Intervals of few seeds may reach far beyond all ratios: they are cut."""
     measured = [results.measured(e, ("ratio", "low_holm", "high_holm")) for e in rows]
     measured = [m for m in measured if m is not None and _is_near(m)]
     ratios = [1.0] + [m.value for m in measured]

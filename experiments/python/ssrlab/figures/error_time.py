@@ -1,4 +1,4 @@
-"""Error against run time, both logarithmic, with intervals: a panel per shot, with the front of those that no other beats."""
+"""Error against run time, both logarithmic, with intervals: one panel for each shot, with the front of the points that no other beats."""
 
 from ssrlab.figures import style
 from ssrlab.figures.placed_labels import place_labels
@@ -8,14 +8,14 @@ MOST_NUMBERS = 20  # with a key below: more of them, and the key is larger than 
 
 
 def _judged(results, shot, chosen, places):
-    """(keys of the front by time, keys that another dominates), as summary.csv says of this error."""
+    """(keys of the front by time, dominated keys), as summary.csv states for this error."""
     rows = results.error_rows(shot, chosen.target, chosen.metric, chosen.mask)
     line = sorted((k for k in places if "time" in rows[k]["fronts"].split()), key=lambda k: places[k][0].value)
     return line, {k for k in places if rows[k]["dominated"] == "yes"}
 
 
 def _places(results, errors, shot):
-    """{(technique, point): (time, error)} of what was timed and measured, but `none`."""
+    """{(technique, point): (time, error)} of all points that were timed and measured, without `none`."""
     times = results.times_of(shot)
     totals = {key: stages["total"] for key, stages in times.items() if "total" in stages and stages["total"].value > 0}
     return {(v, p): (totals[v, p], e) for (s, v, p), e in errors.items() if s == shot and (v, p) in totals and v != "none"}
@@ -33,7 +33,7 @@ def _draw_none(axes, results, errors, shot):
 
 
 def draw_mark(axes, cost, error, mark, color, is_hollow=False, alpha=1.0):
-    """A mark with the whiskers of both; returns where these are, which no label may cover."""
+    """Draws a mark with both whiskers. Returns the whiskers' places, which no label may cover."""
     style.draw_mark(axes, cost, error, mark, color, is_hollow, elinewidth=0.7, markeredgewidth=0.8 if is_hollow else 0, alpha=alpha)
     x, y = cost.whiskers(), error.whiskers()
     return [
@@ -71,7 +71,7 @@ def _draw_front(axes, places, line):
 
 
 def _own_text(results, key, groups):
-    """What stands beside a mark: its display name, else its point, where its colour does not name it already."""
+    """The text beside a mark: its display name, else its point, unless the colour already names it."""
     label = results.own_label(*key)
     if label:
         return label if label not in groups else ""
@@ -113,13 +113,13 @@ def draw(results, chosen):
 
 
 def numbered(keys, unbeaten):
-    """Those of the keys that get a number."""
+    """The keys that get a number."""
     return [k for k in keys if k in unbeaten] if len(keys) > MOST_NUMBERS else keys
 
 
 def _name(figure, results, panels, every, whiskers, keys, groups, notes, unbeaten):
-    """Names beside all marks; where they do not all fit, numbers there, and what they mean below: of very many marks those alone that are
-    not beaten in every panel."""
+    """Writes names beside all marks. If they do not all fit, numbers stand there and a legend below explains them; of very many marks only
+    those that are unbeaten in some panel have a number."""
     texts = {key: _own_text(results, key, groups) for key in keys}
     colors = {k: style.series(groups.index(results.point_group(*k)), results.colors.get(k))[0] for k in keys}
     before = [len(axes.texts) for axes in panels]

@@ -1,5 +1,5 @@
-"""Depth fetches per ray against the resolution, of studies that judge rays at three resolutions or more, with a fit: a power
-of the number of rows. A march that looks at each pixel takes the power 1, one of logarithmic cost a power that falls to 0."""
+"""Depth fetches of a ray against the resolution, for studies that judge rays at three resolutions or more, with a fitted power of the
+number of rows. A march that reads each pixel has the power 1; a march of logarithmic cost has a power that falls to 0."""
 
 import math
 
@@ -12,7 +12,7 @@ LEAST_RESOLUTIONS = 3
 
 
 def series(results):
-    """{scene: {(technique, point): [(rows of pixels, fetches)]}} of the passes that trace a point's rays, all rays."""
+    """{scene: {(technique, point): [(rows of pixels, fetches)]}} of all rays of the passes that trace them."""
     heights = {s["shot"]: (s.get("scene", s["shot"]), s["height"]) for s in results.manifest["shots"] if "height" in s}
     found = {}
     for row in results.hits:
@@ -32,7 +32,7 @@ def series(results):
 
 
 def power_of(points):
-    """(exponent, its 95 % interval's half-width) of fetches = a rows^exponent, by least squares of logarithms."""
+    """(exponent, half-width of its 95 % interval) of fetches = a rows^exponent, by least squares of logarithms."""
     x, y = (numpy.log(numpy.array(v, dtype=float)) for v in zip(*points))
     slope, offset = numpy.polyfit(x, y, 1)
     degrees = len(x) - 2

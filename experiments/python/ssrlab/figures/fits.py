@@ -1,5 +1,5 @@
-"""What error a cost buys along what buys quality, by `ssrlab tradeoff`: points with both intervals, the law floor + a cost^-b where
-one was fitted, its floor, and the rung of the truth ladder that no technique of one frame comes below."""
+"""The error at a cost along a parameter that buys quality, as `ssrlab tradeoff` found it: points with both intervals, the fitted law floor
++ a cost^-b, its floor, and the rung of the truth ladder that limits techniques of one frame."""
 
 from dataclasses import dataclass
 
@@ -37,7 +37,7 @@ class Axis:
 
 
 def _axes(results, chosen, errors):
-    """All rows of fits.csv of these results' shots and points; a law of which a point is not shown is left out."""
+    """All rows of fits.csv with shots and points of these results; a law is left out if one of its points is not shown."""
     found = []
     shots, run = results.shots(), f"run `ssrlab tradeoff {results.folder}`"
     rows = results.read_csv(tradeoff.FITS, is_optional=True)
@@ -67,7 +67,7 @@ def _axes(results, chosen, errors):
 
 
 def _names(results, axes):
-    """What each is called in the legend: technique and parameter, and what else its points share where others have the same."""
+    """Names for the legend: technique and parameter, and the points' other values where several lines share these."""
     kinds = {(a.technique, a.parameter, a.fixed) for a in axes}
 
     def name(axis):
@@ -133,7 +133,7 @@ def _draw_panel(panel, results, shot, own, rungs, unit):
 
 
 def _without_law(results, axes, names):
-    """A line for each reason: what has no law, or no more than a floor, and in which shots."""
+    """One line for each reason: the lines without a law, or with a floor only, and their shots."""
     found, is_one_shot = {}, len({a.shot for a in axes}) == 1
     for axis, name in zip(axes, names):
         if not axis.law:

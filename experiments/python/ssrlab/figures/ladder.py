@@ -1,4 +1,4 @@
-"""Errors against the rungs of the truth ladder: how much of each a technique could avoid, and what one frame cannot show."""
+"""Errors against the rungs of the truth ladder: how much error a technique could avoid, and what one frame cannot show."""
 
 from ssrlab.figures import style
 from ssrlab.results import Measured, is_of
@@ -8,7 +8,7 @@ LOOKS = {"on_screen": ("#000000", "--"), "camera_radiance": ("#666666", ":")}
 
 
 def rungs_of(results, shot, chosen):
-    """{rung: Measured} of the shot, as far as its errors are above 0."""
+    """{rung: Measured} of the shot, for errors above 0."""
     return {
         r["rung"]: Measured(r["value"], r.get("low"), r.get("high"))
         for r in results.shot_entries.get(shot, {}).get("truth_ladder", [])

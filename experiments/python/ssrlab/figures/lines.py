@@ -1,4 +1,4 @@
-"""One panel of lines with 95 % intervals: what figures over roughness, frames and parameters have in common."""
+"""One panel of lines with 95 % intervals, for figures over roughness, frames and parameters."""
 
 from ssrlab.figures import style
 

@@ -1,5 +1,5 @@
-"""Maps over two parameters of a sweep, one per shot: the error, or the time, as a multiple of the least. Cells that are not
-distinguishable from the least are framed."""
+"""Maps over two parameters of a sweep, one for each shot: error or time, as a multiple of the least. Cells that are indistinguishable from
+the least are framed."""
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -15,8 +15,7 @@ PALETTE = "cividis"  # falls evenly in lightness: the same with all kinds of col
 
 
 def like_the_least(measured):
-    """Keys of {key: Measured} whose interval meets that of the least value; that one itself, and none else, where there is no
-    interval."""
+    """The keys of {key: Measured} whose interval meets that of the least value; if it has no interval, its key alone."""
     least = min(measured, key=lambda k: measured[k].value)
     high = measured[least].high
     return {k for k, m in measured.items() if k == least or (None not in (high, m.low) and m.low <= high)}

@@ -46,7 +46,7 @@ class Animation:
 
 
 def _reduced(image, factor):
-    """The mean radiance of blocks of `factor` x `factor` pixels; what is left over at the right and below is cut off."""
+    """The mean radiance of blocks of `factor` x `factor` pixels; incomplete blocks at the right and below are cut off."""
     height, width = image.shape[0] // factor, image.shape[1] // factor
     return image[: height * factor, : width * factor].reshape(height, factor, width, factor, 3).mean(axis=(1, 3))
 
@@ -78,8 +78,8 @@ def _drawn(pictures, titles, caption, size):
 
 
 def draw(results, shot, chosen):
-    """Of the frames that images were kept of; None where these are fewer than two. Points: as asked for, else `none` and the
-    best of each technique."""
+    """The animation of the frames with kept images; None if there are fewer than two. Points: as asked for, else `none` and the best of
+    each technique."""
     target = "incident" if chosen.target in ("camera_radiance", "on_screen") else chosen.target
     frames = results.frames_with_images(shot, target)
     if len(frames) < 2:

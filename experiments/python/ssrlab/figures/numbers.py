@@ -1,10 +1,10 @@
-"""Numbers with their intervals as text."""
+"""Numbers and their intervals as text."""
 
 import math
 
 
 def decimals(value, low=None, high=None):
-    """As many as give two digits of the interval's half-width, else three of the value; never more than four of it."""
+    """Decimals that show two digits of the interval's half-width, else three of the value; never more than four digits of the value."""
     size = abs(value)
     if size == 0 or not math.isfinite(size):
         return 2
@@ -15,7 +15,7 @@ def decimals(value, low=None, high=None):
 
 
 def short(value, groups_thousands=False):
-    """Of a tick or within a sentence: three digits, as 0.125, 1.5e-4 and 2e5, or if asked from 1000 on as 200 000."""
+    """A number of a tick or sentence: three digits, as 0.125, 1.5e-4 and 2e5; if asked, from 1000 on as 200 000."""
     if groups_thousands and value >= 1000:
         return f"{value:,.0f}".replace(",", "\N{THIN SPACE}")
     if 0 < abs(value) < 1e-3:
@@ -31,7 +31,7 @@ def text(value, places):
 
 
 def with_interval(measured, between=" "):
-    """0.710 [0.703, 0.717] of something with value, low and high; the value alone where there is no interval."""
+    """0.710 [0.703, 0.717] from value, low and high; the value alone if there is no interval."""
     places = decimals(measured.value, measured.low, measured.high)
     if measured.low is None or measured.high is None:
         return text(measured.value, places)
@@ -39,8 +39,8 @@ def with_interval(measured, between=" "):
 
 
 def count(value, keeps_zeros=True):
-    """A count, or a mean of counts, with three digits: 12.3 M for 12 345 678; below 1000, and if asked above it, without zeros
-    at the end. Number and letter are held together by a no-break space."""
+    """A count, or a mean of counts, with three digits: 12.3 M for 12 345 678. Without zeros at the end below 1000, and above if asked. A
+    no-break space joins number and letter."""
     rounded = f"{value:.2e}"
     exponent = int(rounded.split("e")[1])
     thousands = max(min(exponent // 3, 3), 0)

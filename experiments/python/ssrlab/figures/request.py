@@ -1,4 +1,4 @@
-"""figures.json: which figures are made, of which shots and points, how large, in which look (experiments/README.md has its
+"""figures.json: which figures are made, of which shots and points, how large, in which look (experiments/docs/figures.md has its
 keys). What the report's viewer writes has crops alone: then all figures of the study are made, with these crops."""
 
 import json
@@ -40,7 +40,7 @@ NEEDED = {"response": ("parameter",), "map": ("x", "y"), "convergence": ("over",
 
 @dataclass
 class Request:
-    """One figure."""
+    """The request of one figure."""
 
     kind: str
     name: str  # of its files
@@ -62,7 +62,7 @@ class Request:
 
 @dataclass
 class Look:
-    """What all figures of a file share."""
+    """The look that all figures of a file share."""
 
     font: str = "sans"
     formats: tuple = style.FORMATS
@@ -104,8 +104,8 @@ def _texts(where, key, value):
 
 
 def chosen_names(where, key, patterns, names):
-    """Those of `names` ({name: what it names}) that each pattern fits ("*": any letters), in the order of the patterns. One
-    that fits none is a mistake."""
+    """Of {name: what it names}, the values whose names fit a pattern ("*": any letters), in the order of the patterns. A pattern that fits
+    none is a mistake."""
     found = {}
     for pattern in _texts(where, key, patterns):
         fitting = [name for name in names if _fits(pattern, name)]
@@ -164,7 +164,7 @@ def read_colors(where, content, results):
 
 
 def _request(where, entry, defaults, results):
-    """`entry` with what the file says of all figures."""
+    """`entry`, completed by what the file says for all figures."""
     refuse_unknown(where, {k: v for k, v in entry.items() if k == "kind"}, EVERY)
     kind = _one_of(where, "kind", entry.get("kind"), tuple(OPTIONS))
     refuse_unknown(where, entry, EVERY | OPTIONS[kind])
@@ -197,8 +197,8 @@ def _request(where, entry, defaults, results):
 
 
 def read_requests(file, content, results, defaults, unasked=()):
-    """The figures of a file, checked; where it names none a Request of each of the kinds `unasked` with what the file says of
-    all figures. `defaults`: target, metric and mask, where a figure does not name its own."""
+    """The figures of a file, checked. If it names none: one Request of each kind of `unasked`, with what the file says for all figures.
+    `defaults`: target, metric and mask of figures without their own."""
     refuse_unknown(file, content, SHARED)
     shared = {k: v for k, v in content.items() if k in EVERY} | defaults
     _text_map(file, "labels", content.get("labels", {}))

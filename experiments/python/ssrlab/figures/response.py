@@ -19,7 +19,7 @@ def _wanted(chosen):
 
 
 def _grid(count, rows, chosen):
-    """(figure, axes[row][shot]): shots beside each other, as many as fit."""
+    """(figure, axes[row][shot]): as many shots side by side as fit."""
     width = style.width_of(chosen, count)
     columns = min(count, max(int(width / 4.0), 1))
     blocks = -(-count // columns)

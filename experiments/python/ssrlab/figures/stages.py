@@ -1,5 +1,4 @@
-"""Stacked bars: which stage of each point takes how long, does how much, or would take how long on a GPU. Techniques stand apart, each below the names of its
-own stages."""
+"""Stacked bars of each point's stages: time, work, or estimated time on a GPU. Each technique stands apart, below the names of its stages."""
 
 import matplotlib.pyplot as plt
 from matplotlib.ticker import FuncFormatter
@@ -29,12 +28,12 @@ ROW, LINE = 0.42, 0.34  # cm of a bar and of a line of names, at the size of a p
 
 
 def _short(stage):
-    """Without the folder, which the technique's name says."""
+    """The stage's name without its folder, which the technique's name states."""
     return stage.rsplit("/", 1)[-1]
 
 
 def _named_stages(points):
-    """The stages of a technique that take most, in the order in which they run; those that take nothing are none."""
+    """The stages of a technique that take most, in the order in which they run; without stages that take nothing."""
     every = dict.fromkeys(s for stages in points.values() for s in stages if s != "total")
     most = {s: max(stages[s].value for stages in points.values() if s in stages) for s in every}
     every = [s for s in every if most[s] > 0]
@@ -58,7 +57,7 @@ def _legend_lines(names, width):
 
 
 def _grouped(results, points):
-    """{technique: {point: {stage: Measured}}} of the points of whose stages one takes something."""
+    """{technique: {point: {stage: Measured}}} of the points with a stage that takes something."""
     groups = {}
     for key, stages in points.items():
         if key not in results.hidden and any(m.value > 0 for s, m in stages.items() if s != "total"):
@@ -84,7 +83,7 @@ def draw_costs(results, shot, chosen):
 
 
 def draw_estimates(results, shot, chosen):
-    """Of the chip that is asked for, else of the first; a point that lacks a stage's estimate is named and left out."""
+    """Estimates for the chip that is asked for, else the first. Points that lack an estimate of a stage are named and left out."""
     chips = results.estimated_chips()
     chip = chosen.option("chip", chips[0] if chips else None)
     if chips and chip not in chips:

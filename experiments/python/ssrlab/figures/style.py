@@ -34,7 +34,7 @@ ONE_SEED_NOTE = "hollow: one seed, no interval"
 
 
 def apply(font="sans", width=None):
-    """The look from here on; `width` (cm): that of the figure, since a slide has larger letters and thicker lines."""
+    """Sets the look of all later figures. `width` (cm): of the figure, since a slide has larger letters and thicker lines."""
     is_slide = width is not None and width >= WIDTHS["slide"]
     size = (SLIDE_TEXT if is_slide else TEXT) * (SERIF_SCALE if font == "serif" else 1)
     scale = size / TEXT
@@ -78,18 +78,18 @@ def text_size():
 
 
 def scale():
-    """By how much lines, marks and letters are larger than on a page."""
+    """Factor of the size of lines, marks and letters relative to a page."""
     return text_size() / TEXT
 
 
 def letters(centimetres):
-    """How many letters of the text fit into a width, about."""
+    """Approximate number of letters of the text that fit into a width."""
     width = 0.018 if matplotlib.rcParams["font.family"][0] == FONTS["serif"][0] else 0.0215  # cm for each pt of their size
     return max(int(centimetres / (width * text_size())), 8)
 
 
 def series(index, color=None):
-    """Colour and mark of the index-th series; beyond the colours, other marks. `color`: in place of its own."""
+    """Colour and mark of the index-th series; after the last colour, marks change. `color` replaces the colour."""
     return color or COLORS[index % len(COLORS)], MARKS[(index + index // len(COLORS)) % len(MARKS)]
 
 
@@ -101,7 +101,7 @@ def draw_mark(axes, x, y, mark, color, is_hollow=False, **options):
 
 
 def darker(color):
-    """Of a mark's colour one that letters can be read in, on white."""
+    """A darker tone of a mark's colour, for letters on white."""
     return tuple(0.55 * part for part in to_rgb(color))
 
 
@@ -109,13 +109,13 @@ MOST_NAMES = 8  # that a legend in a column has room for
 
 
 def width_of(chosen, count, names=()):
-    """cm: as asked for, else of a column for one panel and of a page for several, or for a legend of many names."""
+    """Width (cm): as asked for, else of a column for one panel and of a page for several, or for a legend of many names."""
     return getattr(chosen, "width", None) or WIDTHS["column" if count == 1 and len(names) <= MOST_NAMES else "page"]
 
 
 def panels(count, chosen=None, most_columns=3, height=4.6, names=(), **shared):
-    """A figure with `count` axes in rows (height of a row in cm). `chosen`: its width and the height of a row, where they
-    are asked for. `names`: of its legend. `shared`: sharex, sharey, as in pyplot.subplots."""
+    """A figure with `count` axes in rows. `height`: of a row (cm). `chosen`: width of the figure and height of a row, if asked for.
+    `names`: of its legend. `shared`: sharex, sharey, as in pyplot.subplots."""
     width = width_of(chosen, count, names)
     most = min(count, most_columns, max(int(width / 5.0), 1))
     rows = -(-count // most)
@@ -154,7 +154,7 @@ def draw_legend(figure, panels, names=()):
 
 
 def _grow(figure, above=0.0, below=0.0):
-    """More room (inches) above or below the panels, whose own size stays."""
+    """Adds room (inches) above or below the panels, whose own size stays."""
     height = figure.get_figheight()
     top = height * (1 - figure.get_layout_engine().get()["rect"][3]) + above
     figure.set_figheight(height + above + below)
@@ -162,8 +162,8 @@ def _grow(figure, above=0.0, below=0.0):
 
 
 def note(figure, text):
-    """Sentences below all panels, in place of what stands there already: in lines that break between words, within one only if it
-    is longer than a line. The figure grows by its lines."""
+    """Sentences below all panels, replacing those already there. Lines break between words, within a word only if it exceeds a line. The
+    figure grows by the lines."""
     before = figure._supxlabel.get_text() if figure._supxlabel else ""
     longest = letters(figure.get_figwidth() / CENTIMETRE)
     lines = [part for line in text.split("\n") for part in textwrap.wrap(line, longest, break_long_words=False, break_on_hyphens=False)]
@@ -202,7 +202,7 @@ def panel_width(axes):
 
 
 def with_room(texts, places):
-    """Labels of ticks at `places` (cm), "" in place of those that would lie on another: the ends come first."""
+    """Labels of ticks at `places` (cm); "" for those that would overlap others. The ends have precedence."""
     kept, widths = [], [text_width(text) for text in texts]
     for i in dict.fromkeys([0, len(texts) - 1, *range(len(texts))]):
         if all(abs(places[i] - places[j]) >= (widths[i] + widths[j]) / 2 + 0.15 for j in kept):
@@ -211,7 +211,7 @@ def with_room(texts, places):
 
 
 class _LogTicks(LogLocator):
-    """As many ticks as have room: the fewer of a decade, the more decades the axis has."""
+    """As many ticks as have room: fewer in each decade, the more decades the axis has."""
 
     def tick_values(self, vmin, vmax):
         decades = abs(np.log10(vmax / vmin)) if vmin > 0 else 9

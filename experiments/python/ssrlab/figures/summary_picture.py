@@ -44,13 +44,13 @@ class Picture:
 
 
 def shown_numbers(picture):
-    """The hash of all that a picture shows, whatever draws it."""
+    """The hash of all numbers that a picture shows, however it is drawn."""
     told = [[p.title, p.line, [[label, [[m.series, m.color, m.mark, m.cell.value, m.cell.low, m.cell.high, m.cell.least, m.cell.most] for m in marks]] for label, marks in p.rows]] for p in picture.panels]
     return hashlib.sha256(json.dumps([told, picture.xlabel, picture.note, picture.kind]).encode()).hexdigest()
 
 
 def places_of(panel):
-    """(y, Mark) of all marks, those of a row below each other."""
+    """(y, Mark) of all marks; the marks of a row lie below each other."""
     most = max(len(marks) for _, marks in panel.rows)
     step = 0.0 if most <= 2 else 0.62 / (most - 1)
     return [(row + (i - (len(marks) - 1) / 2) * step, mark) for row, (_, marks) in enumerate(panel.rows) for i, mark in enumerate(marks)]
@@ -79,7 +79,7 @@ def draw_dots(axes, panel, picture, has_labels):
 
 
 def draw_legend(figure, picture, panels):
-    """What several techniques share is grey in it."""
+    """Draws the legend; entries that several techniques share are grey."""
     colors = {}
     for panel in picture.panels:
         for _, marks in panel.rows:
@@ -119,7 +119,7 @@ DRAW = {"dots": draw_dots, "bars": draw_bars, "lines": draw_lines}
 
 
 def draw(picture, width):
-    """Its figure, so many centimetres wide."""
+    """The figure of a picture, this many centimetres wide."""
     rows = max(len(p.rows) for p in picture.panels)
     most = max(len(marks) for p in picture.panels for _, marks in p.rows)
     height = 3.6 if picture.kind == "lines" else 1.1 + rows * (0.42 if picture.kind == "bars" or most <= 2 else 0.3 + 0.06 * most)

@@ -1,4 +1,4 @@
-"""Points of a study by the values of their parameters: those that differ in one alone form a line, in two a map."""
+"""Points of a study by their parameter values: points that differ in one parameter form a line, in two a map."""
 
 import json
 
@@ -21,8 +21,8 @@ def _words(parameters):
 
 
 def families(results, chosen, axes):
-    """{name: {values of the parameters `axes`: (technique, point)}} of the points that differ in these alone, two values or
-    more of each. The name says what distinguishes the families."""
+    """{name: {values of the parameters `axes`: (technique, point)}} of the points that differ in these alone, with two values or more of
+    each. The name says what distinguishes the families."""
     where = chosen.option("where", {})
     if not isinstance(where, dict):
         raise ResultsError(f"{chosen.where}: 'where' must be an object, not {json.dumps(where)}")

@@ -1,4 +1,4 @@
-"""Temporal metrics, one panel each: flicker at rest, changes that are not the truth's, frames until ghosts are gone."""
+"""Temporal metrics, one panel each: flicker at rest, changes that the truth does not have, frames until ghosts are gone."""
 
 from matplotlib.ticker import MaxNLocator
 

@@ -4,8 +4,7 @@ import re
 
 
 def wrapped(text, longest):
-    """In lines of `longest` letters at most, broken before a dot within a name and behind a space, '=' or '_'; what has none
-    of these stays."""
+    """Lines of at most `longest` letters, broken before a dot within a name, or after a space, '=' or '_'; names without these stay whole."""
     lines = [""]
     for part in re.split(r"(?<=[ =_])|(?=\.\S)(?!(?<=\d)\.\d)", text):
         if lines[-1] and len(lines[-1] + part.rstrip()) > longest:

@@ -1,4 +1,4 @@
-"""What `ssrlab tradeoff` wrote of these results, as far as it is of the same errors (experiments/results/tradeoff/README.md)."""
+"""What `ssrlab tradeoff` wrote of these results, if it used the same errors (experiments/results/tradeoff/README.md)."""
 
 import math
 
@@ -10,7 +10,7 @@ FRONT, FITS, ACROSS, CHANGES = (f"tradeoff/{name}.csv" for name in ("front", "fi
 
 
 def judged(results, shot, errors):
-    """{(technique, point): row of front.csv} of the shot; {} where a point of `errors` ({(technique, point): Measured}) is not in it, or has
+    """{(technique, point): row of front.csv} of the shot; {} if a point of `errors` ({(technique, point): Measured}) is missing or has
     another error there."""
     rows = {(r["technique"], r["point"]): r for r in results.read_csv(FRONT, is_optional=True) if r["shot"] == shot}
     is_same = all(k in rows and (error := number(rows[k], "error")) and math.isclose(error, e.value, rel_tol=1e-6) for k, e in errors.items())
@@ -18,7 +18,7 @@ def judged(results, shot, errors):
 
 
 def require_primary(results, file):
-    """Fails unless the answers are there, and of the study's primary error as these results have it."""
+    """Fails unless answers of `ssrlab tradeoff` exist for the study's primary error with these results' values."""
     run, primary = f"run `ssrlab tradeoff {results.folder}`", results.manifest.get("primary", {})
     front = results.read_csv(FRONT, is_optional=True)
     if not front or not results.read_csv(file, is_optional=True):

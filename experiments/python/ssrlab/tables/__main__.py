@@ -1,4 +1,4 @@
-"""Tables of a study's results, as its config asks for them ("tables", experiments/README.md): Markdown, LaTeX and CSV.
+"""Tables of a study's results, as its config asks for them ("tables", experiments/docs/figures.md): Markdown, LaTeX and CSV.
 
 usage: python3 experiments/python tables RESULTS [--out DIR] [--keep]
        python3 experiments/python tables --fill | --check ESTIMATORS
@@ -20,12 +20,12 @@ from ssrlab.tables.markdown import markdown
 
 
 def parse_arguments():
-    parser = argparse.ArgumentParser(prog="ssrlab tables", description="Tables (Markdown, LaTeX, CSV) from a results folder.")
-    parser.add_argument("results", nargs="?", help="a folder that `ssrlab run` filled")
-    parser.add_argument("--out", help="default: tables in the results folder")
-    parser.add_argument("--keep", action="store_true", help="also keep their numbers in experiments/studies/summaries, and fill them into documents")
-    parser.add_argument("--fill", action="store_true", help="fill the tables of all documents from what is kept")
-    parser.add_argument("--check", metavar="ESTIMATORS", type=int, help="fail if a document differs from what is kept, or what is kept from what estimators of this version give (`ssrlab tables --check` fills it in)")
+    parser = argparse.ArgumentParser(prog="ssrlab tables", description="Makes the tables of a study (Markdown, LaTeX, CSV) from a results folder.")
+    parser.add_argument("results", nargs="?", help="results folder that `ssrlab run` filled")
+    parser.add_argument("--out", help="output folder; default: tables in the results folder")
+    parser.add_argument("--keep", action="store_true", help="also keep the numbers in experiments/studies/summaries, and write them into documents")
+    parser.add_argument("--fill", action="store_true", help="write the kept numbers into all tables and sentences of documents")
+    parser.add_argument("--check", metavar="ESTIMATORS", type=int, help="fail if a document differs from the kept numbers, or if the estimators have another version than those of the kept numbers. `ssrlab tables --check` adds the version")
     parser.add_argument("--root", default=str(ROOT), help=argparse.SUPPRESS)  # tests use a tree of their own
     arguments = parser.parse_args()
     if sum([arguments.results is not None, arguments.fill, arguments.check is not None]) != 1:
@@ -38,7 +38,7 @@ def default_folder(results):
 
 
 def remove_others(out, names):
-    """Tables that the config no longer asks for; no other files."""
+    """Removes tables that the config does not ask for; no other files."""
     for file in os.listdir(out):
         name, kind = os.path.splitext(file)
         if kind in (".md", ".tex", ".csv") and name not in names:
@@ -46,12 +46,12 @@ def remove_others(out, names):
 
 
 def make(folder, out, summary_folder):
-    """Writes a study's tables; returns how many. `summary_folder`: where the summary is kept, too; may be None."""
+    """Writes a study's tables; returns their number. `summary_folder`: where the summary is kept; None: nowhere."""
     results = Results(folder)
     config = results.manifest["config"] or {}
     entries = config.get("tables", [])
     if not entries:
-        raise ResultsError(f"{folder}: its study asks for no tables; add \"tables\" to its config (experiments/README.md)")
+        raise ResultsError(f"{folder}: its study asks for no tables; add \"tables\" to its config (experiments/docs/figures.md)")
     why_not = summary_file.why_not_kept(results.manifest) if summary_folder else None
     if why_not:
         raise ResultsError(f"{folder} cannot be kept: {why_not}")

@@ -1,16 +1,16 @@
-"""How far metrics agree with each other, and with people who looked: rows for tables, as a study's files would hold them."""
+"""How far metrics agree with one another, and with people's judgements: rows for tables, in the form of a study's files."""
 
 import itertools
 import math
 
 from ssrlab.csv_files import number, read_rows
 from ssrlab.mistakes import ResultsError
-from ssrlab.repository import FINDINGS
+from ssrlab.repository import QUESTIONS
 
 # Pairs of images, without names and in an order drawn anew, of which somebody said which is nearer to the truth
 # (experiments/python/ssrlab/judge.py).
 PAIR = ("shot", "first", "first_point", "second", "second_point")
-JUDGEMENTS = str(FINDINGS / "judgements.csv")
+JUDGEMENTS = str(QUESTIONS / "judgements.csv")
 
 
 def _by_shot(results, rows):
@@ -34,7 +34,7 @@ def kendall_tau(first, second):
 
 
 def agreement_rows(results, rows):
-    """For each shot and pair of metrics Kendall's tau between the orders in which they put the points."""
+    """For each shot and pair of metrics: Kendall's tau of their orders of the points."""
     for shot, metrics in _by_shot(results, rows).items():
         for metric, against in itertools.product(metrics, metrics):
             points = [p for p in metrics[metric] if p in metrics[against]]
@@ -48,7 +48,7 @@ def read_judgements(file=JUDGEMENTS):
 
 
 def _decided(judgements):
-    """One of each pair on which all who judged it agree."""
+    """One judgement for each pair on which all judges agree."""
     pairs = {}
     for judged in judgements:
         pairs.setdefault(tuple(judged[c] for c in PAIR), []).append(judged)
@@ -56,7 +56,7 @@ def _decided(judgements):
 
 
 def eye_rows(results, rows, judgements):
-    """For each metric and pair that was decided, 1 if the metric puts the two points in the order of the judgement."""
+    """For each metric and decided pair: 1 if the metric orders the two points like the judgement, else 0."""
     found = _by_shot(results, rows)
     for number, judged in enumerate(_decided(judgements)):
         if judged["shot"] not in found:

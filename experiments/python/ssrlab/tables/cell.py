@@ -1,4 +1,4 @@
-"""One number of a table, and what is known of it."""
+"""One number of a table, with its uncertainty and status."""
 
 from dataclasses import dataclass
 
@@ -12,7 +12,7 @@ BOTH = " / "  # between what differs among the parts of a mean
 
 @dataclass
 class Cell:
-    """One number of a table with its 95 % interval, and the range over what it is a mean of; None where there is none."""
+    """One number of a table with its 95 % interval, and the range of the parts of a mean; None where there is none."""
 
     table: str
     row: str
@@ -36,6 +36,6 @@ class Cell:
         return self.interval in (COUNTED, EXACT)
 
     def reasons(self):
-        """Why there is no interval, where that is known."""
+        """Why there is no interval, if known."""
         kinds = (self.interval or "").split(BOTH)
         return [kind[len(NO_INTERVAL) :] for kind in kinds if kind.startswith(NO_INTERVAL)]

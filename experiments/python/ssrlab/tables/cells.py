@@ -1,6 +1,6 @@
-"""Tables as a study asks for them: which rows of a results folder, by what, in which order.
+"""Tables as a study asks for them: the rows of a results folder, grouped and ordered.
 
-A table is an entry of the config's "tables" (experiments/README.md explains its keys); its numbers are cells."""
+A table is an entry of the config's "tables" (experiments/docs/reference/study_keys.md explains the keys); its numbers are cells."""
 
 import json
 import math
@@ -41,7 +41,7 @@ GROUPS = {  # what rows, columns and means are by, beside the columns of a file
 
 
 def _change_rows(rows):
-    """A row for each of the quantities that a change has over scenes: by how much the error grows, and what that costs."""
+    """For each change over scenes, one row for each quantity: how much the error grows, and what that costs."""
     for row in rows:
         if row["shot"]:
             continue
@@ -87,7 +87,7 @@ def _estimate_rows(rows):
 
 
 class Table:
-    """One entry of "tables", which ssrlab checked when it read the config."""
+    """One entry of "tables", checked by ssrlab when it read the config."""
 
     def __init__(self, entry):
         if entry["of"] not in SOURCES:
@@ -99,7 +99,7 @@ class Table:
 
 
 class Selection:
-    """The rows of a results folder that a table is made of, and how they are named in it."""
+    """The rows of a results folder that make a table, and their names in it."""
 
     def __init__(self, results, table):
         self.table, self.results = table, results
@@ -141,7 +141,7 @@ class Selection:
         self.disturbed = {_timed(r): number(r, "disturbed_share") for r in results.times} if "time" in table.of else {}
 
     def entry(self, row, key):
-        """What a row has under a key: a column of the file, the group of its point or shot, else a parameter of its point."""
+        """The row's value for a key: a column of the file, the group of its point or shot, else a parameter of its point."""
         if key in row:
             return row[key]
         if key in GROUPS:
@@ -172,8 +172,8 @@ class Selection:
         return value not in left_out and (value in listed or len(left_out) == len(listed))
 
     def label(self, row, keys):
-        """How a row is named along an axis: parameters with their names, columns of the file by their values alone, points and
-        shots that have a display name by that."""
+        """The name of a row along an axis: "parameter = value" for parameters, the value alone for columns of the file, display names of
+        points and shots."""
         own = self.results.own_label(row.get("technique"), row.get("point")) if "point" in keys else None
         words = []
         for key in keys:
@@ -189,13 +189,13 @@ class Selection:
         return ", ".join(word for word in words if word)
 
     def place(self, row, keys):
-        """Sorts rows as the table's `where` lists their values; equal where it does not."""
+        """The row's place in the order of the values that the table's `where` lists; equal for all others."""
         listed = self.table.where
         return [listed[k].index(self.entry(row, k)) if k in listed and self.entry(row, k) in listed[k] else 0 for k in keys]
 
 
 def _timed(row, against=""):
-    """What names a row of time_summary.csv; of time_effects.csv with the prefix "against_" that of the other point."""
+    """Names a row of time_summary.csv; with the prefix "against_" the other point of time_effects.csv."""
     return tuple(row.get(key) for key in ("shot", against + "technique", against + "point", "stage"))
 
 
@@ -230,7 +230,7 @@ def _cell(selection, row, name):
 
 
 def _refuse_shared(selection, name, rows):
-    """Rows of one cell must differ in what the mean is over: a mean of two masks of a shot is none over shots."""
+    """Fails if rows of one cell differ in anything but what the mean is over: a mean of two masks of one shot is not a mean over shots."""
     table = selection.table
     file, place = SOURCES[table.of][0], f"({name[0]}; {name[1]})"
     if table.over is None:
@@ -256,14 +256,14 @@ def _refuse_shared(selection, name, rows):
 
 
 def _clock(selection, row):
-    """With what must be known before a time is believed: whether the timer was validated, and whose it is where others
-    are of another machine."""
+    """The row's clock, with what matters for believing its times: whether the timer was validated, and its machine if others were timed
+    elsewhere."""
     clock = row["clock"] + (f" of {host}" if (host := selection.hosts.get(row["shot"])) else "")
     return clock if row["shot"] in selection.proven else f"{clock} (timer not validated)"
 
 
 def _most_parts(selection):
-    """How many parts the mean of a cell can be of: columns by groups of shots have those of their group alone."""
+    """The largest number of parts that a cell's mean can have; columns by groups of shots have their own group alone."""
     parts = {}
     for row in selection.rows:
         name = tuple(selection.label(row, keys) for keys in (selection.table.rows, selection.table.columns))
@@ -272,7 +272,7 @@ def _most_parts(selection):
 
 
 def _about(selection, filled):
-    """What is said of a table beside its cells; `filled`: the rows that have a value."""
+    """Text about a table beside its cells; `filled`: the rows with a value."""
     table, over = selection.table, selection.table.over
     if table.of in OVER_SCENES:
         over, count = "scene", len({s["scene"] for s in selection.shots})
@@ -312,7 +312,7 @@ def _mark_best(selection, cells, rows_of):
 
 
 def cells_of(results, table):
-    """(what is said of the table, all of its cells row by row)."""
+    """(text about the table, all of its cells row by row)."""
     selection = Selection(results, table)
     groups = {}
     axes = [table.rows, table.columns]

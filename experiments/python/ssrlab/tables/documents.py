@@ -2,8 +2,10 @@
 summary of the study. `<!-- table STUDY NAME {"rows": [...], "columns": [...], "caption": "..."} -->` shows an excerpt: the
 named rows and columns in that order (all, where a key is left out).
 
-Numbers and names in prose are made in the same way: `<!--= EXPRESSION -->0.18<!--/-->`, with cell(), cells(), shown(), most(), first(), shots(),
-rank_correlation(), halving(), halving_share(), share_of_variance(), over_scenes() and p_holm() of kept tables (Numbers), ratios() and number(value) of three digits, fixed(value, places), span(values, places), min, max, sum, len, zip and abs."""
+Numbers and names in prose are made in the same way: `<!--=NAME-->0.18<!--/-->`, where `PAGE.numbers.json` beside the page gives each NAME its
+expression (`<!--=PAGE.md#NAME-->`: that of another page): cell(), cells(), shown(), most(), first(), shots(), rank_correlation(), halving(), halving_share(), share_of_variance(),
+over_scenes() and p_holm() of kept tables (Numbers), ratios(), number(value), fixed(value, places),
+span(values, places), min, max, sum, len, zip and abs."""
 
 import functools
 import math
@@ -11,30 +13,43 @@ import os
 import re
 
 from ssrlab import statistics
-from ssrlab.json_files import parse_json
+from ssrlab.json_files import parse_json, read_json
 from ssrlab.mistakes import ResultsError
 from ssrlab.text_files import path_inside, read_text
-from ssrlab.tables import summary_file
+from ssrlab.tables import formats, summary_file
 from ssrlab.tables.agreement import kendall_tau
 from ssrlab.tables.halving import halving_share
 from ssrlab.tables.variance_shares import share_of_total
-from ssrlab.tables.markdown import markdown, number, with_interval
+from ssrlab.tables.markdown import markdown
 
 BLOCK = re.compile(r"(?P<head><!-- table (?P<study>\S+) (?P<name>\S+)(?: (?P<excerpt>\{[^\n]*\}))? -->\n)(?P<text>.*?)(?P<end><!-- end of table -->)", re.DOTALL)
 
 
-NUMBER = re.compile(r"(?P<head><!--= (?P<expression>[^\n]+?) -->)(?P<text>[^\n]*?)(?P<end><!--/-->)")
+NUMBER = re.compile(r"(?P<head><!--=\s*(?P<name>[^\n]*?)\s*-->)(?P<text>[^\n]*?)(?P<end><!--/-->)")
+
+
+def _second_digit(value):
+    return 1 - math.floor(math.log10(abs(value))) if value else 0
+
+
+def number(value, low=None, high=None):
+    """A number for prose, "0.17 [0.12, 0.24]": two digits, more if the interval is narrower than the second digit."""
+    places = _second_digit(value)
+    if low is not None and high > low:
+        places = max(places, _second_digit((high - low) / 2) - 1)
+    text = lambda v: f"{round(v, places):.{max(places, 0)}f}"  # noqa: E731
+    return text(value) if low is None else f"{text(value)} [{text(low)}, {text(high)}]"
 
 
 class Numbers:
-    """What an expression in prose may name; tables by the name of their study's summary and their own."""
+    """The names that expressions in prose may use. A table has the name of its study's summary and its own."""
 
     def __init__(self, summaries, file):
         self.file = file
         self._read = functools.cache(lambda study: summary_file.read(path_inside(summaries, study + ".csv")))
 
     def _table(self, study, table):
-        """(what is said of it, its cells that have a value)"""
+        """(text about it, its cells with a value)"""
         _, tables = self._read(study)
         if table not in tables:
             raise ResultsError(f"{self.file}: {study} has no table '{table}'; it has: {', '.join(tables)}")
@@ -42,7 +57,7 @@ class Numbers:
         return about, [c for c in cells if c.value is not None]
 
     def _found(self, study, table, rows, columns):
-        """Cells of the rows and of the columns that are called so, or else whose names hold all of these whole words (None: all)."""
+        """The cells of the named rows and columns (None: all); a name that is no row's matches the names with all of its whole words."""
         _, found = self._table(study, table)
         for of, words in (("row", rows), ("column", columns)):
             words = [words] if isinstance(words, str) else words or []
@@ -58,28 +73,29 @@ class Numbers:
         return found[0]
 
     def cells(self, study, table, rows=None, columns=None, with_interval=False):
-        """The values of a kept table, of those that have one (and, if asked, an interval)."""
+        """The values of a kept table's cells that have one (and, if asked, an interval)."""
         return [c.value for c in self._found(study, table, rows, columns) if c.low is not None or not with_interval]
 
     def cell(self, study, table, row, column):
-        """The one value of a row and a column."""
+        """The only value of a row and a column."""
         return self._one(study, table, row, column).value
 
     def shown(self, study, table, row, column):
-        """The same with its interval, as text."""
-        return with_interval(self._one(study, table, row, column))
+        """cell() with its interval, as text."""
+        cell = self._one(study, table, row, column)
+        return number(cell.value, cell.low, cell.high) if formats.has_interval(cell) else number(cell.value)
 
     def ratios(self, study, table, row, base):
-        """One row over another, in each column where both have a value."""
+        """One row / another, in each column where both have a value."""
         of = {c.column: c.value for c in self._found(study, table, base, None)}
         return [c.value / of[c.column] for c in self._found(study, table, row, None) if c.column in of]
 
     def most(self, study, table, row, column):
-        """The largest of the shots that a mean is over."""
+        """The largest value among the shots of a mean."""
         return self._one(study, table, row, column).most
 
     def first(self, study, table, row=None, column=None, without=()):
-        """The name of the least value: of the columns in a row, or of the rows in a column. `without`: names that do not compete."""
+        """The name with the least value: among the columns of a row, or the rows of a column. `without`: names that do not compete."""
         of = "column" if row else "row"
         found = [c for c in self._found(study, table, row, column) if getattr(c, of) not in without]
         if not found or len({getattr(c, of) for c in found}) < len(found):
@@ -87,7 +103,7 @@ class Numbers:
         return getattr(min(found, key=lambda c: c.value), of)
 
     def rank_correlation(self, first, second):
-        """Kendall's of two columns, each (study, table, column), over the rows that both have."""
+        """Kendall's rank correlation of two columns, each (study, table, column), over the rows that both have."""
         columns = [{c.row: c.value for c in self._found(study, table, None, column)} for study, table, column in (first, second)]
         rows = [row for row in columns[0] if row in columns[1]]
         return kendall_tau(*([column[row] for row in rows] for column in columns))
@@ -96,8 +112,8 @@ class Numbers:
         return self._table(study, table)[0]["shots"]
 
     def ratio_over_scenes(self, study, table, column, base, as_in=None, without=()):
-        """(mean, low, high) of one column over another, of a table whose rows are shots, over scenes like these (geometric; scenes of one
-        asset averaged first). `as_in`: of the shots of this table of the study alone; `without`: assets that are left out."""
+        """(mean, low, high) of one column / another, for a table with shots as rows, over scenes like these: a geometric mean, scenes of
+        one asset averaged first. `as_in`: uses only the shots of this table of the study; `without`: assets that are left out."""
         about, cells = self._table(study, table)
         values = {(c.row, c.column): c.value for c in cells if c.value}
         rows = self.shots(study, as_in) if as_in else dict.fromkeys(c.row for c in cells)  # shots, by their display names
@@ -110,13 +126,12 @@ class Numbers:
         return statistics.geometric_mean_over_scenes([(about["assets"][s], math.log(values[s, column] / values[s, base])) for s in shots])[:3]
 
     def over_scenes(self, *chosen, **options):
-        """The same as text: "mean [low, high]"."""
-        mean, low, high = (v and f"{v:#.3g}".rstrip(".") for v in self.ratio_over_scenes(*chosen, **options))
-        return mean if low is None else f"{mean} [{low}, {high}]"
+        """ratio_over_scenes() as text: "mean [low, high]"."""
+        return number(*self.ratio_over_scenes(*chosen, **options))
 
     def p_holm(self, study, table, row, column):
-        """The p of "no effect" of a row, adjusted (Holm) for all rows that have an interval: of a table whose rows are effects, whose columns
-        hold Student's intervals of ratios over the table's shots, each of a scene of its own (n - 2 degrees of freedom)."""
+        """The p of "no effect" of a row, adjusted (Holm) for all rows with an interval. The table's rows are effects. Its columns hold
+        Student's intervals of ratios over shots of one scene each (n - 2 degrees of freedom)."""
         about, cells = self._table(study, table)
         family = [c for c in cells if c.column == column and c.low]
         rows = [c.row for c in family]
@@ -126,9 +141,9 @@ class Numbers:
         return statistics.p_holm(effects, len(about["shots"]) - 2)[rows.index(row)]
 
     def halving_share(self, study, table, march, exact, answered):
-        """(share, low, high) in percent of exact rays that goes half of the way to the error of exact rays alone. Of a table of errors
-        whose rows are shots; columns: those without and with exact rays alone, and those with a share, whose names are `answered`
-        followed by it."""
+        """(share, low, high) in percent: the share of exact rays that goes half of the way to the error of exact rays alone. The table has
+        errors, with shots as rows. Columns: `without` and with exact rays alone, and shares, whose names are `answered` followed by the
+        share."""
         about, cells = self._table(study, table)
         values = {(c.row, c.column): c.value for c in cells}
         points = {0.0: march, 1.0: exact} | {float(c.column.removeprefix(answered)): c.column for c in cells if c.column.startswith(answered)}
@@ -138,13 +153,13 @@ class Numbers:
         return tuple(v if v is None else 100 * v for v in halving_share(curves))
 
     def halving(self, *chosen):
-        """The same as text: "share [low, high]"."""
+        """halving_share() as text: "share [low, high]"."""
         share, *ends = (v if v is None else "0" if v == 0 else f"{v:.1f}" if v < 10 else f"{v:.0f}" for v in self.halving_share(*chosen))
         return share if None in ends else f"{share} [{', '.join(ends)}]"
 
     def share_of_variance(self, study, table, part):
-        """"share [low, high]" in percent of the variance of ln error that a part has, over scenes. Of a table of `variance` whose rows are
-        shots and whose columns are parts."""
+        """"share [low, high]" in percent: the part's share of the variance of ln error, over scenes. For a table of `variance` with shots
+        as rows and parts as columns."""
         about, cells = self._table(study, table)
         shots = list(dict.fromkeys(c.row for c in cells))
         values = {(c.row, c.column): c.value for c in cells}
@@ -165,7 +180,7 @@ class Numbers:
 
 
 def markdown_files(root):
-    """All of the source tree but what builds and hidden folders hold."""
+    """All Markdown files of the source tree, without build folders and hidden folders."""
     for folder, folders, names in os.walk(root):
         folders[:] = sorted(f for f in folders if not f.startswith(".") and not f.startswith("build") and f != "results")
         yield from (os.path.join(folder, name) for name in sorted(names) if name.endswith(".md"))
@@ -188,8 +203,17 @@ def _excerpt(table, cells, text, where):
     return table | {"caption": wanted.get("caption", table["caption"])}, cells
 
 
+def numbers_file(file):
+    """The file beside a page with the expressions of its numbers."""
+    return os.path.splitext(file)[0] + ".numbers.json"
+
+
+def expressions_of(file):
+    return read_json(numbers_file(file), {"*": str}) if os.path.exists(numbers_file(file)) else {}
+
+
 def filled(text, summaries, file):
-    """The text with each table, and each number in prose, made anew. Fails on one that no summary holds."""
+    """The text with each table and each number in prose made anew. Fails on one that no summary holds."""
 
     def made(block):
         path = path_inside(summaries, block["study"] + ".csv", file)
@@ -201,8 +225,19 @@ def filled(text, summaries, file):
             table, cells = _excerpt(table, cells, block["excerpt"], f"{file}: table {block['name']}")
         return block["head"] + markdown(table, cells, summary_file.made_from(origin, table, cells)) + block["end"]
 
-    numbers = Numbers(summaries, file)
-    return NUMBER.sub(lambda n: n["head"] + numbers.text(n["expression"]) + n["end"], BLOCK.sub(made, text))
+    def said(number):
+        page, _, name = number["name"].rpartition("#")
+        of = os.path.normpath(os.path.join(os.path.dirname(file), page)) if page else file
+        expressions = expressions_of(of)
+        if name not in expressions:
+            raise ResultsError(f"{file}: no number '{name}'; {numbers_file(of)} has: {', '.join(expressions) or 'none'}")
+        return number["head"] + Numbers(summaries, of).text(expressions[name]) + number["end"]
+
+    new = NUMBER.sub(said, BLOCK.sub(made, text))
+    unused = sorted(set(expressions_of(file)) - {n["name"] for n in NUMBER.finditer(text)})
+    if unused:
+        raise ResultsError(f"{numbers_file(file)}: the page says '{unused[0]}' nowhere; delete its expression")
+    return new
 
 
 def rewrite(root, summaries):

@@ -1,4 +1,4 @@
-"""What the cells of a table say in full, for LaTeX, and the table as CSV."""
+"""The full texts of a table's cells, for LaTeX, and the table as CSV."""
 
 import io
 
@@ -34,7 +34,7 @@ def has_range(cell):
 
 
 def is_part(table, cell):
-    """A mean over fewer than the table has, since the others have no value."""
+    """Whether a mean has fewer parts than the table's others, since some have no value."""
     return None not in (cell.mean_of, table.get("over_count")) and cell.mean_of < table["over_count"]
 
 
@@ -43,8 +43,8 @@ def reasons(cell):
 
 
 def cell_text(table, cell):
-    """0.71 [0.70, 0.73] (0.37 to 0.90; 6 of 8): the value, its interval, the range over shots, and how many of them have a value;
-    with marks that notes() explains."""
+    """0.71 [0.70, 0.73] (0.37 to 0.90; 6 of 8): the value, its interval, the range over shots, and how many of them have a value; notes()
+    explains its marks."""
     marks = "".join(dict.fromkeys(mark for mark, _ in lesser(cell))) + DISTURBED * bool(cell.disturbed_share)
     words = []
     if cell.value is None:
@@ -64,7 +64,7 @@ def cell_text(table, cell):
 
 
 def of_scenes(table):
-    """What intervals of means over shots are of."""
+    """Text about the sample behind intervals of means over shots; "" for other means."""
     if table["over"] not in SAMPLED:
         return ""
     sample = table.get("sample")
@@ -81,7 +81,7 @@ def sentence(found):
 
 
 def notes(table, cells):
-    """What brackets, parentheses and marks of the table mean; "" where it has none."""
+    """Explains the brackets, parentheses and marks of the table; "" if it has none."""
     found = []
     if any(has_interval(c) for c in cells):
         found.append("in brackets 95 % intervals" + of_scenes(table))
@@ -96,7 +96,7 @@ def notes(table, cells):
 
 
 def other_notes(table, cells):
-    """What is said beside intervals."""
+    """Notes about other things than intervals."""
     over = {"shot": "shots", "scene": "scenes"}.get(table["over"], f"all {table['over']}")
     found = []
     if any(has_range(c) for c in cells):
@@ -138,7 +138,7 @@ def grid(cells):
 
 
 def comma_separated(cells):
-    """The grid with a column for each value, low and high, and for its standing where the table marks the best."""
+    """The grid as CSV: columns for each value, low and high, and its standing if the table marks the best."""
     rows, columns, at = grid(cells)
     parts = ["value", "low", "high", *(["standing"] if any(c.standing for c in cells) else [])]
     lines = [[""] + [c if part == "value" else f"{c} {part}" for c in columns for part in parts]]

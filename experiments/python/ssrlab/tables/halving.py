@@ -1,4 +1,4 @@
-"""At which share of exact rays half of what exact rays do to the error is done (exact_rays, exact_share)."""
+"""The share of exact rays that achieves half of the effect of exact rays on the error (exact_rays, exact_share)."""
 
 import math
 
@@ -6,7 +6,7 @@ from ssrlab import statistics
 
 
 def _falls_to_zero(shares, values):
-    """Where the line through these points first falls to 0: 0 if it begins there, 1 if it never does."""
+    """Where the line through these points first falls to 0; 0 if it begins there, 1 if it never does."""
     if values[0] <= 0:
         return 0.0
     for (k0, v0), (k1, v1) in zip(zip(shares, values), zip(shares[1:], values[1:])):
@@ -16,13 +16,13 @@ def _falls_to_zero(shares, values):
 
 
 def halving_share(curves):
-    """(share, low, high) over scenes. `curves`: for each scene (asset, {share: error}), with the errors at 0 and at 1 among them.
+    """(share, low, high) over scenes. `curves`: for each scene (asset, {share: error}), including the errors at 0 and at 1.
 
-    Half way is the geometric mean of the errors at 0 and at 1, as errors are averaged over scenes: single ones of ten times the error
-    of no reflections would decide an arithmetic one. The mean over scenes of ln error(k) - (ln error(0) + ln error(1)) / 2 falls with
-    k, and is 0 half way. It has an interval at each k; the shares at which that holds 0 are those of the share (inversion of a test;
-    Fieller 1954 for ratios). They begin at 0 where exact rays have no significant effect, and end at 1 where half of it is not certain
-    at any share. No ends below four scenes.
+    Half of the way is the geometric mean of the errors at 0 and at 1, like errors over scenes: single scenes with ten times the error
+    without reflections would decide an arithmetic mean. The mean over scenes of ln error(k) - (ln error(0) + ln error(1)) / 2 falls with
+    k, and is 0 half of the way. It has an interval at each k; the interval of the share holds the k at which it includes 0 (inversion of
+    a test; Fieller 1954 for ratios). It begins at 0 if exact rays have no significant effect, and ends at 1 if no share certainly
+    achieves half. No interval below four scenes.
     """
     shares = sorted(curves[0][1])
     ends = []

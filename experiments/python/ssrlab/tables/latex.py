@@ -45,12 +45,12 @@ def escaped(text):
 
 
 def comment(text):
-    """In one line, which ends it."""
+    """A LaTeX comment in one line, including the line's end."""
     return f"% {shown(text)}"
 
 
 def label_name(name):
-    """What \\label and \\ref take: other letters become '-', and a hash distinguishes names."""
+    """A name for \\label and \\ref: other letters become '-', and a hash distinguishes names."""
     safe = re.sub(r"[^A-Za-z0-9:._-]", "-", name)
     return safe if safe == name else f"{safe}-{zlib.crc32(name.encode(errors='surrogatepass')):08x}"
 
@@ -61,7 +61,7 @@ def _name(row):
 
 
 def _parts(table, cell):
-    """A cell's number, and what stands small behind it."""
+    """The number of a cell, and the small text behind it."""
     number, _, rest = cell_text(table, cell).partition(" ") if cell else ("", "", "")
     return number, rest
 
@@ -83,7 +83,7 @@ def _head(column, width):
 
 
 def _rows_of_pages(rows, is_stacked):
-    """The rows in parts that a page has room for, as equal as they can be."""
+    """The rows in parts of nearly equal length that fit on a page."""
     most = MOST_LINES // 2 if is_stacked else MOST_LINES
     count = -(-len(rows) // most)
     ends = [round(i * len(rows) / count) for i in range(count + 1)]
@@ -101,7 +101,7 @@ def latex(table, cells, made_from):
     environment = "table*" if names + sum(GAP + w for w in widths) > COLUMN else "table"
 
     def shown(row, column):
-        """What stands in the row's first line, and in its second."""
+        """The texts in the row's first line, and in its second."""
         cell = at.get((row, column))
         number, rest = (escaped(part) for part in _parts(table, cell))
         style = None if cell is None else "textbf" if is_bold(cell) else "textit" if cell.standing in LIKE_BEST else None

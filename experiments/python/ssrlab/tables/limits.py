@@ -1,4 +1,4 @@
-"""How many times the information limit of one frame an error is: rows for tables, as a study's files would hold them."""
+"""Errors as multiples of the information limit of one frame: rows for tables, in the form of a study's files."""
 
 RUNG = "on_screen"  # groundtruth/reference/truth_ladder.h
 
@@ -18,8 +18,8 @@ def _quotient(numerator, denominator):
 
 
 def limit_rows(rows, shots):
-    """Of rows of summary.csv those whose limit is known and above 0. The interval's ends are those of both, each at its
-    worst, and so on the safe side; none where one of both has none."""
+    """The rows of summary.csv whose limit is known and above 0, divided by it. Interval ends combine the worst ends of both, and so are
+    conservative; none if either has none."""
     limits = _limits(shots)
     for row in rows:
         limit = limits.get((row["shot"], row["target"], row["metric"], row["mask"]))

@@ -1,5 +1,5 @@
-"""A table as Markdown, for readers: three digits, short names of shots, intervals where they decide something; a long one is folded.
-LaTeX and CSV have all digits, intervals and names."""
+"""A table as Markdown for readers: three digits, short names of shots, intervals where they matter; long tables are folded. LaTeX and CSV
+have all digits, intervals and names."""
 
 import html
 import math
@@ -19,7 +19,7 @@ COMMIT = re.compile(r"\b([0-9a-f]{10})[0-9a-f]{30}\b")
 
 
 def _places(value, low=None, high=None):
-    """Of the last digit that is shown, at most the third; -2: hundreds."""
+    """The place of the last shown digit, at most the third; -2: hundreds."""
     exponent = int(f"{value:.2e}".split("e")[1]) if value else 0
     return min(numbers.decimals(value, low, high), 2 - exponent)
 
@@ -30,13 +30,13 @@ def _number(value, places):
 
 
 def _reach(cell):
-    """How far the interval reaches from the value, as a share of it."""
+    """Distance of the interval's ends from the value, as a share of the value."""
     reach = max(cell.high - cell.value, cell.value - cell.low)
     return reach / abs(cell.value) if cell.value else math.inf if reach else 0.0
 
 
 def _includes_one(cell):
-    """Whether a ratio may be 1; not where all of the interval is 1 to the digits shown."""
+    """Whether a ratio may be 1; false if all of the interval is 1 to the shown digits."""
     places = _places(cell.value, cell.low, cell.high)
     return cell.low <= 1 <= cell.high and len({_number(n, places) for n in (cell.value, cell.low, cell.high)}) > 1
 
@@ -76,7 +76,7 @@ def _value(cell):
 
 
 def _apart_from_one(ratio):
-    """With as many digits as say to which side of 1 it lies."""
+    """The ratio with enough digits to show on which side of 1 it lies."""
     return next((shown for places in range(3, 7) if float(shown := f"{ratio:.{places}f}") != 1), "1.00")
 
 
@@ -96,7 +96,7 @@ class _Marks:
 
     @staticmethod
     def _reason(cell):
-        """Why a cell has no interval or number; None where it lacks none, and for a lack of numbers that needs no reason."""
+        """Why a cell has no interval or number; None if nothing is missing or needs a reason."""
         if formats.has_interval(cell) or cell.is_count():
             return None
         said = ", ".join(formats.reasons(cell))
@@ -135,7 +135,7 @@ def _interval_note(table, cells):
 
 
 def _percent(share):
-    """Rounded up, so that all are within it."""
+    """Rounded up, so that all values are within it."""
     percent = 100 * share
     places = max(1 - math.floor(math.log10(percent)), 0)
     return f"{math.ceil(percent * 10**places - 1e-9) / 10**places:.{places}f}"

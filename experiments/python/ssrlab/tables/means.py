@@ -1,4 +1,4 @@
-"""Means of a table's cells. Over shots they are means over scenes like these, which are the sample: scenes of one asset count once."""
+"""Means of a table's cells. Means over shots are means over scenes like these, which are the sample: scenes of one asset count once."""
 
 import math
 
@@ -20,8 +20,8 @@ def _joined(texts):
 
 
 def _over_scenes(result, parts, mean_of_assets):
-    """Gives the mean the interval over scenes, of which these are a sample, if enough assets have a value; all that seeds and
-    references add scatters with them. `parts`: (Cell, asset). Else the mean keeps that of these shots, and says so."""
+    """Gives the mean an interval over scenes like these if enough assets have a value; it includes what seeds and references add. `parts`:
+    (Cell, asset). Otherwise the mean keeps the interval of these shots, and says so."""
     mean, low, high, _ = mean_of_assets([(asset, c.value) for c, asset in parts])
     result.value = mean
     if low is not None:
@@ -31,8 +31,8 @@ def _over_scenes(result, parts, mean_of_assets):
 
 
 def _geometric_mean(parts, assets):
-    """`assets`: of each part, where the mean is over a sample of scenes; else None, and the interval holds what those of the
-    parts hold, taken as independent (half-widths of logarithms, added in quadrature). Parts without a value are not in it."""
+    """The geometric mean of the parts with a value. `assets`: of each part, if the mean is over a sample of scenes. If None, the interval
+    joins those of the parts as independent: half-widths of logarithms, added in quadrature."""
     filled = [i for i, c in enumerate(parts) if c.value is not None]
     cells = [parts[i] for i in filled]
     result = Cell(parts[0].table, parts[0].row, parts[0].column, mean_of=len(cells))
@@ -60,7 +60,7 @@ def _geometric_mean(parts, assets):
 
 
 def _arithmetic_mean(parts, assets):
-    """Of what may be 0; intervals as those of _geometric_mean()."""
+    """The mean of values that may be 0; intervals as in _geometric_mean()."""
     filled = [i for i, c in enumerate(parts) if c.value is not None]
     cells = [parts[i] for i in filled]
     result = Cell(parts[0].table, parts[0].row, parts[0].column, mean_of=len(cells))
@@ -87,7 +87,7 @@ def _mean_of_pairs(parts):
 
 
 def _mean_of_agreement(parts, assets):
-    """Of correlations, which have no interval by themselves."""
+    """The mean of correlations, which have no interval of their own."""
     result = Cell(parts[0].table, parts[0].row, parts[0].column, mean_of=len(parts))
     result.least, result.most = min(c.value for c in parts), max(c.value for c in parts)
     result.value, result.low, result.high, _ = statistics.mean_over_scenes(list(zip(assets, (c.value for c in parts))))
@@ -95,7 +95,7 @@ def _mean_of_agreement(parts, assets):
 
 
 def mean(table, parts, assets):
-    """Of the cells of one place of a table; `assets`: what the scene of each shows, see Results.asset()."""
+    """The mean of the cells of one place of a table; `assets`: what each one's scene shows, see Results.asset()."""
     if table.of == "eye":
         return _mean_of_pairs(parts)
     if table.of == "agreement":

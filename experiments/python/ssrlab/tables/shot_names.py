@@ -1,4 +1,4 @@
-"""Short names of the shots that a table shows: the scene, and of the rest what differs among shots of one scene."""
+"""Short names of the shots in a table: the scene, and what differs among shots of one scene."""
 
 import re
 from collections import Counter
@@ -8,7 +8,8 @@ KINDS = ("camera", "size", "frames", "settings")
 
 
 def parts(name):
-    """scene.camera.WxH[.fA[-B]][.nN][.wW][.rR][.settings], as experiments/study/config/shots/shot.cpp names shots, by kind; None if it is no such name."""
+    """The parts by kind of a name scene.camera.WxH[.fA[-B]][.nN][.wW][.rR][.settings], as experiments/study/config/shots/shot.cpp makes it;
+    None for other names."""
     words = name.split(".")
     at = next((i for i, word in enumerate(words) if i > 1 and SIZE.fullmatch(word)), None)
     if at is None:
@@ -44,7 +45,7 @@ def short_names(shots):
 
 
 def about(shots):
-    """What the short names leave out: of most shots once, and of those that differ by name; "" where there is nothing to say."""
+    """What the short names leave out: once for most shots, and by name for those that differ; "" if nothing."""
     names = short_names(shots)
     known = {shot: parts(shot) for shot in names}
     if not known:

@@ -1,4 +1,4 @@
-"""The summary of a study that is committed: the cells of its tables as tidy CSV, and what they were made with."""
+"""The committed summary of a study: the cells of its tables as tidy CSV, and what made them."""
 
 import io
 import json
@@ -32,7 +32,7 @@ def _about(table):
 
 
 def why_not_kept(manifest):
-    """A sentence, or None: what is committed must be whole, and a commit must say how to make it again."""
+    """Why results cannot be committed, as a sentence, or None. They must be complete, and a commit must say how to make them again."""
     if manifest.get("is_complete") is not True:
         return "the study is not complete; run it to its end"
     programs = [maker["ssrlab"] for maker in manifest["provenance"]]
@@ -44,7 +44,7 @@ def why_not_kept(manifest):
 
 
 def origin(manifest):
-    """Where the numbers come from. Fails where cells were made by programs whose estimators differ."""
+    """Where the numbers come from. Fails if cells were made by programs with different estimators."""
     makers = manifest["provenance"]
     if not makers:
         raise ResultsError("manifest.json: 'provenance' is empty, and so no program is known that made its cells; run the study again")
@@ -66,7 +66,7 @@ def origin(manifest):
 
 
 def write(file, origin_of_all, tables, cells):
-    """`tables`: what is said of each; `cells`: of all of them. Fails if the file would be too large to be committed."""
+    """`tables`: texts about each; `cells`: of all of them. Fails if the file would be too large to commit."""
     out = io.StringIO()
     for key, value in origin_of_all.items():
         out.write(f"{MARK}{key}: {json.dumps(value)}\n")
@@ -99,7 +99,7 @@ def _cell(row):
 
 
 def read(file):
-    """(origin, {table's name: (what is said of it, its cells)})."""
+    """(origin, {name of a table: (text about it, its cells)})."""
     text = read_text(file)
     head = re.match(f"(?:{MARK}[^\n]*\n)*", text).group().splitlines()
     entries = []

@@ -1,4 +1,4 @@
-"""Which of two parts of a technique decides its error: shares of the variance of ln error over all pairs of both."""
+"""Which of two parts of a technique decides its error: shares of the variance of ln error over all pairs of parts."""
 
 import math
 
@@ -13,8 +13,8 @@ def _mean(values):
 
 
 def _effects(errors):
-    """{kind: {pair: effect}} of {(first, second): ln error} with all pairs: what the first part, the second, and both together add to
-    the mean."""
+    """{kind: {pair: effect}}: additions to the mean by the first part, the second, and both together, from {(first, second): ln error} of
+    all pairs."""
     firsts, seconds = (list(dict.fromkeys(pair[i] for pair in errors)) for i in (0, 1))
     mean = _mean(errors.values())
     of_first = {a: _mean(errors[a, b] for b in seconds) - mean for a in firsts}
@@ -27,11 +27,11 @@ def _effects(errors):
 
 
 def variance_parts(pairs):
-    """{kind: variance} of one scene: of the first part's means, of the second's, and what is left, which both have together. `pairs`:
-    {(first, second): {seed: ln error}}, all pairs; one without random numbers has one seed, which stands for all.
+    """{kind: variance} of one scene: of the first part's means, of the second's, and the rest, which both have together. `pairs`: {(first,
+    second): {seed: ln error}} of all pairs; a pair without random numbers has one seed, which stands for all.
 
-    Each is the mean product of two seeds' effects, not a square: the techniques' noise, which is independent between seeds, then adds
-    nothing to any of them on average. That of the reference, which both seeds and all pairs share, mostly cancels.
+    Each variance is the mean product of two seeds' effects, not a square. The techniques' noise is independent between seeds, so it adds
+    nothing on average. The reference's noise, which all seeds and pairs share, mostly cancels.
     """
     seeds = sorted({seed for by_seed in pairs.values() for seed in by_seed})[:2]
     one, other = (_effects({pair: by_seed.get(seed, next(iter(by_seed.values()))) for pair, by_seed in pairs.items()}) for seed in (seeds[0], seeds[-1]))
@@ -39,9 +39,9 @@ def variance_parts(pairs):
 
 
 def share_of_total(parts, totals):
-    """(share, low, high): the ratio of the means over scenes of (asset, value) pairs, so that a scene counts by how much is at stake in
-    it, scenes of one asset averaged first. The interval has all ratios at which the mean of part - ratio * total may be 0 (Fieller 1954),
-    within [0, 1]: that of the linearized ratio is too short where a few scenes have most of it. No ends below four scenes.
+    """(share, low, high): the ratio of the means over scenes of (asset, value) pairs, so that scenes with more at stake count more; scenes
+    of one asset are averaged first. The interval holds all ratios in [0, 1] at which the mean of part - ratio * total may be 0 (Fieller
+    1954). An interval of the linearised ratio would be too short if a few scenes have most of the total. No interval below four scenes.
     """
     mean, low, high = statistics.mean_over_scenes(parts)[:3]
     mean_total, low_total, high_total = statistics.mean_over_scenes(totals)[:3]

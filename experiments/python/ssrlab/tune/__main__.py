@@ -2,7 +2,7 @@
 
 usage: python3 experiments/python tune ASKED --out DIR -- SSRLAB [options of `ssrlab run`]
 
-ASKED is what `ssrlab tune` read of a study with "tune" (experiments/README.md). The optimiser proposes batches of points (space.py);
+ASKED is what `ssrlab tune` read of a study with "tune" (experiments/docs/tune.md). The optimiser proposes batches of points (space.py);
 each runs with half of the seeds on one shot, on two, four and so on to all, then with all seeds, and is stopped as soon as it is significantly
 worse than a point of the front that takes no more time (race.py). Every step is a study in DIR/search, every evaluation a cell of it
 (studies.py). A stopped search repeats the optimiser's steps and reads the finished cells, so that it ends as if it
@@ -71,7 +71,7 @@ class Tuning:
         Outcome(self, self.judge()).write()
 
     def begin(self):
-        """The points that the config names, in full: the first to compare with."""
+        """Runs the points that the config names in full, the first to compare with."""
         seeds = self.studies.seeds
         self.few, self.rest = seeds[: max(2, len(seeds) // 2)], seeds[max(2, len(seeds) // 2) :]
         entries = [self.given_entry(i) for i in range(len(self.given))]
@@ -100,7 +100,7 @@ class Tuning:
             self.proposals.begin_with(self.points[name].parameters)
 
     def learn_settings(self, results):
-        """What the program's settings are called, and their defaults, of which the axes are some."""
+        """Learns the names and defaults of the program's settings, which include the axes."""
         settings = self.points[AT_DEFAULTS].parameters
         unknown = [name for name in self.rules["axes"] if name not in settings]
         if unknown:
@@ -110,7 +110,7 @@ class Tuning:
         self.searched = next(v["technique"] for v in results.manifest["techniques"] if v.get("label") == AT_DEFAULTS)
 
     def cost_of_baseline(self, results):
-        """Geometric mean over shots."""
+        """The baseline's cost: geometric mean over shots."""
         base = next(v["point"] for v in results.manifest["techniques"] if v.get("label") == self.baseline)
         costs = [cost for _, cost in self.studies.times_of(results, base).values()]
         if not costs:
@@ -124,26 +124,26 @@ class Tuning:
         return entry | self.made_of(point, point["swept"])
 
     def trial_entry(self, name, values):
-        """Of a point that is tried, as an entry of `techniques`."""
+        """A tried point, as an entry of `techniques`."""
         if self.program:
             return {"external": self.program.images(name), "label": name, "point": self.program.point(name)}
         return {"technique": self.start_entry["technique"], "label": name} | self.made_of(self.start_entry, values)
 
     @staticmethod
     def made_of(point, swept):
-        """Preset and parameters; those that are swept name the point."""
+        """Preset and parameters; swept parameters name the point."""
         preset = {"preset": point["preset"]} if point["preset"] else {}
         return preset | {"parameters": point["parameters"], "sweep": {k: [v] for k, v in swept.items()}}
 
     def runs_of_a_point(self):
-        """In full: as many as the points so far took at most."""
+        """The most runs that a complete point took so far."""
         return max(p.runs() for p in [*self.points.values(), *self.tried])
 
     def runs(self):
         return sum(p.runs() for p in [*self.points.values(), *self.tried])
 
     def do_batch(self, number):
-        """Whether it had a point that is new."""
+        """Runs a batch; returns whether it had a new point."""
         most = int((self.most_runs - self.runs()) // self.runs_of_a_point())
         proposed = self.proposals.ask(min(self.rules["batch"], most))
         fresh = []
@@ -189,7 +189,7 @@ class Tuning:
             self.studies.read_into(point, results)
 
     def is_rendered(self, point, shots):
-        """Of a program: settings with which it renders nothing that can be compared are no fault of the search."""
+        """Whether the settings rendered. A program that cannot render some settings does not fail the search."""
         try:
             if self.program:
                 self.program.render(point.name, point.values, shots)
@@ -200,7 +200,7 @@ class Tuning:
         return not point.refusal
 
     def those_left(self, points, stage):
-        """Stops those that are significantly worse, take too long, or have no time."""
+        """Stops points that are significantly worse, take too long, or have no time; returns the others."""
         left = []
         for point in points:
             too_long = math.log(max(self.budgets) * BEYOND)
@@ -222,14 +222,14 @@ class Tuning:
         return left
 
     def best_within(self, budget):
-        """The complete point of least error, by what was measured; None if all take longer."""
+        """The complete point of least measured error within the budget; None if all take longer."""
         slack = math.log(budget * self.race.same_time)
         fitting = [p for p in self.race.complete if self.race.log_time(p) <= slack]
         return min(fitting, key=self.race.mean_log, default=None)
 
     def judge(self):
-        """(results, {name: budgets that it is best within}) of what was found beside what the config names, on other scenes; no results if
-        the config has none."""
+        """(results, {name: budgets that it is best within}) of the found points and the config's, on other scenes; no results if the config
+        has none."""
         found = {}
         for budget in self.budgets:
             best = self.best_within(budget)

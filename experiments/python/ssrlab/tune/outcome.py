@@ -96,8 +96,8 @@ class Outcome:
             yield shot, {m: self.results.measured(rows[m], ("ratio", "low", "high")) if m in rows else None for m in self.studies.metrics}
 
     def write_presets(self):
-        """As the table of techniques reads them (variants/registry.h). What was found among the config's own points has a name already, and
-        a point that is neither faster than the baseline nor significantly better, or worse on unseen scenes, gets none."""
+        """Writes presets.json, as tables of techniques read it (variants/registry.h). Left out are the config's own points, which have
+        names, and points that are neither faster than the baseline nor significantly better, or worse on unseen scenes."""
         presets = []
         for name, budgets in self.found.items():
             point = self.points[name]

@@ -1,11 +1,11 @@
-"""Points that somebody else's program renders, in place of one of ssrlab's techniques.
+"""Points that another program renders, instead of one of ssrlab's techniques.
 
 A point's images lie in a folder of their own, which a study names as `external`. The program is called once for each point and shot as
 
     PROGRAM SCENE_FOLDER OUT [--point NAME --set KEY=VALUE ...]
 
-SCENE_FOLDER is what `ssrlab scene-for any` wrote of the shot; OUT collects the images of all shots (experiments/README.md, "Images of other
-programs"), and its external.json states the `settings` with all their values. Without options the program renders at its defaults."""
+SCENE_FOLDER is what `ssrlab scene-for any` wrote of the shot. OUT collects the images of all shots (experiments/docs/judge.md); its
+external.json states the `settings` with all their values. Without options the program renders at its defaults."""
 
 import json
 import os
@@ -20,7 +20,7 @@ OF_SCENES = ("--scene-path", "--cache", "--max-memory", "--allow-outside")  # op
 
 
 class ProgramFailed(Exception):
-    """It, or `ssrlab scene-for`, ended with an exit code other than 0."""
+    """The program, or `ssrlab scene-for`, ended with an exit code other than 0."""
 
     def __init__(self, command, code, log):
         with open(log, encoding="utf-8", errors="surrogateescape") as stream:
@@ -30,13 +30,13 @@ class ProgramFailed(Exception):
 
 
 def setting(value):
-    """As the command line has it: texts as they are, else JSON."""
+    """A value on the command line: texts unquoted, else JSON."""
     return value if isinstance(value, str) else json.dumps(value)
 
 
 def declared_by(settings, axes):
-    """JSON schemas of an external.json's settings, whose values are their defaults. A program may write 1.0 as 1: numbers are whole where the
-    ends of their axis are written without a point, too."""
+    """JSON schemas of an external.json's settings, with their values as defaults. A program may write 1.0 as 1: a number is whole only if
+    the ends of its axis are also written without a point."""
     types = {bool: "boolean", int: "integer", float: "number", str: "string"}
     declared = {name: {"type": types[type(value)], "default": value} for name, value in settings.items()}
     for name, axis in axes.items():
@@ -56,16 +56,16 @@ class Program:
         self.study = study
 
     def images(self, name):
-        """The folder of a point's images."""
+        """The folder with a point's images."""
         return path_inside(self.out, f"images/{self.point(name)}")
 
     @staticmethod
     def point(name):
-        """What the program and results call a point."""
+        """The point's name in the program and in results."""
         return name.replace(" ", "_")
 
     def render(self, name, values, shots):
-        """A point's images of some shots, unless an earlier search rendered them. `values`: the settings that are not at their defaults."""
+        """Renders a point's images of some shots, unless an earlier search did. `values`: settings that differ from the defaults."""
         file = path_inside(self.out, f"images/{self.point(name)}.json")
         done = read_json(file, {"rendered": [str]})["rendered"] if os.path.exists(file) else []
         for shot in shots:
@@ -80,7 +80,7 @@ class Program:
             write_text(file, json.dumps({"rendered": done}))
 
     def _scene(self, shot):
-        """The folder of a shot's scene, within that of the search; written where it is not there."""
+        """The folder of a shot's scene, within the search's folder; written if missing."""
         words = scene_for_words(shot, self.study)
         folder = f"scenes/{scene_folder_name(words)}"
         written = path_inside(self.out, folder)

@@ -1,16 +1,15 @@
-"""When a point is stopped: the statistics of a search's points, compared over the same shots and seeds.
+"""When a point is stopped: statistics of a search's points, compared over the same shots and seeds.
 
 Errors are compared by logarithms of ratios, the mean over shots and metrics. Three things make such a mean uncertain:
 
-- Chance, estimated by the scatter over the common seeds. Few seeds estimate a scatter badly, so that of a shot is shrunk towards
-  what is usual there (the median of the points so far), as if that had been seen with PRIOR degrees of freedom, and never taken
-  for less than the point's own.
-- The reference's noise, whose intervals of both errors are added in quadrature.
-- The scenes that are still to come, while a point has run on a part of them: by how much the mean over that part missed the mean
-  over all, in the points that ran on all. Until LEAST_COMPLETE have, no point is stopped on a part of the scenes.
+- Chance, estimated by the scatter over the common seeds. Few seeds estimate a scatter badly. The scatter of a shot is therefore shrunk
+  towards the median scatter of the points so far, as if that had PRIOR degrees of freedom, and never below the point's own.
+- The reference's noise: the intervals of both errors, added in quadrature.
+- The remaining scenes, while a point has run on a part of them: how much the mean over this part missed the mean over all, in points
+  that ran on all. Until LEAST_COMPLETE points have, no point is stopped on a part of the scenes.
 
-A point is stopped if its error is significantly above that of a point of the front that takes no more time: at the level RISK for each
-point, shared by the looks that are taken at it and by the points of the front that it is compared with (Bonferroni)."""
+A point is stopped if its error is significantly above that of a front point that takes no more time. The level for each point is RISK,
+shared by the looks at it and by the front points that it is compared with (Bonferroni)."""
 
 import functools
 import math
@@ -27,7 +26,7 @@ NORMAL = 1.96  # half-width of a 95 % interval in standard deviations
 
 @dataclass
 class Point:
-    """What was measured of a point."""
+    """Measurements of a point."""
 
     name: str
     values: dict  # of the axes
@@ -43,7 +42,7 @@ class Point:
         return list(dict.fromkeys(shot for shot, _ in self.errors))
 
     def runs(self):
-        """Renders: one for each shot and seed."""
+        """Number of renders: one for each shot and seed."""
         return len({(shot, seed) for (shot, _), seeds in self.errors.items() for seed in seeds})
 
     def log_time(self, shots):
@@ -57,7 +56,7 @@ def quantile(level, degrees):
 
 @functools.lru_cache(maxsize=64)
 def median_over_mean(degrees):
-    """Of a variance that is estimated with so many degrees of freedom."""
+    """Median / mean of a variance that is estimated with these degrees of freedom."""
     return float(stats.chi2.median(degrees)) / degrees
 
 
@@ -68,8 +67,8 @@ def variance(values):
 
 
 def paired(a, b, key):
-    """Errors of two points in a shot by one metric, at the seeds that both have. One that draws no random numbers has a single seed, which
-    stands for all."""
+    """Errors of two points in a shot by one metric, at common seeds. A point without random numbers has a single seed, which stands for
+    all."""
     first, second = a.errors[key], b.errors[key]
     seeds = sorted(first.keys() & second.keys()) if len(first) > 1 and len(second) > 1 else sorted(max(first, second, key=len))
     pick = lambda values: [values[s] if len(values) > 1 or s in values else next(iter(values.values())) for s in seeds]  # noqa: E731
@@ -77,7 +76,7 @@ def paired(a, b, key):
 
 
 def level_of(values):
-    """The mean error; one that is not distinguishable from 0 given the reference's noise counts as that noise."""
+    """The mean error; if it is indistinguishable from 0 given the reference's noise, that noise."""
     mean = sum(v for v, _ in values) / len(values)
     return max(mean, NORMAL * max(d for _, d in values), 1e-12)
 
@@ -100,7 +99,7 @@ def compare_in_shot(a, b, shot):
 
 @dataclass
 class Difference:
-    """Of the logarithms of two points' errors, over the shots that both have."""
+    """Difference of the logarithms of two points' errors, over common shots."""
 
     mean: float
     deviation: float
@@ -150,14 +149,14 @@ class Race:
         return Difference(sum(means) / len(means), math.sqrt(squares) / len(shots), degrees)
 
     def error(self, point):
-        """Over the baseline's, as logarithms."""
+        """Logarithms of errors over the baseline's."""
         return self.difference(point, self.baseline)
 
     def log_time(self, point):
         return point.log_time(point.shots())
 
     def front(self):
-        """The complete points that none both errs less and takes less time than, by what was measured; by time."""
+        """The complete points, by time, that no other beats: none errs less and takes less time, by what was measured."""
         if self.known_front is None:
             self.known_front = []
             for point in sorted(self.complete, key=lambda p: (self.log_time(p), self.mean_log(p))):
@@ -166,12 +165,12 @@ class Race:
         return self.known_front
 
     def mean_log(self, point, shots=None):
-        """Of a complete point's error over the baseline's."""
+        """Mean logarithm of a complete point's error over the baseline's."""
         return statistics.fmean(self.logs[point.name][shot] for shot in shots or self.shots())
 
     def scatter_of_scenes(self, seen):
-        """(standard deviation, degrees of freedom) of the difference of two points over all shots less that over those that were seen;
-        None while there are too few points."""
+        """(standard deviation, degrees of freedom) of a difference of two points over all shots minus that over the shots seen so far; None
+        if there are too few points."""
         if len(seen) == len(self.shots()):
             return 0.0, 1
         if len(self.complete) < LEAST_COMPLETE:

@@ -40,7 +40,7 @@ class Axis:
         return {*(self.only_if or {}), *(self.skip_if or {})}
 
     def is_active(self, held):
-        """`held`: the values of all parameters, as far as they are chosen."""
+        """`held`: the values of all parameters that are chosen so far."""
         meets = lambda tests: all(holds(test, held[name]) for name, test in tests.items())  # noqa: E731
         return (self.only_if is None or meets(self.only_if)) and (self.skip_if is None or not meets(self.skip_if))
 
@@ -53,7 +53,7 @@ class Axis:
         return min(max(value, self.ends[0]), self.ends[1])
 
     def nearest(self, value):
-        """What of the axis is like a value from elsewhere; None if nothing is."""
+        """The axis' value that is nearest to a value from elsewhere; None if there is none."""
         if self.values is not None:
             return next((v for v in self.values if v == value), None)
         return min(max(value, self.ends[0]), self.ends[1])
@@ -74,7 +74,7 @@ class Space:
             left = [axis for axis in left if axis not in free]
 
     def suggest(self, trial):
-        """Name to value of the axes that count at the point that the optimiser proposes."""
+        """{name: value} of the axes that are active at the proposed point."""
         held, chosen = dict(self.start), {}
         for axis in self.axes:
             if axis.is_active(held):
@@ -85,19 +85,18 @@ class Space:
         return all(self.start[name] == value for name, value in values.items())
 
     def like(self, parameters):
-        """The point of the space next to these values of all parameters, as far as the axes have them."""
+        """The point of the space that is nearest to these values of all parameters, as far as axes have them."""
         found = {axis.name: axis.nearest(parameters[axis.name]) for axis in self.axes}
         return {name: value for name, value in found.items() if value is not None}
 
 
 class Proposals:
-    """Batches of points to try. Asked again with the same answers, it proposes the same: that is how a search continues.
+    """Batches of points to try. The same answers lead to the same proposals, which is how a search continues.
 
-    Optuna's TPE, of whose samplers its documentation recommends this one from 100 trials on, with several objectives, numbers and
-    categories mixed, conditions and batches; NSGA-II takes numbers and conditions less well and spends 50 trials on its
-    first generation alone. Parameters are sampled jointly (multivariate, by groups of those that are active together).
-    Points of a batch do not know of one another: `constant_liar`, which keeps those of one batch apart, does nothing with
-    several objectives (Optuna 3.1.0)."""
+    The optimiser is Optuna's TPE. Optuna's documentation recommends it from 100 trials on, for several objectives, mixed numbers and
+    categories, conditions and batches. NSGA-II handles numbers and conditions less well, and spends 50 trials on its first generation
+    alone. Parameters are sampled jointly (multivariate, by groups of those that are active together). Points of a batch do not know of
+    one another: `constant_liar`, which keeps them apart, does nothing with several objectives (Optuna 3.1.0)."""
 
     STARTUP = 16  # trials that are drawn at random before there is anything to learn from
 
@@ -115,7 +114,7 @@ class Proposals:
         self.study = optuna.create_study(directions=["minimize", "minimize"], sampler=sampler)
 
     def begin_with(self, parameters):
-        """Proposes what is like a point that is known already."""
+        """Proposes the point that is most like a known one."""
         self.study.enqueue_trial(self.space.like(parameters))
 
     def ask(self, count):
@@ -123,6 +122,6 @@ class Proposals:
         return [(trial, self.space.suggest(trial)) for trial in (self.study.ask() for _ in range(count))]
 
     def tell(self, trial, log_error, log_time, log_most_time):
-        """Logarithms of ratios to the baseline; what takes more than the most time breaks a constraint."""
+        """Logarithms of ratios to the baseline; exceeding the most time breaks a constraint."""
         trial.set_user_attr("excess", log_time - log_most_time)
         self.study.tell(trial, (log_error, log_time))

@@ -1,4 +1,4 @@
-"""The studies that a search consists of: each a config that is written, run by `ssrlab run`, and read."""
+"""The studies of a search: each is a config that is written, run by `ssrlab run`, and read."""
 
 import json
 import os
@@ -27,7 +27,7 @@ class StudyFailed(Exception):
 
 
 def _positive(row, column):
-    """Of what is compared by ratios."""
+    """A value that ratios can compare."""
     value = needed_number(row, column)
     if value <= 0:
         raise ResultsError(f"{row.file}:{row.line}: '{column}' = \"{row[column]}\" is not above 0")
@@ -35,7 +35,7 @@ def _positive(row, column):
 
 
 class Studies:
-    """Those of one search in its folder, and what of their tables counts."""
+    """The studies of one search in its folder, and the numbers of their tables that count."""
 
     def __init__(self, asked, out, command, baseline):
         """`asked`: what `ssrlab tune` read of the config (experiments/cli/script_commands.cpp). `baseline`: the name
@@ -59,14 +59,14 @@ class Studies:
 
     @staticmethod
     def _placed(shots, folder):
-        """Paths of captures are relative to the config, and the studies lie elsewhere."""
+        """Makes shots' paths of captures absolute by `folder`, the config's, since the studies lie elsewhere."""
         for shot in shots:
             if "gbuffer" in shot:
                 shot.update({k: os.path.join(folder, shot[k]) for k in ("gbuffer", "reference") if k in shot})
         return shots
 
     def run(self, name, techniques, shots, seeds, is_timed=True):
-        """Runs a study and reads it; `name`: its folder within that of the search."""
+        """Runs a study and reads it; `name`: its folder within the search's."""
         folder, config, log_file = (path_inside(self.out, name + end) for end in ("", ".json", ".log"))
         study = self.common | {"techniques": techniques, "shots": shots, "seeds": seeds}
         is_search = name != "judged"
@@ -90,7 +90,7 @@ class Studies:
         return results
 
     def _keep_minutes(self, name, minutes):
-        """What a study took is kept where it was run first: one that is run again is only read."""
+        """Keeps the time of a study's first run; later runs only read results."""
         kept = {}
         if os.path.exists(self.minutes_file):
             kept = read_json(self.minutes_file, {"*": float})
@@ -107,7 +107,7 @@ class Studies:
                 raise ResultsError(f"{results.folder}: the references of {shot['shot']} are not those of the search so far; was its cache emptied?")
 
     def read_into(self, point, results):
-        """Adds a study's results of a search's point, under the label that is its name."""
+        """Adds a study's results to a point of the search, whose name is the label."""
         entry = next((v for v in results.manifest["techniques"] if v.get("label") == point.name), None)
         if entry is None:
             raise ResultsError(f"{results.folder}: no point has the label '{point.name}'")
@@ -135,8 +135,8 @@ class Studies:
         return needed_number(row, "value"), 0.0 if None in (low, high) else (high - low) / 2 / NORMAL
 
     def times_of(self, results, point):
-        """Shot to (time over the baseline's, the baseline's) of what a study timed, counted or estimated; a shot in which an estimate was
-        refused is missing. Without times all points count as equally fast."""
+        """{shot: (time over the baseline's, the baseline's)} of a study's times, counts or estimates; shots with a refused estimate are
+        missing. Without times all points count as equally fast."""
         if not self.has_time:
             return {shot["shot"]: (1.0, 1.0) for shot in results.manifest["shots"]}
         base = next((v["point"] for v in results.manifest["techniques"] if v.get("label") == self.baseline), None)
@@ -144,7 +144,7 @@ class Studies:
 
     @staticmethod
     def _clock_ratios(results, point, base):
-        """Of the same frames, since machines change their speed."""
+        """Ratios of times of the same frames, since machines change their speed."""
         total = [r for r in results.times if r["technique"] and r["point"] == base and r["stage"] == "total"]
         own = {r["shot"]: _positive(r, "median_ms") for r in total}
         if point == base:
@@ -174,7 +174,7 @@ class Studies:
                 yield row["point"], row["shot"], _positive(row, "microseconds")
 
     def _refusal_of(self, results, point):
-        """Why a point's time was not estimated; "" where it was, or needs no estimate."""
+        """Why a point's time was not estimated; "" if it was, or needs no estimate."""
         rows = self._totals_of_chip(results) if self.is_estimated else []
         return next((r["refusal"] for r in rows if r["point"] == point and r["refusal"]), "")
 

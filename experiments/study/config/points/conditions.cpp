@@ -33,8 +33,8 @@ std::string text_of(const PointCondition& condition) {
 
 Keys condition_keys() {
     const Values tests = {{{"type", "object"}}, "an object of conditions", {}};
-    return {{"only_if", tests, otherwise("everywhere"), "where it is: all conditions hold"},
-            {"skip_if", tests, otherwise("nowhere"), "where it is left out: all conditions hold"}};
+    return {{"only_if", tests, otherwise("everywhere"), "Include only where all these conditions hold"},
+            {"skip_if", tests, otherwise("nowhere"), "Leave out where all these conditions hold"}};
 }
 
 std::vector<PointCondition> read_conditions(ConfigObject& entry, const ParameterSet& declared) {

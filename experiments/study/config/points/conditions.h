@@ -4,27 +4,26 @@
 #include "experiments/study/config/keys.h"
 #include "experiments/study/config/shots/shot.h"
 
-// An entry of `techniques` may hold for some points and shots only: `only_if` all of its conditions hold, and not
-// (`skip_if`) where all of its conditions do. A condition is a value, an array of values, or an object of `at_least`,
-// `at_most`, `above`, `below` and `not`. What it is put to is a parameter of the point, or `shot.NAME`: `scene`,
-// `camera`, `width`, `height`, `frames` (how many), settings (`lit`, `depth_format`, ...), and the facts of
-// core/gbuffer/scene_facts.h.
+// An entry of `techniques` may be limited to some points and shots: `only_if` requires all of its conditions, `skip_if`
+// excludes where all of its conditions hold. A condition is a value, an array of values, or an object of `at_least`,
+// `at_most`, `above`, `below` and `not`. It tests a parameter of the point, or `shot.NAME`: `scene`, `camera`, `width`,
+// `height`, `frames` (their number), settings (`lit`, `depth_format`, ...), or a fact of core/gbuffer/scene_facts.h.
 
-/// The conditions of an entry. Fails on what is neither a parameter of the technique nor a name of a shot.
+/// The conditions of an entry. Fails with Error on a name that is neither a parameter of the technique nor of a shot.
 std::vector<PointCondition> read_conditions(ConfigObject& entry, const ParameterSet& declared);
 
-/// `only_if` and `skip_if` of an entry.
+/// The declarations of `only_if` and `skip_if`.
 Keys condition_keys();
 
-/// Whether the point is to be at all, by the values of all its parameters. Conditions that they decide are taken out of
-/// `conditions`; those are left that depend on the shot.
+/// Whether the point exists at all, given the values of all its parameters. Removes the conditions on parameters from
+/// `conditions`; conditions on the shot remain.
 bool is_wanted(std::vector<PointCondition>& conditions, const nlohmann::json& parameters);
 
 /// Whether the point runs on the shot.
 bool runs_on(const PointConfig& technique, const Shot& shot);
 
-/// The condition for which it does not; "" if it does.
+/// The condition that keeps the point from running on the shot; "" if it runs.
 std::string why_skipped(const PointConfig& technique, const Shot& shot);
 
-/// The study with only the points that run on the shot.
+/// The study reduced to the points that run on the shot.
 Config config_on(const Config& study, const Shot& shot);

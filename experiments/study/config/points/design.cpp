@@ -55,7 +55,8 @@ Range read_range(const json& axis, const std::string& where) {
     const bool is_log = axis.contains("log");
     const json& numbers = axis.front();
     const Range range{numbers[0].get<double>(), numbers[1].get<double>(), is_log};
-    if (range.from == range.to) fail(where, ": both ends of the range are ", shown(numbers[0]));
+    if (range.from == range.to)
+        fail(where, ": both ends of the range are ", shown(numbers[0]), "; give two different ends");
     if (is_log && !(range.from > 0 && range.to > 0))
         fail(where, ": 'log' needs ends above 0, not ", shown(numbers), "; give 0 a point of its own");
     return range;
@@ -88,7 +89,7 @@ std::vector<json> axis_values(JsonObject& axes, const std::string& name, const P
 
 void refuse_too_many(double points, const std::string& design, const std::string& where) {
     if (points > double(most_points))
-        fail(where, ": '", design, "' makes ", points, " points; allowed are ", most_points);
+        fail(where, ": '", design, "' makes ", points, " points; at most ", most_points, " are allowed");
 }
 
 using Axes = std::vector<std::pair<std::string, std::vector<json>>>;
@@ -161,7 +162,7 @@ std::optional<Range> read_sample_axis(const json& axis, const ParameterSet& decl
 
 /// Of each parameter an array of its values, or of numbers a range with `more` numbers behind its ends.
 Values axes_of(const ParameterSet& declared, int more) {
-    Values axes = {declared.schema(), "an object of axes, below", {}, {{"type", "object"}}};
+    Values axes = {declared.schema(), "an object of axes", {}, {{"type", "object"}}};
     for (auto& [name, schema] : axes.schema["properties"].items()) {
         const json description = schema["description"];
         schema = axis_of(schema, "", schema.contains("minimum"), more).schema;
@@ -171,17 +172,17 @@ Values axes_of(const ParameterSet& declared, int more) {
 }
 
 const std::map<std::string, std::string> sample_kinds = {
-    {"random", "points drawn at random"},
-    {"latin_hypercube", "points of which each of `count` equal parts of every axis has one"},
+    {"random", "Draw points at random"},
+    {"latin_hypercube", "Draw points by a Latin hypercube: each of `count` equal parts of every axis holds one point"},
     {"sobol",
-     "points of Sobol's sequence (Joe and Kuo 2008, shifted by the seed), even in several axes at once if `count` is a "
-     "power of two"}};
+     "Draw points of Sobol's sequence (Joe and Kuo 2008, shifted by the seed). A `count` that is a power of two covers "
+     "several axes evenly"}};
 
 Keys sample_keys(const ParameterSet& declared) {
-    return {{"count", whole(1, int(most_points)), required, "how many points"},
-            {"seed", whole(0, 1 << 30), 0, "the same seed gives the same points"},
+    return {{"count", whole(1, int(most_points)), required, "Number of points"},
+            {"seed", whole(0, 1 << 30), 0, "Seed; the same seed gives the same points"},
             {"axes", axes_of(declared, 0), required,
-             "ranges `{\"lin\": [from, to]}` or `{\"log\": [from, to]}`, or arrays"}};
+             "For each parameter, a range `{\"lin\": [from, to]}` or `{\"log\": [from, to]}`, or an array of values"}};
 }
 
 std::vector<json> sampled(ConfigObject design, const std::string& kind, const ParameterSet& declared) {
@@ -217,9 +218,11 @@ Values range_values(int more) {
 
 Keys design_keys(const ParameterSet& declared) {
     const Values axes = axes_of(declared, 1);
-    Keys keys = {{"sweep", axes, none, "all combinations of the axes' values"},
-                 {"zip", axes, none, "axes of one length: the first values together, the second together, and so on"},
-                 {"each", axes, none, "every value is a point of its own that changes nothing else"}};
+    Keys keys = {
+        {"sweep", axes, none, "Use all combinations of the axes' values"},
+        {"zip", axes, none,
+         "Use the first values of all axes together, then the second values, and so on. All axes have the same length"},
+        {"each", axes, none, "Use each value alone: each point changes one parameter"}};
     for (const auto& [kind, meaning] : sample_kinds)
         keys.push_back({kind, object_of(sample_keys(declared)), none, meaning});
     return keys;

@@ -4,28 +4,32 @@
 
 #include <vector>
 
-/// More points than anyone can run or look at: such a design is refused while it is read.
+/// Limit of points in a design: a larger one is refused while it is read.
 inline constexpr size_t most_points = 100000;
 
-/// The points that an entry of `techniques` asks for by one of `sweep` (all combinations, the last axis fastest, axes
-/// by name), `zip` (values that stand at the same place), `each` (one value at a time, axes in the order of
-/// `declared`), `random`, `latin_hypercube` or `sobol`: the values that each of them changes; a single point without
-/// any if there is no design. Points of the latter three that are equal count once. Every mistake is an Error that
-/// names place and key.
+/// Reads the design of an entry of `techniques`. Returns the changed values of each point; a single empty object if
+/// there is no design. At most one of these keys is given:
+///
+/// - `sweep`: all combinations; axes by name, the last axis fastest.
+/// - `zip`: values at the same place of each axis.
+/// - `each`: one value at a time; axes in the order of `declared`.
+/// - `random`, `latin_hypercube`, `sobol`: samples; equal points count once.
+///
+/// Every mistake is an Error that names place and key.
 std::vector<nlohmann::json> read_design(ConfigObject& entry, const ParameterSet& declared);
 
-/// Its keys, for a technique with these parameters.
+/// The keys of a design, for a technique with these parameters.
 Keys design_keys(const ParameterSet& declared);
 
-/// [from, to], with `more` numbers behind.
+/// The values [from, to], followed by `more` numbers.
 Values range_values(int more);
 
-/// Fails unless `axis` is what an axis of a sample may be: an array of values that the parameter may have, or
-/// {"lin": [from, to]} or {"log": [from, to]} of such; `at` begins the message.
+/// Fails with Error unless `axis` is a valid axis of a sample: an array of values that the parameter may have, or
+/// {"lin": [from, to]} or {"log": [from, to]} within its range. `at` begins the message.
 void check_sample_axis(const nlohmann::json& axis, const ParameterSet& declared, const std::string& name,
                        const std::string& at);
 
-/// The value as the declared parameter holds it. Fails unless there is one of that name, which may have the value;
-/// `where` begins the message.
+/// The value in the declared parameter's type. Fails with Error if no parameter has this name, or if it may not have
+/// the value; `where` begins the message.
 nlohmann::json checked_value(const ParameterSet& declared, const std::string& name, const nlohmann::json& value,
                              const std::string& where);

@@ -28,13 +28,14 @@ bool is_name(const std::string& text) {
 std::string name_in(JsonObject& object, const std::string& key, const std::string& fallback) {
     const std::string name = fallback.empty() ? object.text(key) : object.text(key, fallback);
     if (!is_name(name))
-        fail(object.at(key), ": '", key, "' = ", shown(name), " is no name: letters, digits, '_', '-' and '.' are");
+        fail(object.at(key), ": '", key, "' = ", shown(name),
+             " is not a valid name; use letters, digits, '_', '-' and '.' only");
     return name;
 }
 
 std::string stated(JsonObject& object, const std::string& key) {
     const std::string text = object.text(key);
-    if (text.empty()) fail(object.at(key), ": '", key, "' is empty; say which, or \"unknown\"");
+    if (text.empty()) fail(object.at(key), ": '", key, "' is empty; name it, or write \"unknown\"");
     return text;
 }
 
@@ -51,7 +52,7 @@ nlohmann::json read_settings(JsonObject& object) {
 
 void refuse_own_name(JsonObject& object, const std::string& name) {
     if (std::ranges::find(technique_table(), name, &TechniqueEntry::name) != technique_table().end())
-        fail(object.at("name"), ": 'name' = \"", name, "\" is a technique of ssrlab: call the images' otherwise");
+        fail(object.at("name"), ": 'name' = \"", name, "\" is a technique of ssrlab; give the images another name");
 }
 
 std::string frame_name(const Shot& shot, unsigned frame, const std::string& kind) {
@@ -105,7 +106,7 @@ std::shared_ptr<const ExternalImages> read_external_images(const fs::path& folde
     std::error_code error;
     const fs::path file = path_inside(folder, description);
     if (!fs::is_regular_file(file, error))
-        fail(where, ": ", folder.string(), " holds no ", description, ", which says what rendered the images there");
+        fail(where, ": ", folder.string(), " holds no ", description, "; write one that says what rendered the images");
     const JsonDocument document = read_json_document(file);
     JsonObject object(document, file.string());
     auto images = std::make_shared<ExternalImages>();
@@ -126,7 +127,7 @@ std::shared_ptr<const ExternalImages> read_external_images(const fs::path& folde
 }
 
 std::string why_not_external(const Shot& shot) {
-    if (shot.config.repeat > 1) return "it renders a pose several times, of which external images have one";
-    if (shot.config.change) return "it measures what is left after a change, frame by frame";
+    if (shot.config.repeat > 1) return "it has a 'repeat', but external images show each pose once";
+    if (shot.config.change) return "it has a 'change', after which ghosts are measured for techniques only";
     return "";
 }

@@ -144,7 +144,8 @@ void read_entry(JsonObject entry, const std::optional<std::vector<unsigned>>& st
     const std::string name = read_technique_name(entry, folder);
     const auto plain = make_checked(entry.at("technique"), name);
     ConfigObject object(std::move(entry), kept_keys(name, *plain));
-    if (object.has("remove")) fail(object.at("remove"), ": 'remove' is for a config that 'extends' another");
+    if (object.has("remove"))
+        fail(object.at("remove"), ": 'remove' needs a config that 'extends' another; delete the entry instead");
     object.has("technique");
     const std::vector<std::string> presets = object.texts("preset");
     for (const std::string& preset : presets) make_checked(object.at("preset"), name, {}, preset);
@@ -164,8 +165,8 @@ void read_entry(JsonObject entry, const std::optional<std::vector<unsigned>>& st
                         .conditions = read_conditions(object, plain->params)};
     object.finish();
     if (techniques.size() + presets.size() * points.size() > most_points)
-        fail(object.where(), ": with it the study has ", techniques.size() + presets.size() * points.size(),
-             " points; allowed are ", most_points);
+        fail(object.where(), ": with this entry the study has ", techniques.size() + presets.size() * points.size(),
+             " points; at most ", most_points, " are allowed");
     const size_t before = techniques.size();
     for (const std::string& preset : presets)
         for (const nlohmann::json& values : points) {
@@ -179,14 +180,15 @@ void read_entry(JsonObject entry, const std::optional<std::vector<unsigned>>& st
                               .against = against};
             if (complete_point(point, shared, object)) techniques.push_back(std::move(point));
         }
-    if (techniques.size() == before) fail(object.where(), ": its conditions leave none of its points");
+    if (techniques.size() == before) fail(object.where(), ": the conditions of this entry exclude all of its points");
     refuse_unread(std::span(techniques).subspan(before), object.where());
 }
 
 /// `folder`: of the config.
 void read_external_entry(JsonObject entry, const std::filesystem::path& folder, std::vector<PointConfig>& techniques) {
     ConfigObject object(std::move(entry), external_keys());
-    if (object.has("remove")) fail(object.at("remove"), ": 'remove' is for a config that 'extends' another");
+    if (object.has("remove"))
+        fail(object.at("remove"), ": 'remove' needs a config that 'extends' another; delete the entry instead");
     const std::shared_ptr<const ExternalImages> images =
         read_external_images(folder / object.get<std::string>("external"), object.at("external"));
     PointConfig point{.technique = images->name,
@@ -228,36 +230,34 @@ Keys technique_keys(const Technique& technique) {
     const Values parameters = {technique.params.schema(), "an object of parameter values", {}, {{"type", "object"}}};
     const Keys keys = {
         {"technique", any_text(), required,
-         "a name from `ssrlab list techniques`, or with a `/` in it the folder of a technique of your own, from the "
-         "config's: "
-         "`./my_ssr`"},
+         "Name from `ssrlab list techniques`, or the folder of your own technique, relative to the config and with a "
+         "`/` in it: `./my_ssr`"},
         {"preset", some_of(any_text()), Default("", "none"),
-         "what its points start from: names from `ssrlab list presets`"},
+         "Presets to start from, by their names in `ssrlab list presets`"},
         {"parameters", parameters, none,
-         "values in place of the preset's or default ones: `ssrlab describe TECHNIQUE` explains them"},
+         "Values of parameters, which replace those of the preset. `experiments/docs/reference/techniques` lists the "
+         "parameters"},
         {"label", any_text(), Default("", "its name"),
-         "how report, figures and tables show a point, with parameters and `{preset}` filled in"},
-        {"group", any_text(), Default("", "none"), "what several points belong to, with the same braces"},
-        {"seeds", seeds(), otherwise("the study's"), "in place of the study's, and obeyed to the letter"},
-        {"baseline", flag(), false,
-         "every other point is compared with this one, over the seeds that both have, in `effects.csv`"},
+         "Name of a point in reports, figures and tables; names of parameters in braces and `{preset}` are filled in"},
+        {"group", any_text(), Default("", "none"), "Name of a group of points, with the same braces"},
+        {"seeds", seeds(), otherwise("the study's"), "Seeds of these points, which replace those of the study"},
+        {"baseline", flag(), false, "Compare every other point with this one, over their common seeds (`effects.csv`)"},
         {"against", parameters, otherwise("nothing"),
-         "such as `{\"estimator\": \"a\"}`: each of its points is compared with the point that has these values and is "
-         "otherwise the same"},
-        {"timing", flag(), true, "false: results only, no times"},
-        {"remove", flag(), otherwise("false"), "takes the entry away from what the config `extends`"}};
+         "Values of parameters, for example `{\"estimator\": \"a\"}`. Each point is compared with the point that has "
+         "these values and is otherwise the same"},
+        {"timing", flag(), true, "`false`: errors are measured, but no times"},
+        {"remove", flag(), otherwise("false"), "Removes this entry from the config that this config `extends`"}};
     return joined(joined(keys, design_keys(technique.params)), condition_keys());
 }
 
 Keys external_keys() {
-    return {{"external", any_text(), required,
-             "a folder of images that another program rendered, by its path from the config's: see \"Images of other "
-             "programs\""},
-            {"point", any_text(), otherwise("what external.json says"), "what results call these images"},
-            {"label", any_text(), Default("", "its name"), "how report, figures and tables show them"},
-            {"group", any_text(), Default("", "none"), "what several points belong to"},
-            {"baseline", flag(), false, "as of a technique"},
-            {"remove", flag(), otherwise("false"), "takes the entry away from what the config `extends`"}};
+    return {
+        {"external", any_text(), required, "Folder of images that another program rendered, relative to the config"},
+        {"point", any_text(), otherwise("what external.json says"), "Name of these images in results"},
+        {"label", any_text(), Default("", "its name"), "Name of these images in reports, figures and tables"},
+        {"group", any_text(), Default("", "none"), "Name of a group of points"},
+        {"baseline", flag(), false, "Compare every other point with these images"},
+        {"remove", flag(), otherwise("false"), "Removes this entry from the config that this config `extends`"}};
 }
 
 Values seeds() { return counts(100000); }

@@ -3,17 +3,16 @@
 #include "experiments/study/config/keys.h"
 #include "variants/registry.h"
 
-/// An entry of `techniques` that names this one.
+/// The keys of an entry of `techniques` that names this technique.
 Keys technique_keys(const Technique& technique);
 
-/// An entry of `techniques` that names images of another program.
+/// The keys of an entry of `techniques` that names another program's images.
 Keys external_keys();
 
-/// The key `seeds` of a study or an entry; read_seeds() has none if it names none.
+/// The key `seeds` of a study or an entry. read_seeds() returns nullopt if the object lacks it.
 Values seeds();
 std::optional<std::vector<unsigned>> read_seeds(ConfigObject& object);
 
-/// The key `techniques` of a study, with its `seeds`: all points, in the order of their entries. Every mistake is an
-/// Error that names place and key.
-/// `folder`: that of the config, from which its entries name others.
+/// Reads the keys `techniques` and `seeds` of a study: all points, in the order of their entries. `folder` is the
+/// config's, to which paths in entries are relative. Every mistake is an Error that names place and key.
 std::vector<PointConfig> read_techniques(ConfigObject& study, const std::filesystem::path& folder);

@@ -4,11 +4,12 @@
 
 #include <memory>
 
-/// The technique of a point, with the point's values; of external images one without parameters, which cannot render.
+/// The technique of a point, with the point's values. External images give a technique without parameters that cannot
+/// render.
 std::unique_ptr<Technique> technique_of(const PointConfig& point);
 
-/// With other values in place of the point's own.
+/// The point's technique with these values instead of the point's.
 std::unique_ptr<Technique> technique_of(const PointConfig& point, const nlohmann::json& parameters);
 
-/// The same technique with its defaults.
+/// The point's technique with its defaults.
 std::unique_ptr<Technique> plain_technique_of(const PointConfig& point);

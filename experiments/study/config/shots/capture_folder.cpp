@@ -25,7 +25,8 @@ std::map<unsigned, fs::path> frame_folders(const fs::path& folder) {
         if (failure != std::errc() || end != last)
             fail(entry.path().string(), ": a frame's folder is called ", frame_prefix, "<number>");
         if (!folders.emplace(number, path_inside(folder, name)).second)
-            fail(entry.path().string(), ": frame ", number, " is there twice, as ", folders[number].string(), ", too");
+            fail(entry.path().string(), ": frame ", number, " is there twice, also as ", folders[number].string(),
+                 "; remove one of both");
     }
     if (error && error != std::errc::no_such_file_or_directory && error != std::errc::not_a_directory)
         fail_machine("cannot read ", folder.string(), ": ", error.message());
@@ -40,7 +41,7 @@ std::map<unsigned, fs::path> capture_frames(const fs::path& folder) {
     std::map<unsigned, fs::path> folders = frame_folders(folder);
     if (is_single && !folders.empty())
         fail(folder.string(), " holds both a gbuffer.exr and folders ", frame_prefix,
-             "<number>: is it one frame, or several?");
+             "<number>; keep the file for a single frame, the folders for several");
     if (!is_single && folders.empty())
         fail(folder.string(), " is no capture: it holds neither a gbuffer.exr nor folders ", frame_prefix,
              "<number> with one each");

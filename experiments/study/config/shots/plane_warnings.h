@@ -1,6 +1,6 @@
 #pragma once
 #include "experiments/study/config/shots/shot.h"
 
-/// What a user should know of the planes of a shot's camera, from its first frame and before anything is rendered: in
-/// how many pixels they cut surfaces, and where they leave too little precision in the depth format that the shot has.
+/// Warnings about the near and far planes of a shot's camera, from its first frame, before anything is rendered. They
+/// say in how many pixels the planes cut surfaces, and where the shot's depth format has too little precision.
 std::vector<SceneWarning> plane_warnings(const Shot& shot);

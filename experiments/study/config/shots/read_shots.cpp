@@ -31,46 +31,44 @@ template <class Use>
 void for_each_choice(Use use) {
     static const Words<bool> lit = {
         "lit",
-        "what SSR reads: `path_traced`, the truth's own emission and diffuse light, or `direct`, rasterised direct "
-        "light without shadows, for large scans; the report says so",
+        "Lit image that techniques read. `path_traced`: emission and diffuse light of the truth. `direct`: rasterised "
+        "direct light without shadows, for very large scenes; the report says so",
         {{"path_traced", false}, {"direct", true}},
         &ShotConfig::direct_lit};
-    static const Words<bool> specular = {"lit_specular",
-                                         "what that image holds of specular light: `none`, so that what is reflected "
-                                         "shows no reflections, a metal only its "
-                                         "emission; or `environment`, as engines have it: the prefiltered "
-                                         "environment's, times F0 A + F90 B. What techniques find "
-                                         "replaces it in the composite",
-                                         {{"none", false}, {"environment", true}},
-                                         &ShotConfig::lit_has_environment};
+    static const Words<bool> specular = {
+        "lit_specular",
+        "Specular light in the lit image. `none`: reflections of reflections are black, and metals show only their "
+        "emission. `environment`: the prefiltered environment times F0 A + F90 B, as in engines; reflections that a "
+        "technique finds replace it",
+        {{"none", false}, {"environment", true}},
+        &ShotConfig::lit_has_environment};
     static const Words<bool> fallback = {
         "fallback",
-        "what reflections show where a technique finds nothing: the `environment`, or a reflection `probe` as engines "
-        "place them in rooms, path traced at the camera's place in the shot's first frame. Without one, what a miss "
-        "takes from a bright sky decides the error in a room",
+        "What reflections show where a technique finds nothing. `environment`: the scene's environment. `probe`: a "
+        "reflection probe, path-traced at the camera's place in the first frame. In a room use `probe`: otherwise the "
+        "bright sky behind the walls decides the error",
         {{"environment", false}, {"probe", true}},
         &ShotConfig::has_probe};
     static const Words<DepthFormat> formats = {
         "depth_format",
-        "of the depth buffer",
+        "Format of the depth buffer",
         {{"d32f", DepthFormat::d32f}, {"d24", DepthFormat::d24}, {"d16", DepthFormat::d16}},
         &ShotConfig::depth_format};
     static const Words<DepthDirection> directions = {
         "depth_direction",
-        "of the depth buffer",
+        "Direction of depth. `reversed`: 1 at the near plane, 0 at the far plane",
         {{"standard", DepthDirection::standard}, {"reversed", DepthDirection::reversed}},
         &ShotConfig::depth_direction};
     static const Words<unsigned> normals = {
         "normal_encoding",
-        "of the shading normals that techniques and composite read: two numbers of 16 or 8 bits are `octahedral_16` "
-        "and `octahedral_8` (Cigolle et al. 2014). The truth has its own",
+        "Encoding of the shading normals that techniques and composite read. `octahedral_16` and `octahedral_8` store "
+        "two numbers of 16 or 8 bits (Cigolle et al. 2014). The truth is not affected",
         {{"float", 0}, {"octahedral_16", 16}, {"octahedral_8", 8}},
         &ShotConfig::normal_bits};
     static const Words<GBufferFormats> gbuffers = {
         "gbuffer_formats",
-        "in which techniques and composite find the G-buffer: `exact`, mostly floats of 32 bits, or `packed`, as "
-        "engines "
-        "have it: halves, base colour and metalness in bytes, about half of the bytes. The truth has its own",
+        "Formats of the G-buffer that techniques and composite read. `exact`: mostly 32-bit floats. `packed`: half "
+        "floats and bytes, as in engines, about half the size. The truth is not affected",
         {{"exact", GBufferFormats::exact}, {"packed", GBufferFormats::packed}},
         &ShotConfig::gbuffer_formats};
     use(lit), use(specular), use(fallback), use(formats), use(directions), use(normals), use(gbuffers);
@@ -97,7 +95,7 @@ template <class Change>
 std::vector<ShotConfig> multiplied(const std::vector<ShotConfig>& shots, size_t count, const std::string& where,
                                    Change change) {
     if (shots.size() * count > most_shots)
-        fail(where, " makes ", shots.size() * count, " shots of one entry; allowed are ", most_shots);
+        fail(where, " makes ", shots.size() * count, " shots from one entry; at most ", most_shots, " are allowed");
     std::vector<ShotConfig> all;
     for (const ShotConfig& shot : shots)
         for (size_t i = 0; i < count; ++i) change(all.emplace_back(shot), i);
@@ -210,14 +208,15 @@ std::vector<std::string> read_scenes(ConfigObject& shot) {
     for (const char* key : {"count", "first"})
         if (shot.has(key) && std::ranges::none_of(names, names_several))
             fail(shot.at(key), ": '", key,
-                 "' counts scenes of a family: name one as in \"scene\": \"room:*\", or leave the key out");
+                 "' needs a family of scenes; write, for example, \"scene\": \"room:*\", or remove the key");
     for (const std::string& name : names) {
         if (!names_several(name)) {
             scenes.push_back(name);
             continue;
         }
         if (!shot.has("count"))
-            fail(shot.at("scene"), ": 'scene' = \"", name, "\" stands for several: say how many in 'count'");
+            fail(shot.at("scene"), ": 'scene' = \"", name,
+                 "\" stands for several scenes; give their number as 'count'");
         try {
             std::ranges::move(scenes_in_a_row(name, shot.get<unsigned>("first"), shot.get<unsigned>("count")),
                               std::back_inserter(scenes));
@@ -277,45 +276,44 @@ void refuse_repetition(const std::vector<ShotConfig>& shots, const std::string& 
 }  // namespace
 
 Keys scene_keys() {
-    return {
-        {"scene", some_of(any_text()), required,
-         "names from `ssrlab list scenes`, or paths to a .json, .gltf or .glb. `room:17` is a scene by its number, "
-         "`room:*` "
-         "several in a row; likewise `street:`"},
-        {"count", whole(1, most_shots), otherwise("none"), "how many scenes `room:*` stands for"},
-        {"first", whole(0, largest_scene_number), 0, "the number of the first of them"},
-        {"camera", some_of(any_text()), Default("", "the scene's first"), "names of its cameras"},
-        {"resolution", extents(), otherwise("the study's"), "in pixels"},
-        {"frames", either(playing(), array_of(either(ascending(max_frames), frame_range()))),
-         nlohmann::json::array({0}),
-         "the poses of camera and scene, rendered in this order; an array of arrays or ranges makes several shots"}};
+    return {{"scene", some_of(any_text()), required,
+             "Names from `ssrlab list scenes`, or paths to .json, .gltf or .glb files. `room:17` is one room by its "
+             "number, and `room:*` is several in a row; the same holds for `street:`"},
+            {"count", whole(1, most_shots), otherwise("none"), "Number of scenes that `room:*` stands for"},
+            {"first", whole(0, largest_scene_number), 0, "Number of the first of these scenes"},
+            {"camera", some_of(any_text()), Default("", "the scene's first"), "Names of cameras of the scene"},
+            {"resolution", extents(), otherwise("the study's"), "Resolution in pixels"},
+            {"frames", either(playing(), array_of(either(ascending(max_frames), frame_range()))),
+             nlohmann::json::array({0}),
+             "Frames to render, in this order; each is a pose of camera and scene. An array of arrays or ranges makes "
+             "several shots"}};
 }
 
 Keys capture_keys() {
     return {{"gbuffer", any_text(), required,
-             "the folder of a frame of another program or of several in a row (captures/README.md)"},
-            {"reference", any_text(), otherwise("none: results are rendered and timed, not measured"),
-             "files as `ssrlab reference` writes them, `truth_####.exr` one for each frame, without `#` one for all"},
-            {"frames", playing(), otherwise("all that are there"), "of which none may be left out between others"}};
+             "Folder of a captured frame or of a captured sequence (`experiments/bridges/captures/README.md`)"},
+            {"reference", any_text(), otherwise("none: results are timed but not measured"),
+             "Truth, as `ssrlab reference` writes it: one file, or `truth_####.exr` with one file for each frame"},
+            {"frames", playing(), otherwise("all that are there"), "Frames to render, without gaps"}};
 }
 
 Keys keys_of_all_shots() {
     const ShotConfig plain;
     Keys keys = {{"warm_up", whole(0, max_frames), plain.warm_up,
-                  "frames rendered at the first pose before it is played, so that histories converge; not measured"},
+                  "Frames rendered at the first pose before the measurement, so that histories converge"},
                  {"repeat", whole(1, max_frames), plain.repeat,
-                  "how often the last pose is rendered in a row. In a shot of a single frame its flicker is measured, "
-                  "from 2 repetitions on"},
+                  "How often the last pose is rendered in a row. With 2 or more repetitions of a single frame, flicker "
+                  "is measured"},
                  {"change", whole(1, max_frames), otherwise("no step"),
-                  "one of `frames`, the first after a step of the scene, after which all stands still for 8 frames or "
-                  "more: how long the old image ghosts is measured"},
-                 {"measure", one_of({"all", "last"}), "all", "which of `frames` are measured"},
+                  "First of `frames` after a step of the scene. At least 8 frames must follow without motion. The "
+                  "length of the ghost is then measured"},
+                 {"measure", one_of({"all", "last"}), "all", "Frames that are measured: all `frames`, or the last"},
                  {"measure_from", whole(0, max_frames), otherwise("the first"),
-                  "the first of `frames` that is measured: those before let histories get used to the motion"},
+                  "First frame that is measured. Earlier frames fill histories"},
                  {"label", any_text(), Default("", "its name"),
-                  "how tables and figures show the shot, with `{scene}`, `{camera}`, `{resolution}`, `{first_frame}`, "
-                  "`{last_frame}` and `{settings}` filled in"},
-                 {"group", any_text(), Default("", "none"), "what several shots belong to, with the same braces"}};
+                  "Name of the shot in tables and figures; `{scene}`, `{camera}`, `{resolution}`, `{first_frame}`, "
+                  "`{last_frame}` and `{settings}` are filled in"},
+                 {"group", any_text(), Default("", "none"), "Name of a group of shots, with the same braces"}};
     for_each_choice([&](const auto& choice) {
         keys.push_back({choice.key, some_of(one_of(choice.names())), otherwise("the study's"), choice.meaning});
     });
@@ -324,7 +322,7 @@ Keys keys_of_all_shots() {
 
 Keys settings_of_shots() {
     Keys keys = {{"resolution", extents(), nlohmann::json::array({ShotConfig{}.extent.x, ShotConfig{}.extent.y}),
-                  "of shots that have none of their own, in pixels"}};
+                  "Resolution in pixels of shots without their own"}};
     for_each_choice([&](const auto& choice) {
         keys.push_back({choice.key, some_of(one_of(choice.names())), choice.values.front().first, choice.meaning});
     });
@@ -334,7 +332,7 @@ Keys settings_of_shots() {
 Values list_of_shots() {
     const Keys common = keys_of_all_shots();
     const Values entry = either(object_of(joined(scene_keys(), common)), object_of(joined(capture_keys(), common)));
-    return named(checked_inside(array_of(entry), "array"), "an array of shots, below");
+    return named(checked_inside(array_of(entry), "array"), "an array of shots");
 }
 
 std::vector<ShotConfig> read_shots(ConfigObject& object, ConfigObject& study, const std::filesystem::path& folder) {
@@ -343,7 +341,8 @@ std::vector<ShotConfig> read_shots(ConfigObject& object, ConfigObject& study, co
         const std::string where = entry.where();
         std::ranges::move(read_entry(std::move(entry), study, folder), std::back_inserter(shots));
         if (shots.size() > most_shots)
-            fail(where, ": with it the study has ", shots.size(), " shots; allowed are ", most_shots);
+            fail(where, ": with this entry the study has ", shots.size(), " shots; at most ", most_shots,
+                 " are allowed");
     }
     refuse_repetition(shots, object.where());
     return shots;

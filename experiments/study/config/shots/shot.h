@@ -11,12 +11,12 @@
 
 /// One frame that is rendered.
 struct FrameStep {
-    unsigned index = 0;                      ///< how many were rendered before it
-    unsigned frame = 0;                      ///< its pose
-    std::optional<unsigned> previous_frame;  ///< pose of the one rendered before; none: it is the first
+    unsigned index = 0;                      ///< number of steps before this one
+    unsigned frame = 0;                      ///< the frame, which gives the pose
+    std::optional<unsigned> previous_frame;  ///< frame of the step before; none: this is the first step
     bool is_warm_up = false;
-    bool is_held = false;      ///< one of the last pose's repetitions, its first rendering included
-    bool is_measured = false;  ///< the last rendering of a frame that is to be measured
+    bool is_held = false;      ///< one of the last pose's repetitions, including the first
+    bool is_measured = false;  ///< the last rendering of a measured frame
 };
 
 /// The frames that are rendered, in order: warm-up, each of the shot's frames, repetitions of the last.
@@ -25,7 +25,7 @@ std::vector<FrameStep> timeline(const ShotConfig& config);
 /// Which images of a rendering are kept.
 enum class StepImages { none, reflections, all };
 
-/// A camera of a loaded scene: what a ShotConfig names.
+/// A loaded ShotConfig: scene, camera and frames.
 struct Shot {
     ShotConfig config;
     Scene scene;
@@ -33,17 +33,17 @@ struct Shot {
     SceneFacts facts;
     std::vector<FrameStep> steps;
 
-    /// `<scene>.<camera>.<width>x<height>`, then, where they are not the default: `.f<frame>` or `.f<first>-<last>`
-    /// (and `.n<count>` where some between are left out), `.w<warm-up>`, `.r<repetitions>`, and what is not the study's
-    /// own of `.direct`, `.d16`, `.reversed`, `.octahedral_8` and the like.
+    /// `<scene>.<camera>.<width>x<height>`, followed by what is not the default: `.f<frame>` or `.f<first>-<last>` (and
+    /// `.n<count>` if frames between are left out), `.w<warm-up>`, `.r<repetitions>`, and settings that differ from the
+    /// study's: `.direct`, `.d16`, `.reversed`, `.octahedral_8` and others.
     std::string name() const;
 
-    /// What a study that keeps `kept` keeps of one of `steps`.
+    /// Which images of a step are kept by a study that keeps `kept`.
     StepImages images_of(const FrameStep& step, KeptImages kept) const;
 };
 
-/// Its scene's warnings hold those of the camera's planes, too. Fails with Error if the scene or the camera is unknown
-/// (with a near miss) or broken.
+/// Loads the scene and finds the camera; the scene's warnings include plane_warnings(). Fails with Error if scene or
+/// camera is unknown (with the nearest name) or broken.
 Shot load_shot(const ShotConfig& config, const std::vector<std::filesystem::path>& search_path);
 
 /// Scene and camera at one frame of a shot.

@@ -9,16 +9,16 @@
 #include <map>
 #include <set>
 
-/// The pipelines that stages of a frame use, each once, in the order in which they first ran.
+/// The pipelines that a frame's stages use, each once, in the order of first use.
 class StagePipelines : private PassWatcher {
 public:
-    /// Hears of all passes of `pass_list` from now on, which take the forms that they have for GPUs. It must outlive
-    /// what the pass_list renders.
+    /// Collects the pipelines of all later passes of `pass_list`, which then take their forms for GPUs. This object
+    /// must outlive the rendering.
     void collect_from(PassList& pass_list);
 
     struct Entry {
         std::string stage;
-        unsigned number;  ///< within its stage
+        unsigned number;  ///< counts pipelines within the stage
         PipelineRecipe recipe;
     };
     const std::vector<Entry>& entries() const { return entries_; }
@@ -31,9 +31,9 @@ private:
     std::map<std::string, unsigned> count_;
 };
 
-/// Of the first two frames of a shot, which know no history and one. Empty of a technique whose rays ask the scene
-/// where they truly end: it stands for no passes that an engine could have. `lit` gives the colour (RGB) that the
-/// technique reads.
+/// The pipelines of a shot's first two frames: one without history, one with history. Empty for a technique whose rays
+/// ask the scene where they end, since no engine has such passes. `lit` gives the colour (RGB) that the technique
+/// reads.
 StagePipelines stage_pipelines(Device& device, const Shot& shot, FrameStore& store,
                                const std::function<const HostImage&(const FrameStep&)>& lit, const PointConfig& point,
                                bool keep_all);
@@ -42,24 +42,24 @@ StagePipelines stage_pipelines(Device& device, const Shot& shot, FrameStore& sto
 struct GpuCompilers {
     struct Entry {
         Chip chip;            ///< without device and driver where there is a refusal
-        std::string refusal;  ///< why nothing can be compiled for it on this machine; the study goes on
+        std::string refusal;  ///< why this machine cannot compile for the chip; the study goes on
     };
     std::vector<Entry> entries;
 };
 /// Fails with Error on a chip that radv does not know.
 GpuCompilers find_compilers(const std::vector<std::string>& chips);
 
-/// Why a compiler that is there gave no numbers of a shader; "" if there is no such. It may have been killed, or lacked
-/// memory: another try may succeed.
+/// Why an installed compiler gave no numbers for a shader; "" if all have numbers. The compiler may have been killed or
+/// lacked memory: another try may succeed.
 std::string refusal_in(const std::vector<CompiledRow>& rows);
 
-/// compiled_rows() of all chips; of those with a refusal a row for each stage, which has no numbers.
+/// compiled_rows() of all chips. A chip with a refusal has one row for each stage, without numbers.
 std::vector<CompiledRow> compiled_rows(const StagePipelines& pipelines, const std::string& shot,
                                        const PointConfig& point, const GpuCompilers& compilers,
                                        const ChipCompilation& how);
 
-/// What the compiler of `chip` makes of the pipelines: rows of compiled.csv, of the shot of that name. With
-/// `how.has_assembly`, `assembly` gets each row's text.
+/// Compiles the pipelines for `chip`: rows of compiled.csv of this shot. With `how.has_assembly`, `assembly` gets each
+/// row's text.
 std::vector<CompiledRow> compiled_rows(const StagePipelines& pipelines, const std::string& shot,
                                        const PointConfig& point, const Chip& chip, const ChipCompilation& how,
                                        std::vector<std::string>* assembly = nullptr);

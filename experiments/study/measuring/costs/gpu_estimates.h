@@ -2,18 +2,18 @@
 #include "experiments/study/measuring/costs/compiled_shaders.h"
 #include "experiments/study/measuring/costs/traced_frame.h"
 
-// How long a GPU that is not there would take: what its compiler makes of each pass, as often as waves of the chip's
-// width would run each block of it, against the chip's published rates. experiments/gpu_costs/chips/README.md
-// says what is assumed.
+// Estimated time on a GPU that the machine does not have. The chip's compiler gives the code of each pass; a replay of
+// the chip's waves gives how often each block runs; published rates give the time. Assumptions:
+// experiments/gpu_costs/chips/README.md.
 
-/// Rows of estimates.csv, of the shot of that name: the stages of the frame, and their `total`. A chip that cannot be
-/// asked, a shader that it refuses and a chip without published rates are rows without numbers.
+/// Rows of estimates.csv of this shot: the frame's stages and their `total`. A chip that cannot be compiled for, a
+/// shader that its compiler refuses, and a chip without published rates give rows without numbers.
 std::vector<EstimateRow> estimate_rows(const TracedFrame& frame, const std::string& shot, const PointConfig& point,
                                        const GpuCompilers& compilers, const ChipCompilation& how);
 
-/// The same of a frame that could not be traced.
+/// Rows of estimates.csv for a frame that could not be traced: refusals, with `why`.
 std::vector<EstimateRow> refused_estimates(const std::string& why, const std::string& shot, const PointConfig& point,
                                            const GpuCompilers& compilers);
 
-/// What a compiler that is there refused, or did not get to; "" if nothing.
+/// The first refusal by an installed compiler, or what it did not finish; "" if there is none.
 std::string refusal_in(const std::vector<EstimateRow>& rows);

@@ -6,8 +6,8 @@
 
 #include <functional>
 
-/// Renders the frames of a shot with a technique point's first seed, so that histories are as in the shot; `watch` is
-/// called before the last. `lit` gives the colour (RGB) that the technique reads; `report` gets the share done.
+/// Renders all frames of a shot with a point's first seed, so that histories are as in the shot. `watch` is called
+/// before the last frame. `lit` gives the colour (RGB) that the technique reads; `report` gets the share done.
 void play_shot(PassList& pass_list, Technique& technique, const Shot& shot, FrameStore& store,
                const std::function<const HostImage&(const FrameStep&)>& lit, const PointConfig& point,
                const std::function<void()>& watch, const std::function<void(double)>& report);

@@ -8,22 +8,22 @@
 #include <functional>
 #include <map>
 
-/// What a point's passes did in the last frame of a shot, with its first seed, in their forms for GPUs.
+/// A record of a point's passes, in their forms for GPUs, in the last frame of a shot with its first seed.
 struct TracedFrame {
     struct Pass {
         std::string stage;
-        PipelineRecipe original, recipe;  ///< as the pass has it, and as simplified() gave it
+        PipelineRecipe original, recipe;  ///< the pass's own, and simplified() of it
         ShaderFlow flow;
-        unsigned groups = 0;  ///< all of the pass
-        /// By the lanes of a wave: what the waves of each group did that was traced.
+        unsigned groups = 0;  ///< number of groups in the pass
+        /// By lanes of a wave: counts of the waves of each traced group.
         std::map<unsigned, std::vector<WaveCounts>> traced;
     };
-    std::vector<Pass> passes;     ///< each run of each
+    std::vector<Pass> passes;     ///< one entry for each run of a pass
     std::vector<PassCost> costs;  ///< by stage
 };
 
-/// Renders the shot twice: the last frame is counted once and traced once. Empty of a technique whose rays ask the
-/// scene where they truly end. `lit` gives the colour (RGB) that the technique reads; `report` gets the share done.
+/// Renders the shot twice: its last frame is counted once and traced once. Empty for a technique whose rays ask the
+/// scene where they end. `lit` gives the colour (RGB) that the technique reads; `report` gets the share done.
 TracedFrame trace_last_frame(Device& device, const Shot& shot, FrameStore& store,
                              const std::function<const HostImage&(const FrameStep&)>& lit, const PointConfig& point,
                              bool keep_all, const std::function<void(double)>& report);

@@ -7,24 +7,30 @@
 #include <memory>
 #include <optional>
 
-/// G-buffers from files in place of a scene: a folder with one (gbuffer_file.h), or with several in a row, in folders
-/// frame_<number> of their own. An environment.json beside them is for rays that hit nothing.
+/// G-buffers from files instead of a scene. A capture is a folder with one G-buffer (gbuffer_file.h), or with several
+/// consecutive ones in folders frame_<number>. An environment.json beside them gives the light of rays that hit
+/// nothing.
 ///
-/// The previous frame is the one played before: after the one that it follows in the capture,
-/// the file's motion vectors are used (without any, those of still objects are derived from depth and cameras); after
-/// itself, where a pose is held, nothing moves; after any other, which timing plays on its way back, objects stand
-/// still. Camera, depth and normal of before are always those of the frame played before.
+/// Motion vectors depend on the frame played before:
+///
+/// - the frame that precedes it in the capture: the file's motion vectors; without any, those of still objects, derived
+///   from depth and cameras;
+/// - the same frame, where a pose is held: nothing moves;
+/// - any other frame, which timing plays on its way back: objects stand still.
+///
+/// The previous camera, depth and normal are always those of the frame played before.
 class Capture {
 public:
-    /// Lists the frames. Fails with Error if there are none, or both kinds.
+    /// Lists the frames. Fails with Error if there are none, or if both kinds of folders exist.
     explicit Capture(const std::filesystem::path& folder);
 
-    const std::vector<unsigned>& frames() const { return frames_; }  ///< ascending; {0} of one without a number
+    const std::vector<unsigned>& frames() const { return frames_; }  ///< ascending; {0} for a single unnumbered frame
     const std::optional<Environment>& environment() const { return environment_; }
     const std::vector<std::string>& environment_notes() const { return environment_notes_; }  ///< what was converted
     const std::filesystem::path& folder_of(unsigned frame) const { return folders_.at(frame); }
 
-    /// From its files; valid until the next call, with an empty `fallback` layer filled from the environment.
+    /// The frame as read from its files; an empty `fallback` layer is filled from the environment. Valid until the next
+    /// call.
     const LoadedGBuffer& load(unsigned frame);
     HostGBuffer played(unsigned frame, std::optional<unsigned> previous);
 
@@ -40,27 +46,28 @@ private:
     std::vector<unsigned> loaded_order_;  ///< the oldest first
 };
 
-/// The shot of a capture without its facts: named by its folder; its content hash is that of the files. Reads no
-/// pixels. Fails with Error if frames are asked for that are not there, or that do not follow each other.
+/// The shot of a capture, named by its folder, without its facts. The content hash is that of the files. Reads no
+/// pixels. Fails with Error if frames are asked for that are missing or not consecutive.
 Shot capture_shot(const ShotConfig& config, const Capture& capture);
 
 /// What all frames of a shot hold.
 struct CaptureContents {
-    SceneFacts facts;                 ///< what is unknown counts as present, so that nothing is skipped for lack of it
+    SceneFacts facts;                 ///< unknown facts count as present, so that nothing is wrongly skipped
     bool has_lit = false;             ///< a lit colour of its own
-    std::vector<std::string> layers;  ///< of the first frame
-    std::vector<std::string> notes;   ///< sentences for the user, with the frames that they are about
+    std::vector<std::string> layers;  ///< layers of the first frame
+    std::vector<std::string> notes;   ///< sentences for the user that name the frames
 };
 
-/// Reads and checks all frames of a shot (gbuffer_checks.h). Fails with Error, naming the file, where a frame has
-/// another size, depth or projection than the first, a lit colour where another has none, or a camera or depth of
-/// before that are not those of the frame before it.
+/// Reads and checks all frames of a shot (gbuffer_checks.h). All must agree with the first frame in size, depth format,
+/// projection and the presence of a lit colour. Previous cameras and depths must be those of the frame before. Fails
+/// with Error that names the file.
 CaptureContents inspect_capture(const Shot& shot, Capture& capture);
 
-/// The reference of a frame: the last run of # in what the config says stands for its number, with leading zeros. A
-/// file whose name has these signs serves all frames: who has folders like "take#2" means no number.
+/// The reference file of a frame: the last run of # in the config's text stands for the frame number, with leading
+/// zeros. If a file has these signs in its own name, it serves all frames: a folder "take#2" means no number.
 std::filesystem::path capture_reference_file(const ShotConfig& config, unsigned frame);
 
-/// Fails if the reference has another size than the frame, was evidently made from another camera (its first hits must
-/// lie at the G-buffer's depths but for a few pixels at edges), or lacks the truth ladder that is needed.
+/// Reads the reference of a frame. Fails with Error if its size differs from the frame's, if it lacks a needed truth
+/// ladder, or if it shows another camera: first hits must lie at the G-buffer's depths, except for a few pixels at
+/// edges.
 Reference read_capture_reference(const Shot& shot, Capture& capture, unsigned frame, bool needs_ladder);

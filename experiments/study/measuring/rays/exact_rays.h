@@ -6,18 +6,19 @@
 #include "groundtruth/scene/camera_view.h"
 #include "groundtruth/scene/embree_scene.h"
 
-/// What rays that start from the pixels of one frame meet in the scene.
+/// True hits in the scene of rays that start from a frame's pixels.
 class ExactRays {
 public:
     /// `camera`: of the frame's G-buffer, without jitter. `shot` must outlive this.
     ExactRays(const Shot& shot, unsigned frame, const CameraData& camera);
 
-    /// In the order of the rays; of those that were not traced, or not asked for, a hit without meaning. Asked for is
-    /// one pixel in `every` along each axis. Rays start where the pixel's camera ray meets the scene, which the
-    /// G-buffer knows to the precision of its depth only. They go as the technique drew them; one
-    /// whose direction is not a number meets nothing (outcome_own_surface). A point is shown if it
-    /// lies within the image, on the side that faces the camera, and nothing hides it: that of points, as in the truth
-    /// ladder, not of pixels.
+    /// True hits, in the order of the rays. Only pixels at every `every`-th place along each axis are asked for; rays
+    /// of other pixels, and rays that were not traced, get a hit without meaning.
+    ///
+    /// Rays start where the pixel's camera ray meets the scene, as the G-buffer knows this place only to its depth's
+    /// precision. They keep the technique's direction; a direction that is not a number hits nothing
+    /// (outcome_own_surface). A point is shown if it lies within the image, on the side that faces the camera, and
+    /// nothing hides it. Visibility is tested for points, as in the truth ladder, not for pixels.
     std::vector<ExactHit> hits(const RecordedRays& recorded, unsigned every = 1) const;
 
 private:

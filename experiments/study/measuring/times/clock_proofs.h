@@ -7,11 +7,11 @@
 
 // Clock proofs as JSON: in the manifest, and kept in the cache.
 
-/// As manifest.json has it in clock.proofs (experiments/RESULTS.md).
+/// The entry of manifest.json's clock.proofs (experiments/docs/results_folder.md).
 nlohmann::json clock_entry(const ClockProof& proof);
 
-/// The proof of the clock that was kept in `folder` since the machine was started, of the same `maker` (provenance.h);
-/// else what `prove` gives, kept if it passed: proving takes five seconds, and a clock stays what it is. A file that
-/// cannot be read or written is as if it were not there; where the system does not tell its start, nothing is kept.
+/// The clock's proof that was kept in `folder` since the machine started, by the same `maker` (provenance.h). Else the
+/// result of `prove`, kept if it passed, since proving takes five seconds. Unreadable files count as absent, and
+/// failures to write are ignored. Nothing is kept where the system does not state its start.
 ClockProof kept_clock_proof(const std::filesystem::path& folder, const nlohmann::json& maker,
                             const std::function<ClockProof()>& prove);

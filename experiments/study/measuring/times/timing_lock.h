@@ -3,13 +3,13 @@
 #include <functional>
 #include <string>
 
-/// Held while times are taken: one process of all users of the machine at a time. Other work, of other ssrlab
-/// processes too, is not held back but measured (core/cpu_times.h).
+/// A lock that is held while times are taken, by one process of all users of the machine. Other work is not held back
+/// but measured (core/cpu_times.h).
 class TimingLock {
 public:
-    /// Waits until the lock is free, and says so to `notice` if it has to. Where the file cannot be opened there is no
-    /// lock, which `notice` is told as well. `file` by default: SSRLAB_TIMING_LOCK, else /tmp/ssrlab-timing.lock; it
-    /// stays, whoever made it, since only an advisory lock (flock) is put on it, for which reading it will do.
+    /// Waits until the lock is free; `notice` gets a sentence if it has to wait. If the file cannot be opened there is
+    /// no lock, and `notice` says so. `file`: SSRLAB_TIMING_LOCK, else /tmp/ssrlab-timing.lock. The file is never
+    /// removed, and reading permission suffices: the lock is advisory (flock).
     explicit TimingLock(const std::function<void(const std::string&)>& notice,
                         const std::filesystem::path& file = timing_lock_file());
     ~TimingLock();

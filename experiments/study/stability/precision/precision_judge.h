@@ -2,14 +2,14 @@
 #include "experiments/study/measuring/rays/exact_rays.h"
 #include "experiments/study/stability/precision/precision.h"
 
-/// A case as drawn, whose scene is asked where rays truly end.
+/// A drawn case whose scene answers where rays truly end.
 class PrecisionShot {
 public:
     explicit PrecisionShot(CaseFrames frames);
 
     const CaseFrames& frames() const { return frames_; }
-    /// Share of the rays of the last frame that end elsewhere than they do in the scene, by JudgedHits' rules: a wrong
-    /// place, a false hit, or a miss of what is shown. None without rays.
+    /// Share of the last frame's rays that end elsewhere than in the scene, by the rules of JudgedHits: a wrong place,
+    /// a false hit, or a miss of a visible point. None without rays.
     std::optional<double> wrong_share(const RecordedRays& recorded) const;
 
 private:
@@ -17,7 +17,7 @@ private:
     ExactRays exact_;
 };
 
-/// One technique in one case: each image in other formats, each stage in double.
+/// Judges one technique in one case: each image in other formats, each stage in double.
 class PrecisionJudge {
 public:
     PrecisionJudge(Device& device, const PrecisionShot& shot, PointConfig point)
@@ -46,7 +46,7 @@ private:
     Device& device_;
     const PrecisionShot& shot_;
     PointConfig point_;
-    PrecisionRun floats_;  ///< all in float
-    double error_ = 0;     ///< of it
+    PrecisionRun floats_;  ///< the run with all in float
+    double error_ = 0;     ///< error of `floats_`
     std::vector<PrecisionRow> rows_;
 };

@@ -7,14 +7,14 @@
 /// What one run changes about the arithmetic of a technique.
 struct PrecisionWish {
     PassChanges changes;
-    std::set<std::string> half_inputs;   ///< members of GBuffer that are stored in half; all others in float
-    bool is_recording = false;           ///< the rays of the last frame
-    std::vector<RecordedRays> replayed;  ///< of the last frame, in place of its own
+    std::set<std::string> half_inputs;   ///< members of GBuffer stored in half; all others in float
+    bool is_recording = false;           ///< records the rays of the last frame
+    std::vector<RecordedRays> replayed;  ///< rays for the last frame, instead of its own
 };
 
-/// What a stage left in one mip of an image in the last frame.
+/// The content that a stage left in one mip of an image, in the last frame.
 struct StageValue {
-    std::string stage, image;  ///< label of the pass; what the technique asked for the image by
+    std::string stage, image;  ///< label of the pass; the technique's name of the image
     unsigned mip = 0;
     Format format{};
     HostImage values;
@@ -24,20 +24,20 @@ struct PrecisionRun {
     HostImage specular;                        ///< RGB, of the last frame
     std::vector<std::string> stages;           ///< in the order of their first pass
     std::vector<StageValue> values;            ///< in the order of the passes
-    StageValue* find(const StageValue& like);  ///< the same stage's mip of the same image; null: none
+    StageValue* find(const StageValue& like);  ///< the value of the same stage, image and mip; null: none
     std::vector<RecordedRays> rays;
 };
 
-/// Renders the frames with seed 1. Fails with Error where the technique, or the device, cannot.
+/// Renders the frames with seed 1. Fails with Error where the technique or the device cannot do `wish`.
 PrecisionRun run_precisely(Device& device, const PointConfig& point, const CaseFrames& frames,
                            const PrecisionWish& wish);
 
-/// How far values are apart, each as |a - b| / max(|a|, |b|): 0 of equal ones, 1 where one of them is 0 or not finite.
-/// What is smaller than a millionth of the channel's median is as good as 0; values that are 0 in both do not count.
+/// Distances of values, each |a - b| / max(|a|, |b|): 0 for equal values, 1 where one is 0 or not finite. Values below
+/// a millionth of the channel's median count as 0; pairs that are 0 in both do not count.
 struct ValueChange {
     double median = 0, p999 = 0;
-    double differing = 0;  ///< share of values
+    double differing = 0;  ///< share of values that differ
 };
 ValueChange value_change(std::vector<double> differences);
-/// Adds those of each channel that both have; images of one size.
+/// Adds the distances in each channel that both images have; both have one size.
 void add_differences(const HostImage& a, const HostImage& b, std::vector<double>& differences);

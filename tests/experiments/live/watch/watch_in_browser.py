@@ -220,7 +220,7 @@ def check_bad_files(page, watched):
     news = page.until_problem("technique.json:")
     check(watched.folder in news["problem"]["text"], f"another folder is named: {news['problem']['text']}")
     shutil.move(watched.folder, watched.folder + "_gone")
-    page.until_problem("is no folder any more")
+    page.until_problem("is not a folder at the moment")
     shutil.move(watched.folder + "_gone", watched.folder)
     write(watched.file("technique.json"), declaration)
     page.until("an end of the problems", "page.news.problem === null && page.news.result.state === page.news.state")

@@ -59,7 +59,7 @@ TEST_F(WatchedFilesTest, CopiesWhatATechniqueHasAndNothingElse) {
     for (const fs::path& file : technique_files(root / "copy/my_ssr")) copied.push_back(file.string());
     EXPECT_EQ(copied, (std::vector<std::string>{"parts/a.glsl", "technique.json"}));
     EXPECT_FALSE(fs::exists(root / "copy/my_ssr/link.glsl"));
-    EXPECT_NE(error_message([&] { copy_technique(root / "none", root / "copy/none"); }).find("none is no folder"),
+    EXPECT_NE(error_message([&] { copy_technique(root / "none", root / "copy/none"); }).find("none is not a folder"),
               std::string::npos);
     for (unsigned i = 0; i < 501; ++i) write_text(folder / (std::to_string(i) + ".txt"), "");
     EXPECT_NE(error_message([&] { technique_files(folder); }).find("more than 500 files"), std::string::npos);

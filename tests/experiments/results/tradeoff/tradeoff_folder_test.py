@@ -171,11 +171,11 @@ class Folder(unittest.TestCase):
             answers = stream.read()
         self.assertIn("Times of different machines or sizes are never compared", answers)
         # 0.8 of 8 in `floor` and as much in `wall`; nothing fits in 3 ms but `none`.
-        self.assertIn("| 3 | none that fits in all scenes |", answers)
-        self.assertIn("**v** has the least error, 0.125 of that of none (geometric mean, 2 scenes)", answers)
-        self.assertIn("Of other scenes 2 scenes say nothing", answers)
+        self.assertIn("| 3 | no technique fits in all scenes |", answers)
+        self.assertIn("**v** has the least error, 0.125 times the error of none (geometric mean, 2 scenes)", answers)
+        self.assertIn("2 scenes say nothing about other scenes", answers)
         self.assertIn("| v rays=1: rays: 1 -> 2 | wall | -50 [-52, -48] |", answers)
-        self.assertIn("Multiples leave out sky:", answers)
+        self.assertIn("Ratios leave out sky,", answers)
         self.assertIn("The timer was not validated in 1 of 3 shots", answers)
         rows = [r for r in read(self.out, "across.csv") if r["technique"] == "v" and r["cost"] == "10"]
         self.assertEqual([(r["machine"].split()[0], r["scenes"]) for r in rows], [("first", "2"), ("second", "1")])

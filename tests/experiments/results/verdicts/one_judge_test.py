@@ -293,13 +293,13 @@ def over_scenes(folder, manifest, found, summary, page):
     tied = [name(k) for k, r in rows.items() if r["standing"] == "tied" and k != first]
     behind = [name(k) for k, r in rows.items() if r["standing"] == "behind"]
     sentence = page["in_scenes_like_these"]
-    said = re.fullmatch(r"In scenes like these (.*?) (errs least on average for certain|measures least).*?(?: Behind for certain: (.*?)\.| Nothing is ruled out\.)?", sentence)
-    assert said and said[1] == name(first) and (said[2] == "measures least") == bool(tied), sentence
+    said = re.fullmatch(r"In scenes like these (.*?) (certainly has the least error|measures the least error) on average.*?(?: Certainly worse: (.*?)\.| No point is certainly worse\.)?(?: A study like this .*)?", sentence)
+    assert said and said[1] == name(first) and (said[2] == "measures the least error") == bool(tied), sentence
     listed = lambda text: re.split(r", | and ", re.sub(r" and \d+ more$", "", text)) if text else []  # noqa: E731
     assert not tied or listed(said[3]) == behind[:3], (sentence, behind)
     if chances:
         likely = max(chances, key=chances.get)
-        assert not tied or f"Probability to err least on average: {name(likely)} {chances[likely]:.2f}" in sentence, (sentence, chances)
+        assert not tied or f"Probability of the least mean error: {name(likely)} {chances[likely]:.2f}" in sentence, (sentence, chances)
 
     across = {(r["technique"], r["point"]): r for r in read(os.path.join(folder, "tradeoff"), "across.csv") if not r["cost"] and not r["group"]}
     assert across.keys() == rows.keys(), across.keys() ^ rows.keys()
@@ -312,7 +312,7 @@ def over_scenes(folder, manifest, found, summary, page):
         whole = stream.read().split("## Least error at any cost")[1]
     answer = re.search(r"^\*\*(.*?)\*\* has the least error.*$", whole, re.M)
     assert answer[1] == name(first), answer[0]
-    assert not tied or ("Undecided" in answer[0], "Behind for certain" in answer[0]) == (bool(tied), bool(behind)), answer[0]
+    assert not tied or ("It is undecided whether" in answer[0], "Certainly worse" in answer[0]) == (bool(tied), bool(behind)), answer[0]
     print(f"{os.path.basename(folder)}: over {rows[first]['scenes']} scenes {len(tied)} tied, {len(behind)} behind: {sentence}")
 
 

@@ -45,7 +45,7 @@ class Statistics(unittest.TestCase):
             text = documents.Numbers(folder, "a.md").text('over_scenes("study", "errors", "new", "base", as_in="others")')
         logs = np.log([np.sqrt(1.1 * 0.7), 0.5, 0.9, 1.3])
         low, high = np.exp(logs.mean() + stats.sem(logs) * stats.t.ppf([0.025, 0.975], len(logs) - 2))
-        self.assertEqual(text, f"{np.exp(logs.mean()):#.3g} [{low:#.3g}, {high:#.3g}]")
+        self.assertEqual(text, documents.number(np.exp(logs.mean()), low, high))
 
     def test_means_are_students(self):
         values = self.random.normal(1, 2, 6)

@@ -1,4 +1,4 @@
-// The table of times in metrics/README.md: time_coverage_study RESULTS, a folder of many timed frames
+// The table of times in metrics/coverage.md: time_coverage_study RESULTS, a folder of many timed frames
 // (experiments/studies/configs/tradeoff_coverage.json). All frames of a shot are the truth, windows of 15 successive
 // ones the trials.
 #include "core/error.h"

@@ -1,5 +1,5 @@
 // How often verdicts are wrong: made-up studies whose points do not differ, or differ by just the margin, through
-// everything that decides. Prints the table of metrics/README.md, "False alarms".
+// everything that decides. Prints the table of metrics/coverage.md, "False alarms".
 //
 // usage: verdict_study [STUDIES]    of each kind; 1000 take 2 minutes on a core
 #include "experiments/results/tradeoff/pairs.h"

@@ -182,7 +182,7 @@ TEST_F(Designs, CombineAxesInSeveralWays) {
     const std::string thousand = R"({"lin": [0.1, 0.9, 1000]})";
     expect_starts(
         mistake(dda(R"("sweep": {"dda.thickness": )" + thousand + R"(, "dda.max_distance": {"lin": [1, 9, 1000]}})")),
-        "study.json:3:30: techniques[0]: 'sweep' makes 1e+06 points; allowed are 100000");
+        "study.json:3:30: techniques[0]: 'sweep' makes 1e+06 points; at most 100000 are allowed");
 }
 
 TEST_F(Designs, SamplesFillTheirRanges) {
@@ -347,11 +347,11 @@ TEST_F(Designs, ScenesOfAFamilyAreCounted) {
         const std::string said = mistake_of(shot);
         EXPECT_NE(said.find(text), std::string::npos) << said;
     };
-    says(R"("scene": "room:*")", "say how many in 'count'");
+    says(R"("scene": "room:*")", "give their number as 'count'");
     says(R"("scene": "room:*", "count": 0)", "'count'");
     says(R"("scene": "room:*", "count": 1000000)", "'count'");
     says(R"("scene": "room:*", "count": 2, "first": 999999)", "goes beyond 999999");
-    says(R"("scene": "room:1", "count": 2)", "leave the key out");
+    says(R"("scene": "room:1", "count": 2)", "or remove the key");
 }
 
 TEST_F(Designs, LabelsAreFilledInAndTellPointsApart) {
@@ -414,7 +414,8 @@ TEST_F(Designs, SearchesAreCheckedBeforeTheyRun) {
     refuses(study(axes + R"(, "judge": {"shots": [{"scene": "grazing"}], "lit": "direct"})"), "unknown key 'lit'");
     refuses(study(axes, R"({"technique": "mcguire_dda"})", R"("timing": {"frames": 0},)"), "counted 'time'");
     refuses(study(axes, R"({"technique": "mcguire_dda"}, {"technique": "none"})"), "searches one technique");
-    refuses(study(axes, R"({"technique": "mcguire_dda", "timing": false})"), "'timing' is not for points");
+    refuses(study(axes, R"({"technique": "mcguire_dda", "timing": false})"),
+            "'timing' is not allowed in a study with 'tune'");
     refuses(study(R"("axes": {"misses": ["weight"]})", R"({"technique": "amd_sssr"})", R"("seeds": 1,)"),
             "a single seed gives no interval");
 
@@ -428,10 +429,10 @@ TEST_F(Designs, SearchesAreCheckedBeforeTheyRun) {
     EXPECT_EQ(tuning_of(read(study(R"("program": "render", "axes": {"steps": [1]})")))["program"],
               json::array({"render"}));
     refuses(study(R"("program": [], "axes": {"steps": [1]})"), "'program'");
-    refuses(study(program + R"("axes": {"steps": [1]}, "budgets": [1])"), "whose time is not measured");
+    refuses(study(program + R"("axes": {"steps": [1]}, "budgets": [1])"), "measures no times");
     refuses(study(program + R"("axes": {"steps": {"values": [1], "only_if": {"blur": true}}})"), "no conditions");
     refuses(study(program + R"("axes": {"steps": {"logs": [1, 2]}})"), "unknown key 'logs'");
-    refuses(study(program + R"("axes": {"steps": {}})"), "one of 'values', 'lin' and 'log'");
+    refuses(study(program + R"("axes": {"steps": {}})"), "exactly one of 'values', 'lin' and 'log'");
 }
 
 TEST(PointNames, StayShort) {

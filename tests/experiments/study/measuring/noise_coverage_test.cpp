@@ -65,7 +65,7 @@ TEST(NoiseCoverage, HoldsOverSeedsForMetricsThatAreNoMeansOfSquares) {
     EXPECT_GE(by_metric.size(), 7u) << "the two metrics, bias and variance, and effects on them";
     for (const auto& [metric, row] : by_metric) {
         // The three techniques share each reference: as few as 48 independent trials. At 64 samples coverage is 93 % or
-        // more (metrics/README.md); five deviations of 93 % in 48 trials are a false alarm of 3e-7. Seeds alone cover
+        // more (metrics/coverage.md); five deviations of 93 % in 48 trials are a false alarm of 3e-7. Seeds alone cover
         // 81 % of FLIP.
         EXPECT_GE(row.coverage(), 0.93 - 5 * std::sqrt(0.93 * 0.07 / 48)) << metric;
     }

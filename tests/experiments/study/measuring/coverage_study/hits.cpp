@@ -1,5 +1,5 @@
 // How often the intervals of hits.csv hold the mean over many seeds: hit_coverage_study [SEEDS [SCENE...]] > rows.csv,
-// and the table of experiments/RESULTS.md to standard error.
+// and the table of metrics/coverage.md to standard error.
 #include "core/error.h"
 #include "core/gbuffer/gbuffer_transfer.h"
 #include "core/gbuffer/rasterizer.h"

@@ -1,4 +1,4 @@
-// The table of metrics/README.md: coverage_study [SEEDS] > rows.csv, and the table to standard error.
+// The table of metrics/coverage.md: coverage_study [SEEDS] > rows.csv, and the table to standard error.
 #include "core/error.h"
 #include "tests/experiments/study/measuring/coverage.h"
 

@@ -1,4 +1,5 @@
-// The table of reflection probes in metrics/README.md, to standard output: probe_coverage_study [REFERENCES] [SAMPLES]
+// The table of reflection probes in metrics/coverage.md, to standard output:
+// probe_coverage_study [REFERENCES] [SAMPLES]
 #include "core/error.h"
 #include "core/files.h"
 #include "core/gpu/device.h"

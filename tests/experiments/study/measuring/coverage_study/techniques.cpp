@@ -1,4 +1,4 @@
-// The table of metrics/README.md over scenes and rooms: technique_coverage_study [SCENE...] > rows.csv, and the table
+// The table of metrics/coverage.md over scenes and rooms: technique_coverage_study [SCENE...] > rows.csv, and the table
 // to standard error. Real techniques against references of 64 and of 256 samples.
 #include "core/error.h"
 #include "tests/experiments/study/measuring/coverage_study/rendered_techniques.h"

@@ -1,4 +1,4 @@
-// The table of metrics of sequences in metrics/README.md: temporal_coverage_study [REFERENCES] > rows.csv, and the
+// The table of metrics of sequences in metrics/coverage.md: temporal_coverage_study [REFERENCES] > rows.csv, and the
 // table to standard error.
 #include "core/error.h"
 #include "experiments/results/verdicts/summary.h"

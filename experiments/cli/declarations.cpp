@@ -1,0 +1,125 @@
+#include "experiments/cli/declarations.h"
+
+#include "core/list_text.h"
+#include "core/scene/scene_family.h"
+#include "experiments/gpu_costs/pass_cost.h"
+#include "experiments/results/files/manifest.h"
+#include "experiments/results/results_schema.h"
+#include "experiments/study/config/config.h"
+#include "metrics/metric.h"
+#include "metrics/temporal.h"
+#include "variants/denoisers/denoisers.h"
+#include "variants/registry.h"
+#include "variants/tracers/tracers.h"
+
+namespace {
+
+using nlohmann::json;
+
+/// Name and meaning of each option, as --help has them.
+json options_of(const CLI::App& command) {
+    const CLI::Formatter formatter;
+    json options = json::array();
+    for (const CLI::Option* option : command.get_options())
+        options.push_back({{"name", formatter.make_option_name(option, option->get_positional()) +
+                                        formatter.make_option_opts(option)},
+                           {"meaning", formatter.make_option_desc(option)}});
+    return options;
+}
+
+json commands_of(const CLI::App& app) {
+    json commands = json::array();
+    for (const CLI::App* command : app.get_subcommands({}))
+        commands.push_back({{"name", command->get_name()},
+                            {"meaning", command->get_description()},
+                            {"options", options_of(*command)},
+                            {"has_script", command->get_prefix_command()}});
+    return commands;
+}
+
+template <class Parameters>
+json parameters_of(const Parameters& parameters) {
+    json all = json::array();
+    for (const Parameter& p : parameters)
+        all.push_back({{"name", p.name},
+                       {"part", p.part()},
+                       {"default", p.initial},
+                       {"range", p.range_text()},
+                       {"unit", p.unit},
+                       {"meaning", p.doc},
+                       {"source", p.source}});
+    return all;
+}
+
+template <class Entry>
+json page_of(const Entry& entry) {
+    return {{"name", entry.name}, {"title", entry.title}, {"source", entry.source}, {"description", entry.description}};
+}
+
+json techniques() {
+    json all = json::array();
+    for (const TechniqueEntry& entry : technique_table()) {
+        json page = page_of(entry);
+        page["limits"] = limits_text(entry.limits);
+        page["presets"] = json::array();
+        page["parameters"] = parameters_of(make_technique(entry.name)->params);
+        for (const Preset& preset : entry.presets)
+            page["presets"].push_back(
+                {{"name", preset.name}, {"meaning", preset.meaning}, {"parameters", preset.parameters}});
+        all.push_back(page);
+    }
+    return all;
+}
+
+json tracers() {
+    json all = json::array();
+    for (const TracerEntry& entry : tracer_table()) {
+        json page = page_of(entry);
+        page["part"] = entry.part;
+        page["fits_webgl2"] = entry.fits_webgl2;
+        page["parameters"] = parameters_of(entry.parameters);
+        all.push_back(page);
+    }
+    return all;
+}
+
+json denoisers() {
+    json all = json::array();
+    for (const DenoiserEntry& entry : denoiser_table()) {
+        json page = page_of(entry);
+        page["needs_density"] = entry.needs_density;
+        page["parameters"] = parameters_of(entry.passes->parameters);
+        all.push_back(page);
+    }
+    return all;
+}
+
+json metrics() {
+    const json descriptions = metric_descriptions();
+    json all = json::object();
+    for (const std::string& name : metric_names()) all["images"].push_back(name);
+    for (const TemporalMetric& metric : temporal_metrics()) all["sequences"].push_back(metric.name);
+    all["described"] = descriptions;
+    return all;
+}
+
+json costs() {
+    json all = json::array();
+    for (const CostQuantity& quantity : cost_quantities)
+        all.push_back({{"name", quantity.name}, {"meaning", quantity.meaning}});
+    return all;
+}
+
+json families() {
+    json all = json::array();
+    for (const SceneFamily& family : scene_families()) all.push_back({{"name", family.name}, {"about", family.about}});
+    return all;
+}
+
+}  // namespace
+
+json declarations(const CLI::App& app) {
+    return {{"commands", commands_of(app)}, {"keys", key_descriptions()}, {"columns", results_schema({})["resources"]},
+            {"techniques", techniques()},   {"tracers", tracers()},       {"denoisers", denoisers()},
+            {"metrics", metrics()},         {"costs", costs()},           {"scene_families", families()}};
+}
