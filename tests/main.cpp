@@ -8,7 +8,8 @@
 #include <iostream>
 #include <string>
 
-/// Each run has a temporary folder of its own: ctest runs suites side by side, and their tests may choose the same names.
+/// Each run has a temporary folder of its own: ctest runs suites side by side, and their tests may choose the same
+/// names.
 int main(int argc, char** argv) {
     testing::InitGoogleTest(&argc, argv);
     std::string folder = std::filesystem::temp_directory_path() / "ssrlab_XXXXXX";
