@@ -140,8 +140,8 @@ void complete_shot_entry(nlohmann::json& entry, const nlohmann::json& rendered) 
             entry[key] = value;
 }
 
-nlohmann::json shot_entry(const Shot& shot, const Config& config, const std::vector<std::string>& scene_warnings,
-                          bool keep_all) {
+nlohmann::json new_shot_entry(const Shot& shot, const Config& config, const std::vector<std::string>& scene_warnings,
+                              bool keep_all) {
     const nlohmann::json needs =
         shot.config.gbuffer.empty() ? fact_entries(list_facts(shot.scene, shot.facts)) : nlohmann::json::array();
     nlohmann::json entry = {{"shot", shot.name()},

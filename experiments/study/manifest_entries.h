@@ -10,8 +10,8 @@
 nlohmann::json study_entry(const Config& config);
 
 /// Facts of a shot that are known before anything is rendered. `scene_warnings`: warning_sentences() of its scene.
-nlohmann::json shot_entry(const Shot& shot, const Config& config, const std::vector<std::string>& scene_warnings,
-                          bool keep_all);
-/// Adds to a shot_entry() what is known once the shot's references exist. Members replace those of the same name;
+nlohmann::json new_shot_entry(const Shot& shot, const Config& config, const std::vector<std::string>& scene_warnings,
+                              bool keep_all);
+/// Adds to a new_shot_entry() what is known once the shot's references exist. Members replace those of the same name;
 /// `needs` and `warnings` are joined.
 void complete_shot_entry(nlohmann::json& entry, const nlohmann::json& rendered);

@@ -7,7 +7,7 @@
 #include "experiments/results/cells/image_path.h"
 #include "experiments/study/folder_owner.h"
 #include "experiments/study/measuring/times/timing.h"
-#include "experiments/study/study_results.h"
+#include "experiments/study/write_results.h"
 
 #include <algorithm>
 #include <map>

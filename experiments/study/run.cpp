@@ -14,7 +14,7 @@
 #include "experiments/study/plan/cell_selection.h"
 #include "experiments/study/plan/ranking_warnings.h"
 #include "experiments/study/shots/shot_cells.h"
-#include "experiments/study/study_results.h"
+#include "experiments/study/write_results.h"
 
 #include <unistd.h>
 #include <algorithm>

@@ -20,9 +20,7 @@ namespace {
 
 class ExrPictures : public testing::Test {
 protected:
-    fs::path folder =
-        fs::path(testing::TempDir()) /
-        ("ssrlab_exr_picture_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::path folder = fs::temp_directory_path() / "exr_picture";
     fs::path file = folder / "a.exr";
 
     void SetUp() override {

@@ -21,7 +21,7 @@ std::string message(const auto& action) {
 }  // namespace
 
 TEST(Json, SyntaxErrorsNameLineAndColumn) {
-    const auto file = std::filesystem::temp_directory_path() / "ssrlab_json_test.json";
+    const auto file = std::filesystem::temp_directory_path() / "json_test.json";
     std::ofstream(file) << "{\n  \"a\": 1,\n  \"b\" 2\n}\n";
     EXPECT_NE(message([&] { read_json(file); }).find(file.string() + ":3:7: not valid JSON"), std::string::npos)
         << message([&] { read_json(file); });

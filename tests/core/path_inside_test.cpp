@@ -9,7 +9,7 @@
 namespace fs = std::filesystem;
 
 TEST(PathInside, LeadsNowhereElse) {
-    const fs::path outside = fs::temp_directory_path() / "ssrlab_path_inside_test", folder = outside / "results";
+    const fs::path outside = fs::temp_directory_path() / "path_inside_test", folder = outside / "results";
     fs::remove_all(outside);
     write_text(folder / "images/a.exr", "");
     fs::create_directory_symlink(outside, folder / "up");
@@ -34,7 +34,7 @@ TEST(PathInside, LeadsNowhereElse) {
 }
 
 TEST(WriteText, ReplacesALinkAndWritesThroughNone) {
-    const fs::path folder = fs::temp_directory_path() / "ssrlab_write_text_test";
+    const fs::path folder = fs::temp_directory_path() / "write_text_test";
     fs::remove_all(folder);
     write_text(folder / "outside", "mine");
     fs::create_symlink(folder / "outside", folder / "a");

@@ -30,8 +30,7 @@ unsigned code_at(const DecodedImage& image, size_t texel, unsigned channel) {
 }
 
 struct PngFiles : testing::Test {
-    fs::path folder = fs::temp_directory_path() /
-                      ("ssrlab_png_test_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::path folder = fs::temp_directory_path() / "png_test";
     std::vector<std::string> notes;
 
     void SetUp() override { fs::create_directories(folder); }

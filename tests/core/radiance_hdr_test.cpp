@@ -17,9 +17,7 @@ namespace {
 using Texel = std::array<uint8_t, 4>;
 
 struct Radiance : testing::Test {
-    fs::path folder =
-        fs::temp_directory_path() /
-        ("ssrlab_radiance_test_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::path folder = fs::temp_directory_path() / "radiance_test";
     std::vector<std::string> notes;
 
     void SetUp() override { fs::create_directories(folder); }

@@ -16,9 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 struct Reading : testing::Test {
-    fs::path folder =
-        fs::temp_directory_path() /
-        ("ssrlab_reading_test_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::path folder = fs::temp_directory_path() / "reading_test";
     void SetUp() override {
         fs::remove_all(folder);
         fs::create_directories(folder / "inside");

@@ -12,9 +12,7 @@ namespace {
 
 class gbuffer_file : public testing::Test {
 protected:
-    gbuffer_file()
-        : folder_(std::filesystem::path(testing::TempDir()) /
-                  ("ssrlab_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()))) {
+    gbuffer_file() : folder_(std::filesystem::temp_directory_path() / "gbuffer_file") {
         std::filesystem::remove_all(folder_);
     }
     ~gbuffer_file() override { std::filesystem::remove_all(folder_); }

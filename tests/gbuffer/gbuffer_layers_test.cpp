@@ -27,8 +27,7 @@ const Plane floor_below{{0, 1, 0}, -1}, back_wall{{0, 0, 1}, -2}, ceiling_above{
 
 class GBufferLayers : public testing::Test {
 protected:
-    fs::path folder = fs::path(testing::TempDir()) /
-                      ("ssrlab_layers_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::path folder = fs::temp_directory_path() / "layers";
     CameraData camera;
 
     GBufferLayers() {

@@ -40,7 +40,7 @@ struct ShaderCacheTest : testing::Test {
 
     const char* const set = std::getenv("SSRLAB_SHADER_CACHE");
     std::string before = set ? set : "";
-    fs::path folder = fs::temp_directory_path() / ("ssrlab_shader_cache_" + std::to_string(getpid()));
+    fs::path folder = fs::temp_directory_path() / "shader_cache";
 };
 
 /// A text of its own.

@@ -33,7 +33,7 @@ struct ChipCompiler : testing::Test {
             return {};
         }
     } watcher{recipes};
-    fs::path cache = fs::path(testing::TempDir()) / "chip_cache";
+    fs::path cache = fs::temp_directory_path() / "chip_cache";
     std::vector<std::string> notices;
 
     void SetUp() override {

@@ -19,9 +19,7 @@ namespace {
 constexpr glm::uvec2 extent(32, 18);
 
 struct References : testing::Test {
-    fs::path folder =
-        fs::temp_directory_path() /
-        ("ssrlab_reference_test_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::path folder = fs::temp_directory_path() / "reference_test";
     Scene scene = load_scene("roughness_gradient", {fs::path(SSRLAB_SOURCE_DIR) / "scenes"});
     ScenePose pose = pose_scene(scene, 0);
     CameraPose camera = pose_camera(scene.cameras.front(), pose, 0);

@@ -69,7 +69,7 @@ TEST(truth_ladder, changes_no_bit_of_the_other_outputs_and_is_another_reference)
 }
 
 TEST(truth_ladder, survives_its_file) {
-    const fs::path file = fs::temp_directory_path() / "ssrlab_truth_ladder_test.exr";
+    const fs::path file = fs::temp_directory_path() / "truth_ladder_test.exr";
     const ReferenceSettings settings{.max_samples = 16, .ladder = true};
     Reference reference = load("offscreen_mirror").render(settings);
     write_reference(file, reference, settings);

@@ -19,9 +19,7 @@ namespace {
 class Compare : public testing::Test {
 protected:
     void SetUp() override {
-        folder =
-            std::filesystem::temp_directory_path() / ("ssrlab_compare_" + std::to_string(getpid()) +
-                                                      testing::UnitTest::GetInstance()->current_test_info()->name());
+        folder = std::filesystem::temp_directory_path() / "compare";
         std::filesystem::create_directories(folder);
     }
     void TearDown() override { std::filesystem::remove_all(folder); }

@@ -11,9 +11,7 @@
 namespace fs = std::filesystem;
 
 struct Gltf : testing::Test {
-    fs::path folder =
-        fs::temp_directory_path() /
-        ("ssrlab_gltf_test_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::path folder = fs::temp_directory_path() / "gltf_test";
     GltfWriter writer;
 
     void SetUp() override {

@@ -14,8 +14,7 @@ namespace fs = std::filesystem;
 namespace {
 
 struct LatlongImages : testing::Test {
-    fs::path folder = fs::path(testing::TempDir()) /
-                      ("ssrlab_latlong_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::path folder = fs::temp_directory_path() / "latlong";
     fs::path file = folder / "sky.exr";
     std::vector<std::string> notes;
 

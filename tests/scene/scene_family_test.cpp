@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 struct SceneFamilies : testing::Test {
-    fs::path root = fs::temp_directory_path() / ("ssrlab_scene_family_test_" + std::to_string(getpid()));
+    fs::path root = fs::temp_directory_path() / "scene_family_test";
     void SetUp() override {
         fs::remove_all(root);
         fs::create_directories(root);

@@ -15,8 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 struct SceneFile : testing::Test {
-    fs::path root = fs::temp_directory_path() /
-                    ("ssrlab_scene_test_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::path root = fs::temp_directory_path() / "scene_test";
 
     void SetUp() override {
         fs::remove_all(root);

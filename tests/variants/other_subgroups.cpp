@@ -6,8 +6,7 @@
 #include <filesystem>
 
 LayeredImage written_with_vectors_of(const std::string& bits, const std::string& disabled_test) {
-    const std::filesystem::path file =
-        std::filesystem::temp_directory_path() / ("ssrlab_subgroups_" + std::to_string(getpid()) + ".exr");
+    const std::filesystem::path file = std::filesystem::temp_directory_path() / "subgroups.exr";
     const std::string command = "LP_NATIVE_VECTOR_WIDTH=" + bits + " SSRLAB_TEST_OUTPUT=" + file.string() + " " +
                                 std::filesystem::read_symlink("/proc/self/exe").string() +
                                 " --gtest_also_run_disabled_tests --gtest_filter='" + disabled_test + "' >&2";

@@ -40,7 +40,7 @@ TEST(Registry, AppliesPresetsBeforeParameters) {
 
 /// What `ssrlab tune` writes becomes presets by a copy of its file; a copy beside the wrong technique is an error.
 TEST(Registry, TakesPresetsThatASearchFound) {
-    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "tuned_presets.json";
+    const std::filesystem::path file = std::filesystem::temp_directory_path() / "tuned_presets.json";
     const auto add = [&](TechniqueEntry entry, const std::string& preset) {
         write_text(file, R"({"presets": [)" + preset + "]}");
         add_tuned_presets(entry, file);

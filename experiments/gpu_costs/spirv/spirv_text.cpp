@@ -1,6 +1,7 @@
 #include "experiments/gpu_costs/spirv/spirv_text.h"
 
 #include "core/error.h"
+#include "core/list_text.h"
 #include "experiments/gpu_costs/spirv/spirv_module.h"
 
 #include <algorithm>
@@ -28,12 +29,6 @@ bool ends_block(const std::string& op) {
         "OpBranch", "OpBranchConditional", "OpSwitch",      "OpReturn",
         "OpKill",   "OpUnreachable",       "OpReturnValue", "OpTerminateInvocation"};
     return std::ranges::count(all, op) > 0;
-}
-
-std::string joined(const std::vector<std::string>& words, size_t from = 0) {
-    std::string line;
-    for (size_t i = from; i < words.size(); ++i) line += (i > from ? " " : "") + words[i];
-    return line;
 }
 
 /// Where lines stand in a module: what comes before decorations, these, declarations, the function.
@@ -66,7 +61,8 @@ SpirvText::SpirvText(const std::vector<unsigned>& spirv) {
         else if (is_decoration(op))
             decorations_.push_back(words);
         else
-            declarations_.push_back(words), results_[joined(words, 2)] = words[0];
+            declarations_.push_back(words),
+                results_[joined({words.begin() + std::min<size_t>(2, words.size()), words.end()}, " ")] = words[0];
     }
 }
 
@@ -74,7 +70,7 @@ void SpirvText::declare(const std::string& name, const std::string& definition) 
     Words words = words_of(definition);
     for (std::string& word : words)
         if (const auto known = names_.find(word); known != names_.end()) word = known->second;
-    const auto [entry, is_new] = results_.try_emplace(joined(words), "%" + name);
+    const auto [entry, is_new] = results_.try_emplace(joined(words, " "), "%" + name);
     names_["%" + name] = entry->second;
     if (!is_new) return;
     words.insert(words.begin(), {"%" + name, "="});

@@ -227,7 +227,7 @@ StudyPlan plan_study(const Config& config, const DeviceInfo& device,
         for (const std::string& text : warnings)
             if (warned.insert(shot.scene.name + ": " + text).second)
                 planned.scene_warnings.push_back(shot.scene.name + ": " + text);
-        planned.entry = shot_entry(shot, config, warnings, keep_all);
+        planned.entry = new_shot_entry(shot, config, warnings, keep_all);
         const auto add = [&](CellKind kind, std::string name, const std::string& what, double units) -> PlannedCell& {
             return planned.cells.emplace_back(
                 PlannedCell{.kind = kind,

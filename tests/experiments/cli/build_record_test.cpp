@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 namespace {
 
 struct BuildRecord : testing::Test {
-    fs::path folder = fs::temp_directory_path() / "ssrlab_build_record_test";
+    fs::path folder = fs::temp_directory_path() / "build_record_test";
 
     void SetUp() override {
         fs::remove_all(folder);

@@ -28,7 +28,7 @@ TEST(ChildProcess, GivesTheExitCode) {
 /// A program that gets further may take longer than the limit; one that gets no further is ended, and its end is no
 /// news of its own making.
 TEST(ChildProcess, EndsOneThatHangs) {
-    const fs::path file = fs::temp_directory_path() / ("ssrlab_hanging_" + std::to_string(getpid()));
+    const fs::path file = fs::temp_directory_path() / "hanging";
     write_text(file, "");
     const Patience patience{std::chrono::seconds(1), [&] { return size_t(fs::file_size(file)); }};
     const auto run = [&](const std::string& script) {
@@ -45,7 +45,7 @@ TEST(ChildProcess, EndsOneThatHangs) {
 /// Whoever stops `ssrlab tune` stops its script and the study that the script runs: by a signal to the command alone,
 /// or by Ctrl-C, which all three get. It is said once.
 TEST(ChildProcess, EndsWithThisProcessAndEndsWhatAScriptStarted) {
-    const fs::path folder = fs::temp_directory_path() / ("ssrlab_stopped_" + std::to_string(getpid()));
+    const fs::path folder = fs::temp_directory_path() / "stopped";
     const std::string study = "echo $$ $PPID > '" + (folder / "processes").string() + "'; exec sleep 60",
                       script = "import sys\nsys.path.insert(0, '" SSRLAB_SOURCE_DIR
                                "/experiments/python')\nfrom ssrlab import interrupts\n"
@@ -79,7 +79,7 @@ TEST(ChildProcess, EndsWithThisProcessAndEndsWhatAScriptStarted) {
 }
 
 TEST(ChildProcess, HandsArgumentsOnAsTheyAre) {
-    const fs::path folder = fs::temp_directory_path() / "ssrlab_child_process_test";
+    const fs::path folder = fs::temp_directory_path() / "child_process_test";
     fs::remove_all(folder);
     fs::create_directories(folder);
     const std::string odd = "it's; touch f; echo \"$HOME\" `id` \\ \n*";
@@ -89,7 +89,7 @@ TEST(ChildProcess, HandsArgumentsOnAsTheyAre) {
 }
 
 TEST(ChildProcess, FiguresOfAFolderOfAnyName) {
-    const fs::path folder = fs::temp_directory_path() / "ssrlab_figures_test", made = folder / "made";
+    const fs::path folder = fs::temp_directory_path() / "figures_test", made = folder / "made";
     for (const std::string& name : {"x'; touch '" + made.string() + "'; echo '", std::string("it's \"so\"")}) {
         fs::remove_all(folder);
         // A slash cannot be part of a name; the rest of the command is.

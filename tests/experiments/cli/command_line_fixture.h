@@ -16,9 +16,7 @@ struct Outcome {
 
 /// `ssrlab` in a temporary folder with a cache of its own.
 struct CommandLine : testing::Test {
-    fs::path folder =
-        fs::temp_directory_path() /
-        ("ssrlab_command_test_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::path folder = fs::temp_directory_path() / "command_test";
 
     void SetUp() override {
         fs::remove_all(folder);

@@ -18,7 +18,7 @@ namespace {
 
 /// A folder for as long as the program runs.
 struct KeptFolder {
-    fs::path path = fs::temp_directory_path() / "ssrlab_faults_done";
+    fs::path path = fs::temp_directory_path() / "faults_done";
     KeptFolder() { fs::remove_all(path), fs::create_directories(path); }
     ~KeptFolder() { fs::remove_all(path); }
 };

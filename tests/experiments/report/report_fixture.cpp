@@ -180,7 +180,7 @@ void add_pixel_images(const std::filesystem::path& folder, const std::string& sh
     }
 }
 
-json shot_entry(const std::string& shot, glm::uvec2 extent) {
+json new_shot_entry(const std::string& shot, glm::uvec2 extent) {
     const bool falls_short = shot == fixture_shots[2];
     return {{"shot", shot},
             {"scene", shot.substr(0, shot.find('.'))},
@@ -290,7 +290,7 @@ void write_report_fixture(const std::filesystem::path& folder) {
     std::vector<Cell> cells;
     for (const std::string& shot : fixture_shots) {
         const glm::uvec2 extent = shot == fixture_shots[2] ? glm::uvec2(161, 91) : glm::uvec2(160, 90);
-        manifest["shots"].push_back(shot_entry(shot, extent));
+        manifest["shots"].push_back(new_shot_entry(shot, extent));
         for (const char* target : {"specular", "image"}) {
             const std::string exr = "images/" + shot + "/reference_" + target + ".exr";
             write_exr(folder / exr, picture(nullptr, std::string(target) == "image", extent, 4711));

@@ -12,8 +12,7 @@
 namespace {
 
 struct StudyReport : testing::Test {
-    std::filesystem::path folder =
-        std::filesystem::temp_directory_path() / ("ssrlab_study_report_test_" + std::to_string(getpid()));
+    std::filesystem::path folder = std::filesystem::temp_directory_path() / "study_report_test";
     void SetUp() override { write_study_fixture(folder); }
     void TearDown() override { std::filesystem::remove_all(folder); }
 };

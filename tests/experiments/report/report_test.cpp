@@ -26,8 +26,7 @@ using nlohmann::json;
 
 /// The made-up folder, for each test anew.
 struct Report : testing::Test {
-    std::filesystem::path folder =
-        std::filesystem::temp_directory_path() / ("ssrlab_report_test_" + std::to_string(getpid()));
+    std::filesystem::path folder = std::filesystem::temp_directory_path() / "report_test";
     void SetUp() override { write_report_fixture(folder); }
     void TearDown() override { std::filesystem::remove_all(folder); }
 
@@ -75,7 +74,7 @@ bool contains(const std::vector<std::string>& texts, const std::string& part) {
 }  // namespace
 
 TEST(Csv, ReadsQuotedFieldsAndNamesLineAndColumnOfMistakes) {
-    const auto file = std::filesystem::temp_directory_path() / "ssrlab_csv_test.csv";
+    const auto file = std::filesystem::temp_directory_path() / "csv_test.csv";
     write_text(file, "name,value\r\n\"a \"\"b\"\",\nc\",0.25\nd,\n");
     CsvReader csv(file);
     ASSERT_TRUE(csv.next());
@@ -93,7 +92,7 @@ TEST(Csv, ReadsQuotedFieldsAndNamesLineAndColumnOfMistakes) {
         }
         return "";
     };
-    EXPECT_NE(mistake("value\n1\nx2\n", "value").find("ssrlab_csv_test.csv:3: 'value' = \"x2\""), std::string::npos);
+    EXPECT_NE(mistake("value\n1\nx2\n", "value").find("csv_test.csv:3: 'value' = \"x2\""), std::string::npos);
     EXPECT_NE(mistake("value\n1e999\n", "value").find(":2:"), std::string::npos);
     EXPECT_NE(mistake("value\n1,2\n", "value").find(":2: 2 fields"), std::string::npos);
     EXPECT_NE(mistake("value\n1\n", "valeu").find("did you mean 'value'"), std::string::npos);

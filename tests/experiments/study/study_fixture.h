@@ -11,9 +11,7 @@ namespace fs = std::filesystem;
 
 /// A temporary folder with a cache, in which small studies run.
 struct StudyTest : testing::Test {
-    fs::path folder =
-        fs::temp_directory_path() /
-        ("ssrlab_study_test_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::path folder = fs::temp_directory_path() / "study_test";
 
     void SetUp() override {
         fs::remove_all(folder);

@@ -73,7 +73,7 @@ TEST_F(StudyPlanTest, AnEditRedoesTheCellsThatItMayChange) {
          {"experiments/report/report.cpp", "experiments/page/report.js", "experiments/results/verdicts/summary.cpp",
           "experiments/results/verdicts/effects/effects.cpp", "experiments/study/manifest_entries.cpp",
           "experiments/cli/commands.h", "experiments/python/ssrlab/tables/__main__.py",
-          "experiments/study/study_results.cpp", "experiments/study/progress.cpp",
+          "experiments/study/write_results.cpp", "experiments/study/progress.cpp",
           "experiments/study/config/config.cpp", "experiments/study/stability/stability.cpp", "variants/README.md"})
         EXPECT_EQ(changed(file), Cells()) << file;
     for (const char* file : {"variants/amd_sssr/intersect.comp", "variants/amd_sssr/lists.glsl"})

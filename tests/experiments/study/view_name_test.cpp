@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 namespace {
 
 struct ViewNames : testing::Test {
-    fs::path folder = fs::path(testing::TempDir()) / ("ssrlab_view_names_" + std::to_string(getpid()));
+    fs::path folder = fs::temp_directory_path() / "view_names";
 
     void TearDown() override { fs::remove_all(folder); }
     /// A scene with a camera. Of several that fit a name cameras decide, for which they are loaded: one triangle.

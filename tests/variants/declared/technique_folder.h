@@ -9,8 +9,7 @@ namespace fs = std::filesystem;
 /// A technique's folder in a temporary one, which goes with this.
 struct TemporaryTechnique {
     explicit TemporaryTechnique(const std::string& name)
-        : parent(fs::temp_directory_path() / ("ssrlab_technique_" + name + "_" + std::to_string(getpid()))),
-          folder(parent / name) {
+        : parent(fs::temp_directory_path() / ("technique_" + name)), folder(parent / name) {
         fs::remove_all(parent);
         fs::create_directories(folder);
     }

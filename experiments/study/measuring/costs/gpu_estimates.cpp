@@ -125,7 +125,7 @@ double standard_error(const StageEstimate& stage, const ChipTimePart& part, doub
 }
 
 /// Of a stage or a frame; microseconds.
-struct Estimate {
+struct ChipEstimate {
     ChipTime parts;
     double time = 0;
     std::map<std::string, double> by_bound;  ///< time of the stages that a part bounds
@@ -134,7 +134,7 @@ struct Estimate {
     double active = 0, possible = 0;
     double cut = 0, lanes = 0, waves = 0;
 
-    void add(const Estimate& other) {
+    void add(const ChipEstimate& other) {
         for (const ChipTimePart& part : chip_time_parts) parts.*part.member += other.parts.*part.member;
         parts.caches += other.parts.caches;
         for (const auto& [bound, of_bound] : other.by_bound) by_bound[bound] += of_bound;
@@ -144,10 +144,10 @@ struct Estimate {
     }
 };
 
-Estimate estimate_of(const StageEstimate& stage, const PassCost& cost, const ChipRates& rates) {
+ChipEstimate estimate_of(const StageEstimate& stage, const PassCost& cost, const ChipRates& rates) {
     PassCost no_traffic = cost;
     no_traffic.unique_bytes = 0;
-    Estimate estimate{.parts = chip_time(stage.all, cost, rates)};
+    ChipEstimate estimate{.parts = chip_time(stage.all, cost, rates)};
     const ChipTimePart& sampled = bound_of(estimate.parts);
     double ratio = stage.fetches > 0 && cost.fetches > 0 ? double(cost.fetches) / stage.fetches : 1;
     if (standard_error(stage, sampled, ratio, no_traffic, rates) >=
@@ -171,7 +171,7 @@ EstimateRow row_of(const std::string& shot, const PointConfig& point, const std:
     return row;
 }
 
-void set_numbers(EstimateRow& row, const Estimate& estimate) {
+void set_numbers(EstimateRow& row, const ChipEstimate& estimate) {
     constexpr double normal_95 = 1.96;
     const double half = normal_95 * estimate.error;
     row.microseconds = estimate.time;
@@ -247,12 +247,12 @@ std::vector<EstimateRow> rows_of_chip(const TracedFrame& frame, const std::strin
 
     std::vector<EstimateRow> rows;
     EstimateRow total = row_of(shot, point, "total", chip.name);
-    Estimate of_frame;
+    ChipEstimate of_frame;
     for (const PassCost& cost : frame.costs) {
         EstimateRow row = row_of(shot, point, cost.stage, chip.name);
         row.product = rates.product;
         if (const StageEstimate& stage = traced[cost.stage]; stage.refusal.empty()) {
-            const Estimate estimate = estimate_of(stage, cost, rates);
+            const ChipEstimate estimate = estimate_of(stage, cost, rates);
             set_numbers(row, estimate);
             of_frame.add(estimate);
         } else {

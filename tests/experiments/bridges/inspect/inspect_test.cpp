@@ -205,9 +205,7 @@ TEST(Inspect, CutsLongListsWithACount) {
 }
 
 struct InspectFiles : testing::Test {
-    fs::path folder =
-        fs::temp_directory_path() /
-        ("ssrlab_inspect_test_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::path folder = fs::temp_directory_path() / "inspect_test";
     void SetUp() override {
         fs::remove_all(folder);
         fs::create_directories(folder);

@@ -8,7 +8,7 @@
 namespace fs = std::filesystem;
 
 TEST(ErrorPlaces, ShowLinesOfTheFilesThatAreNamed) {
-    const fs::path root = fs::temp_directory_path() / ("ssrlab_error_places_" + std::to_string(getpid()));
+    const fs::path root = fs::temp_directory_path() / "error_places";
     const fs::path copy = root / "out/technique/my_ssr", folder = root / "my_ssr";
     write_text(copy / "shade.comp", "one\ntwo\nthree\nfour\nfive\n");
     write_text(root / "out/technique/secret.glsl", "secret\n");

@@ -17,7 +17,7 @@ namespace {
 
 class PageNumbers : public testing::Test {
 protected:
-    const fs::path folder = fs::temp_directory_path() / ("ssrlab_page_numbers_" + std::to_string(getpid()));
+    const fs::path folder = fs::temp_directory_path() / "page_numbers";
     PageImages images;
 
     void SetUp() override { fs::remove_all(folder); }

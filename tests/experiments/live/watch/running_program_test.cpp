@@ -12,7 +12,7 @@
 namespace fs = std::filesystem;
 
 TEST(RunningProgram, RunsBesideThisOneAndGoesWithItsObject) {
-    const fs::path folder = fs::temp_directory_path() / ("ssrlab_running_" + std::to_string(getpid()));
+    const fs::path folder = fs::temp_directory_path() / "running";
     fs::create_directories(folder);
     const auto script = [&](const std::string& text) {
         return std::make_unique<RunningProgram>(std::vector<std::string>{"/bin/sh", "-c", text}, folder / "out",

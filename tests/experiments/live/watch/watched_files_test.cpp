@@ -13,7 +13,7 @@ namespace {
 
 class WatchedFilesTest : public testing::Test {
 protected:
-    const fs::path root = fs::temp_directory_path() / ("ssrlab_watched_files_" + std::to_string(getpid()));
+    const fs::path root = fs::temp_directory_path() / "watched_files";
     const fs::path folder = root / "my_ssr";
 
     void SetUp() override {

@@ -13,8 +13,7 @@ namespace fs = std::filesystem;
 namespace {
 
 struct CellStoreTest : testing::Test {
-    fs::path folder = fs::temp_directory_path() /
-                      ("ssrlab_cells_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::path folder = fs::temp_directory_path() / "cells";
     std::vector<std::string> notices;
     CellStore store{folder, [this](const std::string& text) { notices.push_back(text); }};
 

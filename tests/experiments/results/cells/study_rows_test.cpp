@@ -10,7 +10,7 @@
 #include <thread>
 
 TEST(Tables, QuoteWhatNeedsIt) {
-    const auto folder = std::filesystem::temp_directory_path() / "ssrlab_tables_test";
+    const auto folder = std::filesystem::temp_directory_path() / "tables_test";
     Cell cell;
     cell.times.push_back({.shot = "a.b.1x1",
                           .technique = "v",
@@ -30,7 +30,7 @@ TEST(Tables, QuoteWhatNeedsIt) {
 }
 
 TEST(Tables, GiveSplitsAFileOfTheirOwn) {
-    const auto folder = std::filesystem::temp_directory_path() / "ssrlab_splits_test";
+    const auto folder = std::filesystem::temp_directory_path() / "splits_test";
     Cell cell;
     cell.splits.push_back({.shot = "s",
                            .frame = "7",

@@ -23,7 +23,7 @@ TEST(Csv, NoTextIsAFormulaAndAllReadBack) {
     std::string text = "name,number,last\n";
     for (const std::string& t : texts) text += csv_line(t, std::string("-0.5"), t);
     EXPECT_NE(text.find("\n'-2+3,-0.5,'-2+3\n"), std::string::npos) << "numbers stay numbers";
-    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "formulas.csv";
+    const std::filesystem::path file = std::filesystem::temp_directory_path() / "formulas.csv";
     write_text(file, text);
     CsvReader csv(file);
     for (const std::string& t : texts) {

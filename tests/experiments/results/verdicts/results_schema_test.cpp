@@ -28,7 +28,7 @@ PointConfig point(const std::string& technique, const std::string& name, const j
 }  // namespace
 
 TEST(ResultsSchema, SaysTypesAndUnits) {
-    const fs::path folder = fs::path(testing::TempDir()) / ("ssrlab_schema_" + std::to_string(getpid()));
+    const fs::path folder = fs::temp_directory_path() / "schema";
     write_parameters(folder, {point("mcguire_dda", "default", json::object())});
     const json schema = read_json(folder / "schema.json");
     fs::remove_all(folder);
@@ -48,7 +48,7 @@ TEST(ResultsSchema, SaysTypesAndUnits) {
 }
 
 TEST(ResultsSchema, ParametersAreColumns) {
-    const fs::path folder = fs::path(testing::TempDir()) / ("ssrlab_parameters_" + std::to_string(getpid()));
+    const fs::path folder = fs::temp_directory_path() / "parameters";
     PointConfig labelled = point("mcguire_dda", "dda.stride=4", {{"dda.stride", 4}, {"dda.refine", true}});
     labelled.label = "DDA, 4 px", labelled.group = "marches";
     write_parameters(folder, {point("none", "default", json::object()), labelled});

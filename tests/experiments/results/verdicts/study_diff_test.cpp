@@ -196,7 +196,7 @@ TEST(StudyDiff, ComparesTimesOfOneMachineAlone) {
 }
 
 TEST(DiffCommand, ExitsWithOneForAChangeAlone) {
-    const auto place = std::filesystem::temp_directory_path() / "ssrlab_diff_test";
+    const auto place = std::filesystem::temp_directory_path() / "diff_test";
     std::filesystem::remove_all(place);
     std::mt19937 random(8);
     const MadeUpStudy study = study_of(random, 1, "t");

@@ -11,15 +11,16 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path source = SSRLAB_SOURCE_DIR, file = fs::path(testing::TempDir()) / "table_columns.json";
+const fs::path source = SSRLAB_SOURCE_DIR;
 
 std::string mistake_in(const std::string& table) {
+    const fs::path file = fs::temp_directory_path() / "table_columns.json";
     write_text(
         file,
         R"({"shots": [{"scene": "fence"}], "techniques": [{"technique": "mcguire_dda"}], "hits": {}, "costs": true, "gpu_compilers": ["navi21"],
  "tables": [{"name": "a", "caption": "", )" +
             table + "}]}");
-    const std::string message = error_message([] { check_table_columns(read_config(file)); });
+    const std::string message = error_message([&] { check_table_columns(read_config(file)); });
     return message.starts_with(file.string()) ? message.substr(file.string().size()) : message;
 }
 

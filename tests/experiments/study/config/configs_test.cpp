@@ -101,7 +101,7 @@ TEST(Configs, KeepTheNamesOfTheirPoints) {
 
 TEST(Configs, LimitAReferenceByWhatTheySet) {
     const auto limits = [](const std::string& reference) {
-        const fs::path file = fs::temp_directory_path() / "ssrlab_reference_limits.json";
+        const fs::path file = fs::temp_directory_path() / "reference_limits.json";
         write_text(file, R"({"shots": [{"scene": "sky_only", "resolution": [8, 8]}], "reference": )" + reference +
                              R"(, "techniques": [{"technique": "none"}]})");
         const ReferenceSettings settings = read_config(file).reference;
@@ -115,7 +115,7 @@ TEST(Configs, LimitAReferenceByWhatTheySet) {
 
 TEST(Configs, TimePointsAloneWhereAsked) {
     const auto has_copies = [](const std::string& timing) {
-        const fs::path file = fs::temp_directory_path() / "ssrlab_timing_copies.json";
+        const fs::path file = fs::temp_directory_path() / "timing_copies.json";
         write_text(
             file,
             R"({"shots": [{"scene": "sky_only", "resolution": [8, 8]}], "techniques": [{"technique": "none"}], "timing": )" +
@@ -130,7 +130,7 @@ TEST(Configs, TimePointsAloneWhereAsked) {
 
 TEST(Configs, AdditiveCompositeHasNoIncidentRadiance) {
     const auto read = [](const std::string& more) {
-        const fs::path file = fs::temp_directory_path() / "ssrlab_composite.json";
+        const fs::path file = fs::temp_directory_path() / "composite.json";
         write_text(file,
                    R"({"shots": [{"scene": "sky_only", "resolution": [8, 8]}], "techniques": [{"technique": "none"}])" +
                        more + "}");
@@ -218,7 +218,7 @@ TEST(Configs, OfFrostbiteMeasureEachChoiceAlone) {
 
 /// Values decide, not labels: what a point is compared with may stand in another entry, under another name.
 TEST(Configs, AgainstFindsThePointThatIsOtherwiseTheSame) {
-    const fs::path file = fs::path(testing::TempDir()) / "against.json";
+    const fs::path file = fs::temp_directory_path() / "against.json";
     const auto against_points = [&](const std::string& techniques) {
         write_text(file, R"({"shots": [{"scene": "fence"}], "techniques": [)" + techniques + "]}");
         std::map<std::string, std::string> found;
@@ -244,8 +244,7 @@ TEST(Configs, AgainstFindsThePointThatIsOtherwiseTheSame) {
 }
 
 TEST(Configs, FormerNamesAreRead) {
-    const fs::path file = fs::path(testing::TempDir()) / "former.json",
-                   base = fs::path(testing::TempDir()) / "base.json";
+    const fs::path file = fs::temp_directory_path() / "former.json", base = fs::temp_directory_path() / "base.json";
     write_text(base, R"({"shots": [{"scene": "fence"}], "variants": [{"variant": "composed_ssr", "preset": "blur"}]})");
     write_text(file, R"({"extends": "base.json", "techniques": [
         {"technique": "composed_ssr", "preset": "blur", "parameters": {"resolve": "mean"}}]})");
@@ -256,7 +255,7 @@ TEST(Configs, FormerNamesAreRead) {
 }
 
 TEST(Configs, EachChangesOneParameterAtATime) {
-    const fs::path file = fs::path(testing::TempDir()) / "each.json";
+    const fs::path file = fs::temp_directory_path() / "each.json";
     write_text(file, R"({"shots": [{"scene": "fence"}], "techniques": [
         {"technique": "mcguire_dda", "preset": "coarse", "each": {"dda.stride": [2, 8], "dda.refine": [false]}}]})");
     std::vector<std::string> points;
@@ -273,7 +272,7 @@ TEST(Configs, EachChangesOneParameterAtATime) {
 
 /// Else tables.py would stumble after the study has run.
 TEST(Configs, TablesAreCheckedBeforeTheStudyRuns) {
-    const fs::path file = fs::path(testing::TempDir()) / "tables.json";
+    const fs::path file = fs::temp_directory_path() / "tables.json";
     const auto mistake_in = [&](const std::string& table, const std::string& costs = "false") -> std::string {
         write_text(file, R"({"shots": [{"scene": "fence"}], "techniques": [{"technique": "none"}], "costs": )" + costs +
                              R"(,

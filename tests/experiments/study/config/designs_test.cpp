@@ -20,7 +20,7 @@ namespace {
 using nlohmann::json;
 
 struct Designs : testing::Test {
-    fs::path folder = fs::path(testing::TempDir()) / ("ssrlab_designs_" + std::to_string(getpid()));
+    fs::path folder = fs::temp_directory_path() / "designs";
 
     void TearDown() override { fs::remove_all(folder); }
     Config read(const std::string& text, const std::string& name = "study.json") {

@@ -31,7 +31,7 @@ std::string warnings_of(const ShotConfig& config) {
 }
 
 struct plane_warnings : testing::Test {
-    fs::path folder = fs::temp_directory_path() / "ssrlab_plane_warnings_test";
+    fs::path folder = fs::temp_directory_path() / "plane_warnings_test";
 
     void SetUp() override { fs::remove_all(folder), fs::create_directories(folder); }
     void TearDown() override { fs::remove_all(folder); }

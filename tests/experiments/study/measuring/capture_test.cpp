@@ -56,9 +56,7 @@ HostGBuffer wall(float frame) {
 }
 
 struct CaptureTest : testing::Test {
-    fs::path folder =
-        fs::temp_directory_path() /
-        ("ssrlab_capture_test_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::path folder = fs::temp_directory_path() / "capture_test";
     void SetUp() override { fs::remove_all(folder); }
     void TearDown() override { fs::remove_all(folder); }
 

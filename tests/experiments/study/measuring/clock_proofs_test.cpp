@@ -7,7 +7,7 @@
 namespace fs = std::filesystem;
 
 TEST(KeptClockProof, IsMadeOnceForEachMakerAndOnlyKeptIfItPassed) {
-    const fs::path folder = fs::temp_directory_path() / "ssrlab_kept_clock_proof_test";
+    const fs::path folder = fs::temp_directory_path() / "kept_clock_proof_test";
     fs::remove_all(folder);
     unsigned proven = 0;
     ClockCheck check{.stage_kind = "compute", .measured_ms = {1.0, 1.0, 1.0}, .foreign_load = 0.01, .attempts = 2};

@@ -25,8 +25,7 @@ struct CompiledShaders : testing::Test {
     }
     /// Passes that techniques and points share are compiled once.
     static const std::filesystem::path& cache() {
-        static const std::filesystem::path folder =
-            std::filesystem::path(testing::TempDir()) / "compiled_shaders_cache";
+        static const std::filesystem::path folder = std::filesystem::temp_directory_path() / "compiled_shaders_cache";
         return folder;
     }
     static void SetUpTestSuite() { std::filesystem::remove_all(cache()); }

@@ -94,7 +94,7 @@ void expect_all_counts(const TracedFrame& frame) {
 TEST_F(GpuEstimates, EveryStageHasAnEstimateWithItsInterval) {
     const GpuCompilers compilers = find_compilers({"navi21", "navi10"});
     if (const std::string& why = compilers.entries.front().refusal; !why.empty()) GTEST_SKIP() << why;
-    const std::filesystem::path cache = std::filesystem::path(testing::TempDir()) / "gpu_estimates_cache";
+    const std::filesystem::path cache = std::filesystem::temp_directory_path() / "gpu_estimates_cache";
     std::filesystem::remove_all(cache);
     for (const std::string technique : {"amd_sssr", "diligent_ssr"}) {
         const PointConfig point = single_point(technique);
@@ -133,7 +133,7 @@ namespace {
 /// Estimates of the march of a real frame, whose groups differ by two orders of magnitude, for a chip of 144 SIMDs.
 struct EstimatesOfSamples : GpuEstimates {
     const GpuCompilers compilers = find_compilers({"polaris10"});
-    const std::filesystem::path cache = std::filesystem::path(testing::TempDir()) / "gpu_estimates_coverage";
+    const std::filesystem::path cache = std::filesystem::temp_directory_path() / "gpu_estimates_coverage";
     const PointConfig point = single_point("mcguire_dda");
 
     TracedFrame traced_march() {

@@ -10,8 +10,7 @@
 namespace {
 
 struct TemporaryConfig : testing::Test {
-    std::filesystem::path file =
-        std::filesystem::temp_directory_path() / ("ssrlab_timeline_test_" + std::to_string(getpid()) + ".json");
+    std::filesystem::path file = std::filesystem::temp_directory_path() / "timeline_test.json";
 
     void TearDown() override { std::filesystem::remove(file); }
     Config read(const std::string& shots, const std::string& more = R"(, "techniques": [{"technique": "none"}])") {

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 namespace {
 
 struct TimingLockTest : testing::Test {
-    fs::path folder = fs::temp_directory_path() / "ssrlab_timing_lock_test", file = folder / "lock";
+    fs::path folder = fs::temp_directory_path() / "timing_lock_test", file = folder / "lock";
     std::vector<std::string> notices;
 
     void SetUp() override {

@@ -15,9 +15,7 @@ const std::filesystem::path scenes = std::filesystem::path(SSRLAB_SOURCE_DIR) / 
 const PointConfig mirror = single_point("mcguire_dda");
 
 struct PrecisionStudy : TechniqueTest {
-    const std::filesystem::path folder =
-        std::filesystem::temp_directory_path() /
-        ("ssrlab_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    const std::filesystem::path folder = std::filesystem::temp_directory_path() / "precision";
     const CaseFrames& frames() {
         static const CaseFrames drawn =
             CaseDrawer(device(), {scenes}, folder, {mirror})

@@ -17,9 +17,7 @@ namespace {
 const std::filesystem::path scenes = std::filesystem::path(SSRLAB_SOURCE_DIR) / "scenes";
 
 struct StabilityTest : TechniqueTest {
-    const std::filesystem::path folder =
-        std::filesystem::temp_directory_path() /
-        ("ssrlab_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    const std::filesystem::path folder = std::filesystem::temp_directory_path() / "stability";
     const std::filesystem::path table = folder / "cases.json";
 
     void SetUp() override { std::filesystem::create_directories(folder); }
@@ -298,7 +296,7 @@ TEST(StabilityErrors, AreOfJudgedPixelsThatAreFinite) {
 }
 
 TEST(StabilityResults, ComeBackAsTheyWereWritten) {
-    const auto folder = std::filesystem::temp_directory_path() / "ssrlab_stability_tables";
+    const auto folder = std::filesystem::temp_directory_path() / "stability_tables";
     std::filesystem::create_directories(folder);
     StabilityCase what;
     what.name = what.family = "a, b", what.group = "g", what.why = "\"w\"";

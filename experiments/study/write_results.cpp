@@ -1,4 +1,4 @@
-#include "experiments/study/study_results.h"
+#include "experiments/study/write_results.h"
 
 #include "core/files.h"
 #include "experiments/results/answers/answers.h"
