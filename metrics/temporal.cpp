@@ -15,7 +15,7 @@ const std::vector<TemporalMetric>& temporal_metrics() {
          "Mean of that variance / (r^2 + 0.01), weighted as relmse", "temporal_variance_a_guided"},
         {"flicker_correlation", "temporal_lag_1", "1", near_zero,
          "1 - mean (x_t - x_(t-1))^2 / (2 mean variance over the frames). 0 for independent frames, towards 1 if each "
-         "frame repeats the last. A technique with a high value buys little flicker by lag",
+         "frame repeats the last. With a value near 1, flicker may be low only because the image lags behind",
          "", 1},
         {"frame_difference", "frame_difference_mse", "radiance^2", lower,
          "Mean of ((x_t - x_(t-1)) - (r_t - r_(t-1)))^2: changes between frames that the truth does not have"},

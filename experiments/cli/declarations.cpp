@@ -2,7 +2,6 @@
 
 #include "core/list_text.h"
 #include "core/scene/scene_family.h"
-#include "experiments/gpu_costs/pass_cost.h"
 #include "experiments/results/files/manifest.h"
 #include "experiments/results/results_schema.h"
 #include "experiments/study/config/config.h"
@@ -16,14 +15,22 @@ namespace {
 
 using nlohmann::json;
 
-/// Name and meaning of each option, as --help has them.
+/// Arguments and options without --help. `value` is what --help shows: a name or a type, and what is checked, as
+/// "DIR:DIR" or "INT in [1 - 64]"; empty for a flag.
 json options_of(const CLI::App& command) {
-    const CLI::Formatter formatter;
     json options = json::array();
-    for (const CLI::Option* option : command.get_options())
-        options.push_back({{"name", formatter.make_option_name(option, option->get_positional()) +
-                                        formatter.make_option_opts(option)},
-                           {"meaning", formatter.make_option_desc(option)}});
+    for (const CLI::Option* option : command.get_options()) {
+        if (option == command.get_help_ptr()) continue;
+        json excluded = json::array();
+        for (const CLI::Option* other : option->get_excludes()) excluded.push_back(other->get_name());
+        options.push_back({{"name", option->get_name(option->get_positional())},
+                           {"value", option->get_type_size() == 0 ? "" : option->get_type_name()},
+                           {"required", option->get_required()},
+                           {"several", option->get_expected_max() == CLI::detail::expected_max_vector_size},
+                           {"default", option->get_default_str()},
+                           {"excludes", excluded},
+                           {"meaning", option->get_description()}});
+    }
     return options;
 }
 
@@ -103,13 +110,6 @@ json metrics() {
     return all;
 }
 
-json costs() {
-    json all = json::array();
-    for (const CostQuantity& quantity : cost_quantities)
-        all.push_back({{"name", quantity.name}, {"meaning", quantity.meaning}});
-    return all;
-}
-
 json families() {
     json all = json::array();
     for (const SceneFamily& family : scene_families()) all.push_back({{"name", family.name}, {"about", family.about}});
@@ -119,7 +119,7 @@ json families() {
 }  // namespace
 
 json declarations(const CLI::App& app) {
-    return {{"commands", commands_of(app)}, {"keys", key_descriptions()}, {"columns", results_schema({})["resources"]},
-            {"techniques", techniques()},   {"tracers", tracers()},       {"denoisers", denoisers()},
-            {"metrics", metrics()},         {"costs", costs()},           {"scene_families", families()}};
+    return {{"commands", commands_of(app)}, {"keys", key_descriptions()},  {"columns", results_schema({})["resources"]},
+            {"techniques", techniques()},   {"tracers", tracers()},        {"denoisers", denoisers()},
+            {"metrics", metrics()},         {"scene_families", families()}};
 }

@@ -169,9 +169,11 @@ void add_tradeoff(Commands& line) {
         ->capture_default_str();
     option(command, "--leave-out SCENE", tradeoff.left_out, "Scene or shot to leave out; may be repeated");
     add_margin(command, tradeoff.margin, "the study's `primary.margin`");
-    option(command, "--metric", tradeoff.metric, "Default: that of the study's primary error");
-    option(command, "--mask", tradeoff.mask, "Default: that of the study's primary error");
-    option(command, "--target", tradeoff.target, "Default: that of the study's primary error");
+    option(command, "--metric NAME", tradeoff.metric,
+           "Metric of the error; default: that of the study's primary error");
+    option(command, "--mask NAME", tradeoff.mask, "Mask of the error; default: that of the study's primary error");
+    option(command, "--target NAME", tradeoff.target,
+           "Target of the error; default: that of the study's primary error");
     option(command, "--cost QUANTITY|CHIP", tradeoff.cost,
            "What replaces time: a counted quantity of costs.csv, or the estimated time of a chip in estimates.csv");
     add_reading(command);

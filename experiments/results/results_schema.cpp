@@ -1,5 +1,6 @@
 #include "experiments/results/results_schema.h"
 
+#include "experiments/gpu_costs/pass_cost.h"
 #include "experiments/results/cells/estimate_table.h"
 #include "experiments/results/verdicts/study_results.h"
 
@@ -26,7 +27,9 @@ const std::map<std::string, Meaning>& meanings() {
         {"times.frame", {"", "Number of the timed frame after the warm-up; gaps where frames were left out"}},
         {"width", {"pixel", "Width of the image"}},
         {"height", {"pixel", "Height of the image"}},
-        {"technique", {"", "Name of the technique; in times.csv and time_summary.csv empty for the G-buffer's stages"}},
+        {"technique", {"", "Name of the technique"}},
+        {"times.technique", {"", "Name of the technique; empty for the G-buffer's stages"}},
+        {"time_summary.technique", {"", "Name of the technique; empty for the G-buffer's stages"}},
         {"point",
          {"", "Name of the point: `default`, or its preset and swept parameters. parameters.csv has all values"}},
         {"label", {"", "Name of the point in reports, tables and figures; empty: technique and point"}},
@@ -145,15 +148,7 @@ const std::map<std::string, Meaning>& meanings() {
         {"foreign_load", {"", "Share of the machine's CPU time that other programs took; empty if unknown"}},
         {"disturbed", {"", "Whether foreign_load exceeds 0.05"}},
         {"disturbed_share", {"", "Share of the timed frames that other programs disturbed"}},
-        {"quantity",
-         {"",
-          "What the value is. Verdicts on rays, which add up to 1: right (a visible point was met, and found within a "
-          "pixel), wrong_place (it was found elsewhere), false_hit (nothing visible was met, but a hit was reported), "
-          "avoidable_miss (a visible point was met, and missed), unavoidable_miss (what was met is hidden, off the "
-          "screen or behind the camera, and was missed) and empty (the ray left the scene, and missed). correct: "
-          "right, unavoidable_miss and empty together. miss: REASON: avoidable misses by the outcome of the march. "
-          "distance_error: median of |distance / true distance - 1| of right hits. fetches: depth fetches for each "
-          "ray. error: VERDICT: share of the squared error on pixels with that verdict"}},
+        {"hits.quantity", {"", "What the value is, as listed below. The first six are verdicts, which add up to 1"}},
         {"costs.quantity", {"", "What is counted, as listed below"}},
         {"costs.value", {"", "Count in the last frame with the first seed"}},
         {"pipeline", {"", "Number of the pipeline within its stage, from 0"}},
@@ -185,8 +180,8 @@ const std::map<std::string, Meaning>& meanings() {
           "Low end of the 95 % interval of microseconds from sampling alone, without blocks whose number of runs is "
           "only bounded"}},
         {"estimates.high", {"us", "High end of the 95 % interval of microseconds from sampling alone"}},
-        {"model_low", {"us", "low, divided by the largest factor by which estimates exceeded measured times"}},
-        {"model_high", {"us", "high, multiplied by the largest factor by which measured times exceeded estimates"}},
+        {"model_low", {"us", "`low`, divided by the largest factor by which estimates exceeded measured times"}},
+        {"model_high", {"us", "`high`, multiplied by the largest factor by which measured times exceeded estimates"}},
         {"bound", {"", "Part of the chip that takes longest"}},
         {"vector", {"us", "Time of vector arithmetic alone"}},
         {"scalar", {"us", "Time of scalar instructions alone"}},
@@ -208,17 +203,17 @@ const std::map<std::string, Meaning>& meanings() {
         {"ratio", {"", "Value of the point divided by the value of the other point; empty if either is not above 0"}},
         {"rounds", {"", "Frames in which both points were timed"}},
         {"p", {"", "Two-sided p-value of the hypothesis that the ratio is 1"}},
-        {"family", {"", "primary (the study's main error) or exploratory"}},
-        {"p_holm", {"", "p, adjusted for all effects on the same error, or for all times (Holm 1979)"}},
+        {"family", {"", "`primary` (the study's main error) or `exploratory`"}},
+        {"p_holm", {"", "`p`, adjusted for all effects on the same error, or for all times (Holm 1979)"}},
         {"low_holm", {"", "Low end of the interval that excludes 1 if p_holm is below 0.05"}},
         {"high_holm", {"", "High end of that interval"}},
         {"effects.p_equivalent",
          {"", "P-value of the hypothesis that the ratio is not within the margin, by two one-sided tests"}},
-        {"p_equivalent_holm", {"", "p_equivalent, adjusted as p_holm"}},
+        {"p_equivalent_holm", {"", "`p_equivalent`, adjusted as `p_holm`"}},
         {"verdict",
          {"",
-          "less or more if p_holm is below 0.05; else equivalent if p_equivalent_holm is; else undecided; empty "
-          "without p"}},
+          "`less` or `more` if `p_holm` is below 0.05; else `equivalent` if `p_equivalent_holm` is; else `undecided`; "
+          "empty without `p`"}},
     };
     return all;
 }
@@ -230,6 +225,31 @@ const char* type_of(size_t) { return "integer"; }
 const char* type_of(double) { return "number"; }
 const char* type_of(const std::optional<double>&) { return "number"; }
 
+/// The names that a column may hold, with their meanings.
+json named_values(const std::string& column) {
+    json values = json::array();
+    const auto add = [&](const std::string& name, const std::string& meaning) {
+        values.push_back({{"name", name}, {"meaning", meaning}});
+    };
+    if (column == "costs.quantity")
+        for (const CostQuantity& quantity : cost_quantities) add(quantity.name, quantity.meaning);
+    if (column == "hits.quantity") {
+        add("right", "The ray meets a visible point, and the march finds that point within a pixel");
+        add("wrong_place", "The ray meets a visible point, and the march reports a hit elsewhere");
+        add("false_hit", "The ray meets nothing visible, and the march reports a hit");
+        add("avoidable_miss", "The ray meets a visible point, and the march reports a miss");
+        add("unavoidable_miss",
+            "The ray meets a point that is hidden, off the screen or behind the camera, and the march reports a miss");
+        add("empty", "The ray leaves the scene or starts below its surface, and the march reports a miss");
+        add("correct", "Sum of right, unavoidable_miss and empty");
+        add("miss: REASON", "Avoidable misses, by the reason for which the march ended");
+        add("distance_error", "Median of |distance / true distance - 1| over right hits");
+        add("fetches", "Reads of the depth buffer for each ray");
+        add("error: VERDICT", "Share of the squared error on pixels with that verdict");
+    }
+    return values;
+}
+
 json field(const std::string& name, const std::string& type, const std::string& unit, const std::string& text) {
     json entry = {{"name", name}, {"type", type}, {"description", text}};
     if (!unit.empty()) entry["unit"] = unit;
@@ -240,7 +260,9 @@ json field(const std::string& name, const std::string& type, const std::string& 
 json known_field(const std::string& file, const std::string& name, const char* type) {
     const auto own = meanings().find(file + "." + name);
     const Meaning& meaning = own == meanings().end() ? meanings().at(name) : own->second;
-    return field(name, meaning.type ? meaning.type : type, meaning.unit, meaning.text);
+    json entry = field(name, meaning.type ? meaning.type : type, meaning.unit, meaning.text);
+    if (json values = named_values(file + "." + name); !values.empty()) entry["values"] = std::move(values);
+    return entry;
 }
 
 /// What a row of each file is.

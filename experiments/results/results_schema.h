@@ -12,5 +12,5 @@ struct ParameterColumn {
 };
 
 /// A Data Package (https://specs.frictionlessdata.io/data-package) of a results folder's CSV files: type, unit and
-/// meaning of each column. `parameters`: the study's.
+/// meaning of each column, and of the values of columns that hold certain names. `parameters`: the study's.
 nlohmann::json results_schema(const std::vector<ParameterColumn>& parameters);

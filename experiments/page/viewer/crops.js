@@ -174,7 +174,7 @@ function cropList() {
         h("div", {class: "controls"},
           h("a", {href: url, download: "figures.json", id: "crops-download"}, "Download figures.json"),
           h("button", {click: copyCrops}, "Copy"),
-          h("span", {class: "note"}, "Then run ", h("code", {}, "ssrlab figures DIR figures.json"),
+          h("span", {class: "note"}, "Then run ", h("code", {}, "ssrlab figures DIR --choice figures.json"),
             ", where DIR is the folder of this page.")),
         text
     ];

@@ -3,57 +3,56 @@
 usage: python3 experiments/python reference_pages [--check] [PROGRAM]    --check: fail where a page is not what the program declares"""
 
 import argparse
+import importlib
 import json
-import os
+import re
 import subprocess
 import sys
+import textwrap
 from pathlib import Path
 
 from ssrlab.json_files import read_json
 from ssrlab.markdown_text import markdown_prose
 from ssrlab.mistakes import ResultsError, exit_code
+from ssrlab.reference_markdown import NOTE, OUT, code, contents, linked, page, prose, table
 from ssrlab.repository import CONFIGS, ROOT, STUDIES
 
-OUT = ROOT / "experiments/docs/reference"
-NOTE = "<!-- Written by `python3 experiments/python reference_pages`. Change what the program declares, not this page. -->"
 UP = "../../.."  # to the root, from a page of the reference
+VALUE = re.compile(r"(.*?)(?::(?:DIR|FILE|\{(.*)\}|\w+ in \[(.+) - (.+)\]))?")  # a name or type, and what the program checks
+TYPES = {"UINT": "a whole number", "INT": "a whole number", "FLOAT": "a number", "TEXT": "a text"}
+DEFAULT = re.compile(r"(?:; d|\. D)efault: (.*?)(?=\. [A-Z]|$)")  # in a meaning
 
 
-def prose(text):
-    """A text of the program as a sentence: code in backticks stays code, and nothing else is markup."""
-    text = markdown_prose(text) if text else ""
-    first = text.split(" ")[0].rstrip(",")
-    text = text[:1].upper() + text[1:] if first.isalpha() and first.islower() else text
-    return text + "." if text and not text.endswith((".", "!", "?")) else text
+def option_row(option):
+    name, choices, least, most = VALUE.fullmatch(option["value"]).groups()
+    value = ", ".join(code(choice) for choice in choices.split(",")) if choices else TYPES.get(name) or (name and code(name.removesuffix("...")))
+    value += (f" in [{least}, {most}]" if least else "") + (", one or more" if option["several"] else "")
+    said, initial = DEFAULT.search(option["meaning"]), option["default"].strip("[]").replace(",", " ")
+    default = "required" if option["required"] else code(initial) if initial else markdown_prose(said[1]) if said else ""
+    meaning = option["meaning"].replace(said[0], "") if said else option["meaning"]
+    without = f" Not together with {', '.join(map(code, option['excludes']))}." if option["excludes"] else ""
+    return [code(option["name"]), value, default, prose(meaning) + without]
 
 
-def code(value):
-    return f"`{value if isinstance(value, str) else json.dumps(value)}`"
-
-
-def table(head, rows):
-    """`rows`: of Markdown, whose bars may be escaped. Columns without any cell are left out, and tables without any row."""
-    if not rows:
-        return []
-    used = [i for i in range(len(head)) if i == 0 or any(row[i] for row in rows)]
-    lines = [[head[i] for i in used], ["---"] * len(used), *([row[i] for i in used] for row in rows)]
-    return ["| " + " | ".join(cell.replace("\\|", "|").replace("|", "\\|") for cell in line) + " |" for line in lines] + [""]
-
-
-def page(title, *lines):
-    return "\n".join([NOTE, "", f"# {title}", "", *lines]).rstrip() + "\n"
+def script_options(command):
+    """Arguments and options of a command that is a module of experiments/python."""
+    actions = importlib.import_module(f"ssrlab.{command}.__main__").command_line()._actions
+    return [{"name": (one.option_strings or [one.dest])[-1], "value": "" if one.nargs == 0 else one.metavar or one.dest.upper(), "required": one.required,
+             "several": False, "default": "", "excludes": [], "meaning": one.help} for one in actions if one.help != argparse.SUPPRESS and one.dest != "help"]
 
 
 def commands(declared):
+    options = {c["name"]: script_options(c["name"]) if c["has_script"] else c["options"] for c in declared["commands"]}
+    shared = [one for one in options["run"] if sum(one in all_of for all_of in options.values()) > 6]
+    head, many = ["argument or option", "value", "default", "meaning"], "Options of many commands"
     lines = [
-        "Every command of `ssrlab` with its arguments and options, as `ssrlab COMMAND --help` prints them. Exit codes are 0 (done), 1 (a check that",
+        "Every command of `ssrlab` with its arguments and options. `ssrlab COMMAND --help` prints them, too. Exit codes are 0 (done), 1 (a check that",
         "the command makes has failed), 2 (an error in the request), 3 (a fault of the machine) and 130 (stopped by Ctrl-C).", "",
-        *table(["command", "what it does"], [[f"[{c['name']}](#{c['name']})", prose(c["meaning"])] for c in declared["commands"]])]
+        *contents([(c["name"], prose(c["meaning"])) for c in declared["commands"]] + [(many, "What many commands share.")]), f"## {many}", "", *table(head, map(option_row, shared))]
     for command in declared["commands"]:
-        lines += [f"## {command['name']}", "", prose(command["meaning"]), ""]
-        options = [o for o in command["options"] if o["name"] != "-h,--help"]
-        lines += ["```", command["help"].strip(), "```", ""] if "help" in command else table(
-            ["option", "meaning"], [[code(o["name"]), prose(o["meaning"])] for o in options])
+        own, known = ([one for one in options[command["name"]] if (one in shared) == is_shared] for is_shared in (False, True))
+        lines += [f"## {command['name']}", "", prose(command["meaning"]), "", *table(head, map(option_row, own))]
+        lines += [f"[{many}](#options-of-many-commands): {', '.join(code(one['name']) for one in known)}.", ""] if known else []
     return page("Commands", *lines)
 
 
@@ -74,7 +73,7 @@ def study_keys(declared):
     lines = [
         "All keys of a study's config, with values, defaults and meanings. A config is a JSON file; `//` comments are allowed, and unknown keys are",
         "errors. `timing.frames` is the key `frames` in the object `timing`.", "",
-        "An editor completes and checks configs with this schema:", "", "    build/release/ssrlab describe --schema > study.schema.json", ""]
+        "An editor completes and checks configs with this schema:", "", "    build/release/ssrlab describe --schema > study.schema.json", "", *contents(KEYS.values())]
     for kind, (title, about) in KEYS.items():
         lines += [f"## {title}", "", about, ""]
         lines += table(["key", "values", "default", "meaning"],
@@ -85,12 +84,12 @@ def study_keys(declared):
 def result_columns(declared):
     lines = [
         "The tables that a run writes into its [results folder](../results_folder.md), with every column. Empty cells are missing values.",
-        "`schema.json` in the folder holds the same as a Data Package.", ""]
+        "`schema.json` in the folder holds the same as a Data Package.", "", *contents((file["path"], prose(file["description"])) for file in declared["columns"])]
     for file in declared["columns"]:
         lines += [f"## {file['path']}", "", prose(file["description"]), ""]
         lines += table(["column", "type", "unit", "meaning"],
                        [[code(f["name"]), f["type"], f.get("unit", ""), prose(f["description"])] for f in file["schema"]["fields"]])
-        lines += table(["quantity", "meaning"], [[code(q["name"]), prose(q["meaning"])] for q in declared["costs"]]) if file["name"] == "costs" else []
+        lines += table(["quantity", "meaning"], [[code(v["name"]), prose(v["meaning"])] for f in file["schema"]["fields"] for v in f.get("values", [])])
     return page("Columns of the results", *lines)
 
 
@@ -111,7 +110,8 @@ PARTS = {  # what a technique may be composed of: title, word, the parameter tha
 
 def parts(kind, declared):
     title, word, parameter, about = PARTS[kind]
-    lines = [about, f"A technique chooses one by its parameter `{parameter}`. [A comparison]({UP}/variants/{kind}/README.md) says how they differ.", ""]
+    lines = [about, f"A technique chooses one by its parameter `{parameter}`. [A comparison]({UP}/variants/{kind}/README.md) says how they differ.", "",
+             *contents((entry["name"], prose(entry["title"])) for entry in declared[kind])]
     for entry in declared[kind]:
         lines += [f"## {entry['name']}", "", *entry_lines(entry)]
         lines += [] if entry.get("fits_webgl2", True) else [f"This {word} does not fit WebGL 2.", ""]
@@ -164,9 +164,10 @@ def technique(entry, declared):
     readme, named = f"variants/{entry['name']}/README.md", {c["name"]: c["when"] for c in file.get("conditions", [])}
     lines = entry_lines(entry) + ([f"[More about this technique]({UP}/../{readme})", ""] if (ROOT / readme).exists() else [])
     lines += [f"The passes keep within the limits of {entry['limits']}.", ""] if entry["limits"] else []
-    lines += ["## Presets", "", *table(["preset", "meaning", "parameters"], [
-        [code(p["name"]), prose(p["meaning"]), ", ".join(code(f"{k} = {json.dumps(v)}") for k, v in p["parameters"].items())]
-        for p in entry["presets"]])] if entry["presets"] else []
+    lines += ["## Presets", "", *table(["preset", "meaning"], [[code(p["name"]), prose(p["meaning"])] for p in entry["presets"]])] if entry["presets"] else []
+    for preset in (p for p in entry["presets"] if p["parameters"]):
+        values = ", ".join(f"{name}={json.dumps(value)}" for name, value in preset["parameters"].items())
+        lines += [f"Parameters of {code(preset['name'])}:", "", *textwrap.wrap(values, 140, initial_indent="    ", subsequent_indent="    ", break_on_hyphens=False), ""]
     lines += ["## Passes", "", "The passes of a frame in order, with the images that they read and write. A pass also reads the "
               "[G-buffer](../../glossary.md#g-buffer).", "", *table(["pass", "runs if", "reads", "writes", "buffers"], [pass_row(one, named) for one in file["passes"]])]
     lines += ["The passes of the chosen [denoiser](../denoisers.md) follow.", ""] if "denoiser" in file else []
@@ -231,16 +232,14 @@ def index(texts):
 
 def written(program):
     """All pages, by name."""
-    ask = lambda *words: subprocess.check_output([program, *words], text=True, env=os.environ | {"COLUMNS": "100"})  # noqa: E731
-    declared = json.loads(ask("describe", "--json"))
-    for command in [c for c in declared["commands"] if c["has_script"]]:
-        command["help"] = ask(command["name"], "--help")
+    declared = json.loads(subprocess.check_output([program, "describe", "--json"], text=True))
     pages = {"commands.md": commands, "study_keys.md": study_keys, "result_columns.md": result_columns, "metrics.md": metrics, "scenes.md": scenes,
              "studies.md": studies}
     texts = {name: write(declared) for name, write in pages.items()} | {f"{kind}.md": parts(kind, declared) for kind in PARTS}
     texts["techniques/README.md"] = page("Techniques", "Every technique of ssrlab. Each page lists passes, presets and parameters.", "", *table(
         ["technique", "what it is"], [[f"[{e['name']}]({e['name']}.md)", prose(e["title"])] for e in declared["techniques"]]))
-    return texts | {"README.md": index(texts)} | {f"techniques/{entry['name']}.md": technique(entry, declared) for entry in declared["techniques"]}
+    texts |= {"README.md": index(texts)} | {f"techniques/{entry['name']}.md": technique(entry, declared) for entry in declared["techniques"]}
+    return {name: linked(text, name) for name, text in texts.items()}
 
 
 def main():

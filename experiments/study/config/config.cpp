@@ -37,8 +37,8 @@ Keys reference_keys() {
                        "; no limit if `seconds` or `target_relative_error` is set"),
              "Largest number of samples per pixel, rounded up to 16 x 2^k"},
             {"lit_samples", whole(16, 1 << 24),
-             otherwise("`samples`; for frames without other samples and with `target_relative_error`, " +
-                       std::to_string(ReferenceSettings::default_samples) + " at most"),
+             otherwise("`samples`; at most " + std::to_string(ReferenceSettings::default_samples) +
+                       " for frames without other samples and with `target_relative_error`"),
              "Largest number of samples per pixel of the lit colour, which techniques read. The other samples add "
              "specular light only. Frames that are not compared with the truth need no other samples"},
             {"lit_noise", flag(), true,
@@ -119,7 +119,7 @@ Keys study_keys(const json& technique = json::object()) {
         {"costs", flag(), plain.counts_costs,
          "Count what each stage does in the last frame of a shot: invocations, fetches, bytes and operations "
          "(`costs.csv`). Each point then runs once more, with one seed"},
-        {"gpu_compilers", array_of(any_text(), 0), json::array(),
+        {"gpu_compilers", named(array_of(any_text(), 0), "an array of texts"), json::array(),
          "GPUs for which each point's passes are compiled (`compiled.csv`: registers, occupancy, instructions). The "
          "GPU itself is not needed. `ssrlab list chips` names the GPUs, for example `navi21`"},
         {"images", one_of({"last", "all", "played", "none"}), "last",

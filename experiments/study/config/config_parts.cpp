@@ -218,7 +218,7 @@ Keys tune_keys() {
         {"time", one_of(times), milliseconds,
          "Cost of a point: measured time, a quantity of `costs.csv`, or the estimated total time of a GPU in "
          "`estimates.csv`. Counts and estimates need no quiet machine"},
-        {"budgets", array_of(budget), json::array({0.5, 1, 2}),
+        {"budgets", named(array_of(budget), "an array of numbers above 0"), json::array({0.5, 1, 2}),
          "Budgets, as multiples of the baseline's cost. For each, the point with the least error is found"},
         {"metrics", names_of_metrics(), otherwise("the study's `primary`"),
          "Error of a point: the geometric mean of its ratio to the baseline's error, over shots and metrics"},

@@ -108,7 +108,7 @@ Values number(double min, double max) {
 }
 Values one_of(const std::vector<std::string>& names) { return {{{"enum", names}}, alternatives(names), {}}; }
 Values array_of(const Values& item, int least) {
-    return {{{"type", "array"}, {"items", item.schema}, {"minItems", least}}, "an array of: " + item.text, {}};
+    return {{{"type", "array"}, {"items", item.schema}, {"minItems", least}}, "an array", {}};
 }
 Values either(const Values& a, const Values& b) {
     const auto outer = [](const Values& values) { return values.outer.is_null() ? values.schema : values.outer; };

@@ -305,7 +305,7 @@ def test_program(folder):
     unknown = os.path.join(folder, "unknown")
     os.makedirs(unknown)
     code, said = search(unknown, FakeSsrlab(), rules | {"axes": {"reys": [1]}}, FakeProgram())
-    check(code == 2 and "'reys' is no setting" in said, f"{code} {said}")
+    check(code == 2 and "states no value of 'reys'" in said, f"{code} {said}")
 
 
 def simulated(rng, name, log_error, time, scatter):

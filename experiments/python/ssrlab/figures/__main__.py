@@ -77,16 +77,20 @@ OF_ONE_ERROR = ("error_time", "ladder", "response", "map", "convergence", "fits"
 UNMEASURED = ("stage_times", "stage_costs", "stage_estimates", "fetches")  # of studies without a reference, too
 
 
-def parse_arguments():
+def command_line():
     parser = argparse.ArgumentParser(prog="ssrlab figures", description="Draws figures for papers (PDF, SVG, PNG) from a results folder, and animations of shots in motion (GIF).")
-    parser.add_argument("results", help="results folder that `ssrlab run` filled")
-    parser.add_argument("--out", help="output folder; default: figures in the results folder")
-    parser.add_argument("--choice", metavar="figures.json", help="file that says which figures are drawn and how they look; the report's viewer writes one with crops")
-    parser.add_argument("--target", help="target of the error; default: specular")
-    parser.add_argument("--metric", help="metric of the error; default: that of the study's primary error, else the first")
-    parser.add_argument("--mask", help="mask of the error; default: reflective")
-    parser.add_argument("--max-memory", metavar="SIZE", type=memory.size_in_bytes, help=f"memory that reading an image may take, for example 8GB; default: {memory.VARIABLE}, else half of this machine's memory")
-    arguments = parser.parse_args()
+    parser.add_argument("results", help="Results folder that `ssrlab run` filled")
+    parser.add_argument("--out", help="Output folder; default: figures in the results folder")
+    parser.add_argument("--choice", metavar="figures.json", help="File that says which figures are drawn and how they look; the report's viewer writes one with crops")
+    parser.add_argument("--target", help="Target of the error; default: specular")
+    parser.add_argument("--metric", help="Metric of the error; default: that of the study's primary error, else the first")
+    parser.add_argument("--mask", help="Mask of the error; default: reflective")
+    parser.add_argument("--max-memory", metavar="SIZE", type=memory.size_in_bytes, help=f"Memory that reading an image may take, for example 8GB; default: {memory.VARIABLE}, else half of this machine's memory")
+    return parser
+
+
+def parse_arguments():
+    arguments = command_line().parse_args()
     if arguments.max_memory is not None:
         os.environ[memory.VARIABLE] = str(arguments.max_memory)
     return arguments

@@ -19,14 +19,19 @@ from ssrlab.tables.cells import Table, cells_of
 from ssrlab.tables.markdown import markdown
 
 
-def parse_arguments():
+def command_line():
     parser = argparse.ArgumentParser(prog="ssrlab tables", description="Makes the tables of a study (Markdown, LaTeX, CSV) from a results folder.")
-    parser.add_argument("results", nargs="?", help="results folder that `ssrlab run` filled")
-    parser.add_argument("--out", help="output folder; default: tables in the results folder")
-    parser.add_argument("--keep", action="store_true", help="also keep the numbers in experiments/studies/summaries, and write them into documents")
-    parser.add_argument("--fill", action="store_true", help="write the kept numbers into all tables and sentences of documents")
-    parser.add_argument("--check", metavar="ESTIMATORS", type=int, help="fail if a document differs from the kept numbers, or if the estimators have another version than those of the kept numbers. `ssrlab tables --check` adds the version")
+    parser.add_argument("results", nargs="?", help="Results folder that `ssrlab run` filled")
+    parser.add_argument("--out", help="Output folder; default: tables in the results folder")
+    parser.add_argument("--keep", action="store_true", help="Also keep the numbers in experiments/studies/summaries, and write them into documents")
+    parser.add_argument("--fill", action="store_true", help="Write the kept numbers into all tables and sentences of documents")
+    parser.add_argument("--check", metavar="ESTIMATORS", type=int, help="Fail if a document differs from the kept numbers, or if the estimators have another version than those of the kept numbers. `ssrlab tables --check` adds the version")
     parser.add_argument("--root", default=str(ROOT), help=argparse.SUPPRESS)  # tests use a tree of their own
+    return parser
+
+
+def parse_arguments():
+    parser = command_line()
     arguments = parser.parse_args()
     if sum([arguments.results is not None, arguments.fill, arguments.check is not None]) != 1:
         parser.error("name one results folder, or --fill, or --check")

@@ -104,8 +104,8 @@ class Tuning:
         settings = self.points[AT_DEFAULTS].parameters
         unknown = [name for name in self.rules["axes"] if name not in settings]
         if unknown:
-            states = f"those are {', '.join(sorted(settings))}" if settings else "it states none"
-            raise ResultsError(f"tune: 'axes': '{unknown[0]}' is no setting of which external.json of the program states the value; {states}")
+            states = f"the file states {', '.join(sorted(settings))}" if settings else "the file states no setting"
+            raise ResultsError(f"tune: 'axes': the external.json that the program writes states no value of '{unknown[0]}'; {states}")
         self.declared = declared_by(settings, self.rules["axes"])
         self.searched = next(v["technique"] for v in results.manifest["techniques"] if v.get("label") == AT_DEFAULTS)
 

@@ -107,12 +107,16 @@ class Outcome:
             if name in self.tuning.points or not (is_faster or is_better):
                 continue
             word, scenes_of_search = self.time_word(), len(self.studies.shots)
-            within = f" within {times(budgets)} the {word} of `{self.tuning.baseline}`" if self.studies.has_time else ""
-            text = f"the least error that `ssrlab tune` found{within}: {with_interval(searched)} of " + ("its error" if within else f"that of `{self.tuning.baseline}`")
-            text += f" in {math.exp(self.race.log_time(point)):.2f} of its {word}" if within else ""
-            text += f" on the {scenes_of_search} scenes of the search"
+            base = f"`{self.tuning.baseline}`"
+            within = f" within {times(budgets)} the {word} of {base}" if self.studies.has_time else ""
+
+            def said(error, time):
+                return f"error and {word} are {error} and {time} times those of {base}" if time else f"the error is {error} times the error of {base}"
+
+            time_of_search = f"{math.exp(self.race.log_time(point)):.2f}" if within else ""
+            text = f"for low error{within}, found by `ssrlab tune`. On the {scenes_of_search} scenes of the search, {said(with_interval(searched), time_of_search)}"
             if judged:
-                text += f"; {with_interval(judged[0])}" + (f" in {with_interval(judged[2])}" if judged[2] else "") + f" on {judged[1]} others"
+                text += f". On {judged[1]} other scenes, {said(with_interval(judged[0]), judged[2] and with_interval(judged[2]))}"
             name = f"best_{min(budgets):g}x" if self.studies.has_time else "best"
             preset = {"technique": self.tuning.searched, "name": name, "description": text}
             presets.append(preset | {"parameters": self.changes(point)})

@@ -283,7 +283,9 @@ Keys scene_keys() {
             {"first", whole(0, largest_scene_number), 0, "Number of the first of these scenes"},
             {"camera", some_of(any_text()), Default("", "the scene's first"), "Names of cameras of the scene"},
             {"resolution", extents(), otherwise("the study's"), "Resolution in pixels"},
-            {"frames", either(playing(), array_of(either(ascending(max_frames), frame_range()))),
+            {"frames",
+             named(either(playing(), array_of(either(ascending(max_frames), frame_range()))),
+                   playing().text + ", or an array of such arrays and ranges"),
              nlohmann::json::array({0}),
              "Frames to render, in this order; each is a pose of camera and scene. An array of arrays or ranges makes "
              "several shots"}};
