@@ -17,7 +17,7 @@ from ssrlab.mistakes import ResultsError, exit_code
 from ssrlab.reference_markdown import NOTE, OUT, code, contents, linked, page, prose, table
 from ssrlab.repository import CONFIGS, ROOT, STUDIES
 
-UP = "../../.."  # to the root, from a page of the reference
+UP = "../../.."  # to the root, from a page
 VALUE = re.compile(r"(.*?)(?::(?:DIR|FILE|\{(.*)\}|\w+ in \[(.+) - (.+)\]))?")  # a name or type, and what the program checks
 TYPES = {"UINT": "a whole number", "INT": "a whole number", "FLOAT": "a number", "TEXT": "a text"}
 DEFAULT = re.compile(r"(?:; d|\. D)efault: (.*?)(?=\. [A-Z]|$)")  # in a meaning
@@ -28,10 +28,10 @@ def option_row(option):
     value = ", ".join(code(choice) for choice in choices.split(",")) if choices else TYPES.get(name) or (name and code(name.removesuffix("...")))
     value += (f" in [{least}, {most}]" if least else "") + (", one or more" if option["several"] else "")
     said, initial = DEFAULT.search(option["meaning"]), option["default"].strip("[]").replace(",", " ")
-    default = "required" if option["required"] else code(initial) if initial else markdown_prose(said[1]) if said else ""
+    worded = said and (code(said[1]) if re.fullmatch(r"[\d. ]+", said[1]) else markdown_prose(said[1]))
+    default = "required" if option["required"] else code(initial) if initial else worded or ""
     meaning = option["meaning"].replace(said[0], "") if said else option["meaning"]
-    without = f" Not together with {', '.join(map(code, option['excludes']))}." if option["excludes"] else ""
-    return [code(option["name"]), value, default, prose(meaning) + without]
+    return [code(option["name"]), value, default, prose(meaning) + "".join(f" Not together with {code(other)}." for other in option["excludes"])]
 
 
 def script_options(command):

@@ -86,7 +86,7 @@ TEST_F(DeclaredStudy, AnEditRedoesItsCellsAndNoOthers) {
     const auto declared = cells(study(techniques), sources);
     EXPECT_EQ(differing(edited, declared), its_own);
     edit("technique.json", "Screen-space", "Screen space");
-    edit("technique.json", "as in the paper", "as published");
+    edit("technique.json", "for results as published", "as in the paper");
     write_text(technique() / "README.md", "of no shader\n");
     EXPECT_EQ(differing(declared, cells(study(techniques), sources)), std::set<std::string>());
 

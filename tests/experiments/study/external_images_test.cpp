@@ -186,7 +186,7 @@ TEST_F(ExternalImagesTest, AreRefusedWithoutWhatTheyNeedToBeNamedBy) {
     EXPECT_TRUE(says(with(R"({"name": "a", "engine": "b"})"), "'version'"));
     EXPECT_TRUE(says(with(R"({"name": "a", "engine": "", "version": "1"})"), "'engine' is empty"));
     EXPECT_TRUE(says(with(R"({"name": "amd_sssr", "engine": "b", "version": "1"})"), "is a technique of ssrlab"));
-    EXPECT_TRUE(says(with(R"({"name": "a/b", "engine": "b", "version": "1"})"), "is no name"));
+    EXPECT_TRUE(says(with(R"({"name": "a/b", "engine": "b", "version": "1"})"), "is not a valid name"));
     EXPECT_TRUE(says(with(R"({"name": "a", "engine": "b", "version": "1", "seeds": 0})"), "'seeds'"));
     EXPECT_TRUE(
         says(with(R"({"name": "a", "engine": "b", "version": "1", "setings": {}})"), "did you mean 'settings'?"));

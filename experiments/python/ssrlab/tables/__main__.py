@@ -22,7 +22,7 @@ from ssrlab.tables.markdown import markdown
 def command_line():
     parser = argparse.ArgumentParser(prog="ssrlab tables", description="Makes the tables of a study (Markdown, LaTeX, CSV) from a results folder.")
     parser.add_argument("results", nargs="?", help="Results folder that `ssrlab run` filled")
-    parser.add_argument("--out", help="Output folder; default: tables in the results folder")
+    parser.add_argument("--out", metavar="DIR", help="Output folder; default: tables in the results folder")
     parser.add_argument("--keep", action="store_true", help="Also keep the numbers in experiments/studies/summaries, and write them into documents")
     parser.add_argument("--fill", action="store_true", help="Write the kept numbers into all tables and sentences of documents")
     parser.add_argument("--check", metavar="ESTIMATORS", type=int, help="Fail if a document differs from the kept numbers, or if the estimators have another version than those of the kept numbers. `ssrlab tables --check` adds the version")

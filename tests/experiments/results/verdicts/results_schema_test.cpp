@@ -3,6 +3,7 @@
 #include "core/files.h"
 #include "core/json.h"
 #include "experiments/results/files/columns.h"
+#include "experiments/study/measuring/rays/judged_hits.h"
 #include "experiments/study/parameters_table.h"
 
 #include <gtest/gtest.h>
@@ -42,6 +43,9 @@ TEST(ResultsSchema, SaysTypesAndUnits) {
     EXPECT_EQ(fields.at("times milliseconds")["unit"], "ms");
     EXPECT_EQ(fields.at("times frame")["description"],
               "Number of the timed frame after the warm-up; gaps where frames were left out");
+    for (size_t i = 0; i < ray_verdict_count; ++i)
+        EXPECT_EQ(fields.at("hits quantity")["values"][i]["name"], ray_verdict_names()[i]);
+    EXPECT_EQ(fields.at("costs quantity")["values"][0]["name"], "invocations");
     EXPECT_EQ(fields.at("parameters dda.stride")["type"], "integer");
     EXPECT_EQ(fields.at("parameters dda.thickness")["type"], "number");
     EXPECT_EQ(fields.at("parameters tracer")["type"], "string");

@@ -103,7 +103,7 @@ TEST_F(Designs, AConfigIsPatchedByWhatExtendsIt) {
         return R"({"extends": "middle/middle.json", "techniques": [)" + entry + "]}";
     };
     expect_starts(mistake_in(extending(R"({"technique": "amd_sssr", "preset": "best"})")),
-                  "study.json:1:50: techniques: 2 entries");
+                  "study.json:1:50: techniques: the extended config has 2 entries");
     expect_starts(mistake_in(extending(R"({"technique": "simple_ssr", "remove": true})")),
                   "study.json:1:50: techniques: nothing to remove");
     expect_starts(mistake_in(R"({"extends": "study.json"})"), "study.json:1:2: 'extends' leads back");
@@ -412,7 +412,7 @@ TEST_F(Designs, SearchesAreCheckedBeforeTheyRun) {
     refuses(study(axes + R"(, "start": "best")"), "best");
     refuses(study(axes + R"(, "judge": {"shots": []})"), "names no shots");
     refuses(study(axes + R"(, "judge": {"shots": [{"scene": "grazing"}], "lit": "direct"})"), "unknown key 'lit'");
-    refuses(study(axes, R"({"technique": "mcguire_dda"})", R"("timing": {"frames": 0},)"), "counted 'time'");
+    refuses(study(axes, R"({"technique": "mcguire_dda"})", R"("timing": {"frames": 0},)"), "'time' to a count");
     refuses(study(axes, R"({"technique": "mcguire_dda"}, {"technique": "none"})"), "searches one technique");
     refuses(study(axes, R"({"technique": "mcguire_dda", "timing": false})"),
             "'timing' is not allowed in a study with 'tune'");

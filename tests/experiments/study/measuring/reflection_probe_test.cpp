@@ -78,7 +78,7 @@ TEST_F(StudyTest, ReflectionsFallBackToAProbeWhereAsked) {
                 more + "}");
         return error_message([&] { read_config(folder / "study.json"); });
     };
-    EXPECT_NE(refused(R"("targets": ["specular", "on_screen"])").find("falls back to the environment"),
+    EXPECT_NE(refused(R"("targets": ["specular", "on_screen"])").find("fall back to the environment"),
               std::string::npos);
     fs::create_directories(folder / "capture" / "frame_0");
     write_text(folder / "study.json",
