@@ -58,6 +58,12 @@ class Markdown(unittest.TestCase):
                     self.assertIn(anchor, anchors(target), f"{document}: {link}")
         self.assertGreater(count, 50)
 
+    def test_no_line_begins_with_a_number(self):
+        """Markdown takes a line that begins with a comment for HTML, and shows its code and links as they are written."""
+        for document in DOCUMENTS:
+            for line in (ROOT / document).read_text(encoding="utf-8").splitlines():
+                self.assertIsNone(re.match(r"\s*([-*>]|\d+\.)?\s*<!--=", line), f"{document}: {line}")
+
     def test_scripts_of_findings_are_listed_and_can_be_run(self):
         """They need packages from the network: whoever writes one runs it."""
         scripts = sorted(file.removeprefix("findings/") for file in FILES if re.fullmatch(r"findings/\w+\.sh", file))
