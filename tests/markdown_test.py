@@ -91,10 +91,10 @@ class Markdown(unittest.TestCase):
         made_from = {
             "readme/report.png": "configs/quickstart.json",
             "readme/comparison.png": "configs/readme.json",
-            "questions/flight_helmet.png": "questions/figures.json",
-            "questions/room_10103.png": "questions/composed.json",
-            "questions/room_10105.png": "questions/composed.json",
-            "questions/metal_corner.png": "questions/engines.json",
+            "questions/pictures/flight_helmet.png": "questions/pictures/third_party.crops.json",
+            "questions/pictures/room_10103.png": "questions/pictures/composed.crops.json",
+            "questions/pictures/room_10105.png": "questions/pictures/composed.crops.json",
+            "questions/pictures/metal_corner.png": "questions/pictures/engines.crops.json",
         }
         for name, source in made_from.items():
             picture = (ROOT / "experiments/studies" / name).read_bytes()

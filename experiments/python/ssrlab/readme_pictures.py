@@ -4,7 +4,7 @@ usage: python3 experiments/python readme_pictures [RESULTS] [--report QUICKSTART
 
 RESULTS is a folder that `ssrlab run experiments/studies/configs/readme.json` filled; comparison.png is drawn from it. QUICKSTART is the
 quickstart's folder; chromium shows the first screen of its report for report.png. COMPARISON, COMPOSED_MOTION and ENGINES are folders of the
-studies with these names; the crops that questions/figures.json, composed.json and engines.json name are drawn from them.
+studies with these names; the crops that questions/pictures/*.crops.json name are drawn from them.
 Needs Debian's python3-matplotlib, -numpy and -pil.
 """
 
@@ -107,13 +107,13 @@ def draw_report(folder):
         keep(Image.open(shot), OUT / "report.png", digest(CONFIGS / "quickstart.json"))
 
 
-def draw_answers(folder, name):
-    """A picture per shot of that file of the pages of answers, named after its scene."""
-    results, chosen = Results(folder), QUESTIONS / name
+def draw_crops(folder, question, is_reduced=True):
+    """A picture for each shot of the crops of a question's page, named after the shot's scene."""
+    results, chosen = Results(folder), QUESTIONS / "pictures" / f"{question}.crops.json"
     collected = read_crops(str(chosen), read_choice(str(chosen)), results)
     options = Request("crops", "crops", "specular", "mse", "reflective", crops=collected)
     for shot in collected:
-        save(crops.draw(results, shot, options), QUESTIONS / f"{shot.split('.')[0]}.png", digest(chosen), is_reduced=name != "figures.json")
+        save(crops.draw(results, shot, options), chosen.parent / f"{shot.split('.')[0]}.png", digest(chosen), is_reduced)
 
 
 def main():
@@ -130,11 +130,11 @@ def main():
     if arguments.report:
         draw_report(arguments.report)
     if arguments.comparison:
-        draw_answers(arguments.comparison, "figures.json")
+        draw_crops(arguments.comparison, "third_party", is_reduced=False)
     if arguments.composed:
-        draw_answers(arguments.composed, "composed.json")
+        draw_crops(arguments.composed, "composed")
     if arguments.engines:
-        draw_answers(arguments.engines, "engines.json")
+        draw_crops(arguments.engines, "engines")
 
 
 if __name__ == "__main__":
