@@ -85,6 +85,7 @@ def draw_intervals(axes, rows):
             y = level + height * (index - (len(SEEDS) - 1) / 2)
             axes.errorbar([value], [y], xerr=[[value - low], [high - value]], fmt=style.MARKS[0], color=style.COLORS[0],
                           label="noise removed, with 95 % interval" if is_first else None)
+            # The halves' mean has half of a half's variance, and their squared difference twice a half's: a fourth of it is noise.
             axes.plot([value + floor / 4], [y], style.MARKS[1], markerfacecolor="white", color=style.COLORS[1],
                       label="noise not removed" if is_first else None)
     axes.set_yticks(range(len(SAMPLES)), [f"{samples} samples" for samples in SAMPLES])

@@ -38,6 +38,16 @@ def with_interval(measured, between=" "):
     return f"{text(measured.value, places)}{between}[{text(measured.low, places)}, {text(measured.high, places)}]"
 
 
+def in_prose(value, low=None, high=None):
+    """0.17 [0.12, 0.24]: two digits of the value, and more where the interval is narrower than the second."""
+    second_digit = lambda v: 1 - math.floor(math.log10(abs(v))) if v else 0  # noqa: E731
+    places = second_digit(value)
+    if low is not None and high > low:
+        places = max(places, second_digit((high - low) / 2) - 1)
+    said = lambda v: f"{round(v, places):.{max(places, 0)}f}"  # noqa: E731
+    return said(value) if low is None else f"{said(value)} [{said(low)}, {said(high)}]"
+
+
 def count(value, keeps_zeros=True):
     """A count, or a mean of counts, with three digits: 12.3 M for 12 345 678. Without zeros at the end below 1000, and above if asked. A
     no-break space joins number and letter."""

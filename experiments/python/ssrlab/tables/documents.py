@@ -3,7 +3,7 @@ summary of the study. `<!-- table STUDY NAME {"rows": [...], "columns": [...], "
 named rows and columns in that order (all, where a key is left out).
 
 Numbers and names in prose are made in the same way: `<!--=NAME-->0.18<!--/-->`, where `PAGE.numbers.json` beside the page gives each NAME its
-expression (`<!--=PAGE.md#NAME-->`: that of another page): cell(), cells(), shown(), most(), first(), shots(), rank_correlation(), halving(), halving_share(), share_of_variance(),
+expression (`<!--=PAGE.md#NAME-->`: that of another page): cell(), cells(), shown(), most(), first(), shots(), rank_correlation(), halving(), share_of_variance(),
 over_scenes() and p_holm() of kept tables (Numbers), ratios(), number(value), fixed(value, places),
 span(values, places), min, max, sum, len, zip and abs."""
 
@@ -16,6 +16,7 @@ from ssrlab import statistics
 from ssrlab.json_files import parse_json, read_json
 from ssrlab.mistakes import ResultsError
 from ssrlab.text_files import path_inside, read_text
+from ssrlab.figures.numbers import in_prose
 from ssrlab.tables import formats, summary_file
 from ssrlab.tables.agreement import kendall_tau
 from ssrlab.tables.halving import halving_share
@@ -26,19 +27,6 @@ BLOCK = re.compile(r"(?P<head><!-- table (?P<study>\S+) (?P<name>\S+)(?: (?P<exc
 
 
 NUMBER = re.compile(r"(?P<head><!--=\s*(?P<name>[^\n]*?)\s*-->)(?P<text>[^\n]*?)(?P<end><!--/-->)")
-
-
-def _second_digit(value):
-    return 1 - math.floor(math.log10(abs(value))) if value else 0
-
-
-def number(value, low=None, high=None):
-    """A number for prose, "0.17 [0.12, 0.24]": two digits, more if the interval is narrower than the second digit."""
-    places = _second_digit(value)
-    if low is not None and high > low:
-        places = max(places, _second_digit((high - low) / 2) - 1)
-    text = lambda v: f"{round(v, places):.{max(places, 0)}f}"  # noqa: E731
-    return text(value) if low is None else f"{text(value)} [{text(low)}, {text(high)}]"
 
 
 class Numbers:
@@ -83,7 +71,7 @@ class Numbers:
     def shown(self, study, table, row, column):
         """cell() with its interval, as text."""
         cell = self._one(study, table, row, column)
-        return number(cell.value, cell.low, cell.high) if formats.has_interval(cell) else number(cell.value)
+        return in_prose(cell.value, cell.low, cell.high) if formats.has_interval(cell) else in_prose(cell.value)
 
     def ratios(self, study, table, row, base):
         """One row / another, in each column where both have a value."""
@@ -127,7 +115,7 @@ class Numbers:
 
     def over_scenes(self, *chosen, **options):
         """ratio_over_scenes() as text: "mean [low, high]"."""
-        return number(*self.ratio_over_scenes(*chosen, **options))
+        return in_prose(*self.ratio_over_scenes(*chosen, **options))
 
     def p_holm(self, study, table, row, column):
         """The p of "no effect" of a row, adjusted (Holm) for all rows with an interval. The table's rows are effects. Its columns hold
@@ -169,8 +157,8 @@ class Numbers:
         return share if None in ends else f"{share} [{', '.join(ends)}]"
 
     def text(self, expression):
-        names = {"cell": self.cell, "cells": self.cells, "shown": self.shown, "most": self.most, "first": self.first, "shots": self.shots, "rank_correlation": self.rank_correlation, "halving": self.halving, "halving_share": self.halving_share, "over_scenes": self.over_scenes, "p_holm": self.p_holm, "share_of_variance": self.share_of_variance}
-        names |= {"ratios": self.ratios, "number": number, "fixed": lambda value, places: f"{value:.{places}f}"}
+        names = {"cell": self.cell, "cells": self.cells, "shown": self.shown, "most": self.most, "first": self.first, "shots": self.shots, "rank_correlation": self.rank_correlation, "halving": self.halving, "over_scenes": self.over_scenes, "p_holm": self.p_holm, "share_of_variance": self.share_of_variance}
+        names |= {"ratios": self.ratios, "number": in_prose, "fixed": lambda value, places: f"{value:.{places}f}"}
         names["span"] = lambda values, places=2: f"{min(values):.{places}f} to {max(values):.{places}f}"
         names |= {"min": min, "max": max, "sum": sum, "len": len, "zip": zip, "abs": abs}
         try:

@@ -6,6 +6,7 @@ import tempfile
 import unittest
 
 import numpy as np
+from ssrlab.figures.numbers import in_prose
 from ssrlab.tables import documents, summary_file
 from ssrlab.tables.cell import Cell
 from scipy import stats
@@ -45,7 +46,7 @@ class Statistics(unittest.TestCase):
             text = documents.Numbers(folder, "a.md").text('over_scenes("study", "errors", "new", "base", as_in="others")')
         logs = np.log([np.sqrt(1.1 * 0.7), 0.5, 0.9, 1.3])
         low, high = np.exp(logs.mean() + stats.sem(logs) * stats.t.ppf([0.025, 0.975], len(logs) - 2))
-        self.assertEqual(text, documents.number(np.exp(logs.mean()), low, high))
+        self.assertEqual(text, in_prose(np.exp(logs.mean()), low, high))
 
     def test_means_are_students(self):
         values = self.random.normal(1, 2, 6)
