@@ -7,8 +7,8 @@
 /// 7396) of the config that it names, except for `techniques`:
 ///
 /// - An entry patches the entry of the same `technique` and `preset`, or is added if there is none.
-/// - Several such entries are told apart by `label`; the patch of a label that none has goes to the one without a
-///   label.
+/// - If several entries have them, `label` tells which entry is meant. A label that no entry has means the entry
+///   without a label.
 /// - `"remove": true` removes the entry.
 ///
 /// The result has no `extends`; paths of captures are relative to the folder of `file`. Every value keeps its place for
