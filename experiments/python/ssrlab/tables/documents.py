@@ -130,7 +130,7 @@ class Numbers:
 
     def halving_share(self, study, table, march, exact, answered):
         """(share, low, high) in percent: the share of exact rays that goes half of the way to the error of exact rays alone. The table has
-        errors, with shots as rows. Columns: `without` and with exact rays alone, and shares, whose names are `answered` followed by the
+        errors, with shots as rows. Columns: no exact rays, exact rays alone, and shares, whose names are `answered` followed by the
         share."""
         about, cells = self._table(study, table)
         values = {(c.row, c.column): c.value for c in cells}
