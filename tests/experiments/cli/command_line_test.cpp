@@ -204,31 +204,6 @@ TEST_F(CommandLine, SaysWhatTheMachineLacks) {
     EXPECT_FALSE(fs::exists(folder / "r.exr"));
 }
 
-/// A glTF as another program writes one: a blended triangle of 2 m.
-constexpr const char* blended_triangle = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
-    "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
-    "materials": [{"name": "glass", "alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.6]}}], "bufferViews": [{"buffer": 0, "byteLength": 36}],
-    "accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3, "min": [-1, -1, 0], "max": [1, 1, 0]}],
-    "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAA"}]})";
-
-TEST_F(CommandLine, TellsWarningsOfASceneOnce) {
-    write_text(folder / "glass.gltf", blended_triangle);
-    config(R"({"shots": [{"scene": "glass.gltf", "resolution": [[16, 16], [24, 24]]}], "reference": {"samples": 16},
-               "techniques": [{"technique": "none"}], "timing": {"frames": 0}, "seeds": 1})");
-    const auto warnings = [](const std::string& text) {
-        size_t count = 0;
-        for (size_t at = 0; (at = text.find("is blended (alphaMode BLEND)", at)) != std::string::npos; ++at) ++count;
-        return count;
-    };
-    const Outcome references = ssrlab("run study.json --out o --cells references"),
-                  rest = ssrlab("run study.json --out o");
-    EXPECT_EQ(warnings(references.text), 1u) << references.text;
-    EXPECT_NE(references.text.find("of the first view's pixels"), std::string::npos) << references.text;
-    EXPECT_EQ(rest.code, 0) << rest.text;
-    EXPECT_EQ(warnings(rest.text), 0u) << rest.text;
-    EXPECT_EQ(warnings(read_text(folder / "o/manifest.json")), 2u) << "that of each shot";
-}
-
 /// And at SIGTERM, by which batch systems end a job.
 TEST_F(CommandLine, SaysAtCtrlCThatTheSameCommandContinues) {
     config(R"({"shots": [{"scene": "fence", "resolution": [96, 54]}], "reference": {"samples": 1000000}, "seeds": 1,
