@@ -21,11 +21,11 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Frames are rendered at all of these sizes, all else is measured at the first two.
-constexpr std::array<glm::uvec2, 3> calibration_extents = {glm::uvec2(64, 36), glm::uvec2(160, 90),
+constexpr std::array<glm::uvec2, 3> calibration_extents = {glm::uvec2(64, 36), glm::uvec2(128, 72),
                                                            glm::uvec2(320, 180)};
 using OfTwoSizes = std::array<double, 2>;
 using OfAllSizes = std::array<double, calibration_extents.size()>;
-constexpr unsigned few_samples = 32, many_samples = 128;
+constexpr unsigned few_samples = 32, many_samples = 256;
 /// Shares of a reference's time without its guide that its lit colour alone and its specular light alone take; of the
 /// rays of three rooms the latter has 0.46 to 0.54. Both trace the first hits.
 constexpr double lit_share = 0.6, specular_share = 0.5;
@@ -74,6 +74,7 @@ struct Rates {
     Line opening;                              ///< a shot: its scene, its first frame, what is measured of the truth
     Line guide;                                ///< what a reference does before its samples
     double per_sample = 0;                     ///< seconds per pixel and sample of a reference
+    double probe = 0;                          ///< seconds of a reflection probe, if the shot has one
     std::map<std::string, PointRates> points;  ///< by kind_of()
 };
 
@@ -100,6 +101,8 @@ public:
     Rates measure(const ShotConfig& shot) {
         OfTwoSizes opening{}, rendered{};
         std::map<std::string, PointSeconds> points;
+        // The next images find the probe in the cache.
+        const double with_probe = shot.has_probe ? seconds_of([&] { open_without_reference(shot, 0); }) : 0;
         for (size_t i = 0; i < opening.size(); ++i) {
             rendered[i] = seconds_of([&] { open(shot, i); });
             std::unique_ptr<OpenShot> run;
@@ -110,14 +113,17 @@ public:
             }
         }
         {
-            const std::unique_ptr<OpenShot> largest = open(shot, 2);
+            const std::unique_ptr<OpenShot> largest = open_without_reference(shot, 2);
             for (const auto& [kind, ends] : ends_of_kinds_) measure_frames(*largest, 2, ends, points[kind]);
         }
         config_.reference.max_samples = many_samples;
-        const double longer = seconds_of([&] { open(shot, 1); });
-        Rates rates{.opening = line_through(opening), .guide = {}, .points = {}};
+        const double longer = seconds_of([&] { open(shot, 0); });
+        Rates rates{.opening = line_through(opening),
+                    .guide = {},
+                    .probe = std::max(with_probe - opening[0], 0.0),
+                    .points = {}};
         rates.per_sample =
-            std::max(longer - rendered[1], 0.0) / (pixels_of(calibration_extents[1]) * (many_samples - few_samples));
+            std::max(longer - rendered[0], 0.0) / (pixels_of(calibration_extents[0]) * (many_samples - few_samples));
         OfTwoSizes guide{};
         for (size_t i = 0; i < guide.size(); ++i)
             guide[i] = rendered[i] - opening[i] - rates.per_sample * few_samples * pixels_of(calibration_extents[i]);
@@ -147,6 +153,14 @@ private:
         return {line_through(once), line_through(measure), growth_through(pixels, frame)};
     }
 
+    std::unique_ptr<OpenShot> open_without_reference(ShotConfig shot, size_t size) {
+        shot.direct_lit = true;
+        const bool has_reference = std::exchange(config_.has_reference, false);
+        std::unique_ptr<OpenShot> opened = open(shot, size);
+        config_.has_reference = has_reference;
+        return opened;
+    }
+
     /// A still frame of the shot; of a capture its own size.
     std::unique_ptr<OpenShot> open(const ShotConfig& shot, size_t size) {
         ShotConfig small = shot;
@@ -155,7 +169,7 @@ private:
         small.change.reset();
         return open_shot(device_, small, config_,
                          {.out = folder_,
-                          .cache = folder_ / ("cache" + std::to_string(size)),
+                          .cache = folder_ / "cache",
                           .search_path = settings_.search_path,
                           .keep_all = settings_.keep_all,
                           .say = [](const std::string&) {},
@@ -252,7 +266,8 @@ public:
         const double pixels = pixels_of(shot.extent);
         switch (cell.kind) {
             case CellKind::references:
-                return rates_.opening.at(pixels) + of_references(shot, cell.units);
+                return rates_.opening.at(pixels) + (shot.has_probe ? rates_.probe : 0) +
+                       of_references(shot, cell.units);
             case CellKind::renders:
                 return of_renders(*cell.technique, shot);
             case CellKind::costs:
