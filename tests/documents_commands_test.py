@@ -1,36 +1,21 @@
-"""The command lines of the documents: each is one that its program takes, and those of the quickstart's study do what the page says.
+"""The command lines of the documents: each is one that its program takes. `documents_run_test.py` runs them.
 
 usage: documents_commands_test.py SSRLAB
 """
 
 import functools
-import json
 import os
 import re
 import shlex
-import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
+from document_lines import ROOT, all_command_lines
+
 SSRLAB = Path(sys.argv[1]).resolve()
 PYTHON = "/usr/bin/python3"
-DOCUMENTS = sorted(f for f in ROOT.rglob("*.md") if not re.match(r"(build|results|\.)", str(f.relative_to(ROOT))))
-PROGRAM = r"(?:(?:build/release/|\./)?ssrlab|python3 experiments/python|(?:experiments|tests)/\w+\.sh)"
-
-
-def command_lines(text):
-    """Of blocks of code: indented by four spaces, or between fences; a line that ends in a backslash goes on."""
-    fenced = re.findall(r"(?ms)^ *```(?:sh|bash|console|yaml)?\n(.*?)^ *```", text)
-    indented = re.findall(r"(?m)^(?: {4}.*\n)+", re.sub(r"(?ms)^ *```.*?^ *```", "", text))
-    for block in fenced + indented:
-        for line in block.replace("\\\n", " ").splitlines():
-            line = line.strip().removeprefix("$ ").removeprefix("- run: ")
-            if re.match(PROGRAM + r"(?= |$)", line):
-                yield re.sub(r"\s+(#|&&|\||>|2>).*$", "", line)
 
 
 @functools.cache
@@ -98,11 +83,10 @@ def mistake_in(line):
 class Commands(unittest.TestCase):
     def test_are_what_the_programs_take(self):
         count, mistakes = 0, []
-        for document in DOCUMENTS:
-            for line in command_lines(document.read_text(encoding="utf-8")):
-                count += 1
-                if mistake := mistake_in(line):
-                    mistakes.append(f"{document.relative_to(ROOT)}: `{line}`: {mistake}")
+        for document, line in all_command_lines():
+            count += 1
+            if mistake := mistake_in(line):
+                mistakes.append(f"{document.relative_to(ROOT)}: `{line}`: {mistake}")
         self.assertEqual(mistakes, [])
         self.assertGreater(count, 60)
 
@@ -110,27 +94,6 @@ class Commands(unittest.TestCase):
         self.assertEqual(mistake_in("ssrlab figures results figures.json"), "2 arguments, but 1 to 1 are taken")
         self.assertEqual(mistake_in("ssrlab run study.json --output a"), "no option --output")
         self.assertEqual(mistake_in("ssrlab runn study.json"), "no command 'runn'")
-
-    def test_the_quickstart_does_what_it_says(self):
-        """Its study in small, of a scene of ours in place of the reader's."""
-        page = (ROOT / "experiments/docs/quickstart.md").read_text(encoding="utf-8")
-        study = json.loads(re.search(r"(?s)```json\n(.*?)```", page)[1])
-        study["shots"][0] |= {"resolution": [32, 18], "warm_up": 1}
-        study["techniques"] = study["techniques"][:2]  # the others are compiled for seconds
-        study |= {"reference": {"samples": 16}, "seeds": 2, "timing": {"frames": 0}}
-        with tempfile.TemporaryDirectory() as temporary:
-            folder = Path(temporary)
-            glb = next((ROOT / "scenes").glob("*/*.glb"), None)
-            self.assertIsNotNone(glb)
-            shutil.copy(glb, folder / study["shots"][0]["scene"])
-            (folder / "my_study.json").write_text(json.dumps(study))
-            lines = [line for line in command_lines(page) if "my_" in line and " plan " not in line]
-            self.assertGreater(len(lines), 1)
-            for line in [*lines, "ssrlab report results/my_study", "ssrlab tradeoff results/my_study"]:
-                words = shlex.split(line)
-                ran = subprocess.run([SSRLAB, *words[1:]], cwd=folder, capture_output=True, text=True, env=os.environ | {"SSRLAB_CACHE": str(folder / "cache")})
-                self.assertEqual(ran.returncode, 0, f"{line}\n{ran.stdout}\n{ran.stderr}")
-            self.assertTrue((folder / "results/my_study/report.html").is_file())
 
 
 if __name__ == "__main__":

@@ -1,0 +1,33 @@
+"""The command lines of the documents."""
+
+import re
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+DOCUMENTS = sorted(f for f in ROOT.rglob("*.md") if not re.match(r"(build|results|\.)", str(f.relative_to(ROOT))))
+PROGRAM = r"(?:(?:build/release/|\./)?ssrlab|python3 experiments/python|(?:experiments|tests)/\w+\.sh)"
+
+
+def command_lines(text):
+    """Of blocks of code: indented by four spaces, or between fences; a line that ends in a backslash goes on."""
+    fenced = re.findall(r"(?ms)^ *```(?:sh|bash|console|yaml)?\n(.*?)^ *```", text)
+    indented = re.findall(r"(?m)^(?: {4}.*\n)+", re.sub(r"(?ms)^ *```.*?^ *```", "", text))
+    for block in fenced + indented:
+        for line in block.replace("\\\n", " ").splitlines():
+            line = line.strip().removeprefix("$ ").removeprefix("- run: ")
+            if re.match(PROGRAM + r"(?= |$)", line):
+                yield re.sub(r"\s+(#|&&|\||>|2>).*$", "", line)
+
+
+def all_command_lines():
+    """(document, line) of each document, in the order in which a reader meets them."""
+    for document in DOCUMENTS:
+        for line in command_lines(document.read_text(encoding="utf-8")):
+            yield document, line
+
+
+def studies_of(document):
+    """The JSON objects that a page prints as whole blocks, in their order."""
+    text = document.read_text(encoding="utf-8")
+    blocks = re.findall(r"(?s)```json\n(.*?)```", text) + re.findall(r"(?m)(?:^ {4}.*\n)+", re.sub(r"(?s)```.*?```", "", text))
+    return [block for block in blocks if block.lstrip().startswith("{")]
