@@ -47,7 +47,7 @@ class Markdown(unittest.TestCase):
         count = 0
         for document in DOCUMENTS:
             text = without_code((ROOT / document).read_text(encoding="utf-8"))
-            for link in re.findall(r"\]\(([^)\s]+)\)", text):
+            for link in re.findall(r"\]\(([^)\s]+)\)", text) + re.findall(r'<img src="([^"]+)"', text):
                 if re.match(r"https?:|mailto:", link):
                     continue
                 count += 1
@@ -91,6 +91,9 @@ class Markdown(unittest.TestCase):
         made_from = {
             "readme/report.png": "configs/quickstart.json",
             "readme/comparison.png": "configs/readme.json",
+            "readme/simple_ssr.png": "configs/technique_pictures.json",
+            "readme/four_mode_ssr.png": "configs/technique_pictures.json",
+            "readme/tracers.png": "configs/technique_pictures.json",
             "questions/pictures/flight_helmet.png": "questions/pictures/third_party.crops.json",
             "questions/pictures/room_10103.png": "questions/pictures/composed.crops.json",
             "questions/pictures/room_10105.png": "questions/pictures/composed.crops.json",

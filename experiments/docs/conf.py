@@ -73,6 +73,7 @@ source_suffix = {".md": "markdown"}
 root_doc = "README"
 include_patterns = ["**.md"]
 exclude_patterns = ["build", "build-*", "results"]
+myst_enable_extensions = ["html_image"]  # <img> with a width, which Markdown images lack
 myst_heading_anchors = 4  # levels of headings that links may point to, by the host's names
 highlight_language = "none"
 

@@ -1,8 +1,9 @@
 """The pictures of the repository's README, in experiments/studies/readme, and of experiments/studies/questions.
 
-usage: python3 experiments/python readme_pictures [RESULTS] [--report QUICKSTART] [--comparison COMPARISON] [--composed COMPOSED_MOTION] [--engines ENGINES]
+usage: python3 experiments/python readme_pictures [RESULTS] [--techniques TECHNIQUE_PICTURES] [--report QUICKSTART] [--comparison COMPARISON] [--composed COMPOSED_MOTION] [--engines ENGINES]
 
-RESULTS is a folder that `ssrlab run experiments/studies/configs/readme.json` filled; comparison.png is drawn from it. QUICKSTART is the
+RESULTS is a folder that `ssrlab run experiments/studies/configs/readme.json` filled; comparison.png is drawn from it.
+TECHNIQUE_PICTURES is the folder of the study technique_pictures; the pictures on pages of techniques and tracers are drawn from it. QUICKSTART is the
 quickstart's folder; chromium shows the first screen of its report for report.png. COMPARISON, COMPOSED_MOTION and ENGINES are folders of the
 studies with these names; the crops that questions/pictures/*.crops.json name are drawn from them.
 Needs Debian's python3-matplotlib, -numpy and -pil.
@@ -34,11 +35,18 @@ from ssrlab.figures import crops, numbers, style
 from ssrlab.figures.crop_choice import read_crops
 from ssrlab.figures.request import Request, read_choice
 from ssrlab.repository import CONFIGS, QUESTIONS, STUDIES
-from ssrlab.results import Results, label
+from ssrlab.results import Results
 
 OUT = STUDIES / "readme"
 DOTS_PER_INCH = 150  # 1050 pixels across: what hosts show of a README is narrower
-SCENE, DISCS = np.s_[34:172], np.s_[104:172]  # rows of the comparison's images, and of its error maps, which are 0 above
+DISCS = ("rotating_mirror", np.s_[34:172], np.s_[104:172])  # scene, rows of the images, rows of the error maps
+# {(technique, point): title} of five points.
+NONE = {("none", "default"): "none"}
+BEST = NONE | {("mcguire_dda", "default"): "mcguire_dda"} | {(name, "best"): f"{name} best" for name in ("amd_sssr", "diligent_ssr", "frostbite_sssr")}
+SIMPLE = NONE | {("simple_ssr", preset): preset for preset in ("slides_blurred", "blog", "best_2x", "corrected")}
+FOUR_MODES = NONE | {("four_mode_ssr", preset): preset for preset in ("high", "best_1x")}
+FOUR_MODES |= {("four_mode_ssr", f"corrected mode={mode}"): mode for mode in ("simple_linear", "temporal")}
+MARCHES = {("mcguire_dda", f"tracer={tracer}"): tracer for tracer in ("dda", "hierarchy", "cells", "frostbite_linear", "exact_layer")}
 COLOURS = 256  # of the palette: the files are a third as large as with all colours, and look the same
 
 
@@ -66,22 +74,23 @@ def keep(picture, file, made_from, is_reduced=True):
     print(f"{file}: {file.stat().st_size} bytes")
 
 
-def draw_comparison(folder):
-    """Two rows of three images, each above its error map; below the truth's stands the maps' scale."""
+def draw_comparison(folder, config, scene, name, points, scene_rows, map_rows):
+    """NAME.png: two rows of three images, each above its error map; the first is the truth, and the maps' scale stands below it. `points`:
+    {(technique, point): title} of the five others. `scene_rows`: of the images that are shown; `map_rows`: of the error maps, which are 0 elsewhere."""
     results = Results(folder)
-    shot = results.shots()[0]
-    images = results.images_of(shot, "image")
+    shot = next(s for s in results.shots() if s.startswith(scene + "."))
+    images = results.images_of(shot, "image", keys=[("reference", ""), *points])
+    truth = images["reference", ""]
     errors = results.errors_of("specular", "mse", "reflective")
-    truth = images.pop(("reference", ""))
-    maps = {key: crops.absolute_error(image, truth) for key, image in images.items()}
+    maps = {key: crops.absolute_error(images[key], truth) for key in points}
     most = float(np.nanquantile(np.stack(list(maps.values())), 0.99))
-    columns, heights = 3, [rows.stop - rows.start for rows in (SCENE, DISCS)]
-    size = (style.DOUBLE_COLUMN, 0.49 * style.DOUBLE_COLUMN)
+    columns, heights = 3, [rows.stop - rows.start for rows in (scene_rows, map_rows)]
+    size = (style.DOUBLE_COLUMN, 0.49 / 206 * sum(heights) * style.DOUBLE_COLUMN)
     figure, grid = plt.subplots(4, columns, figsize=size, layout="constrained", height_ratios=2 * heights)
     figure.set_constrained_layout_pads(w_pad=0.02, h_pad=0.02, wspace=0.01, hspace=0.01)
-    for index, (key, image) in enumerate([(("truth", ""), truth), *images.items()]):
+    for index, (key, image) in enumerate([(("truth", ""), truth), *((key, images[key]) for key in points)]):
         top, below = grid[index // columns * 2 : index // columns * 2 + 2, index % columns]
-        crops.show(top, crops.display(image[SCENE], results.exposure(shot)))
+        crops.show(top, crops.display(image[scene_rows], results.exposure(shot)))
         if key not in maps:
             top.set_title("path-traced truth (the others: MSE)")
             below.axis("off")
@@ -91,9 +100,9 @@ def draw_comparison(folder):
             continue
         error = errors[(shot, *key)]
         value, low, high = (numbers.short(x) for x in (error.value, error.low, error.high))
-        top.set_title(f"{label(*key)}: {value} [{low}, {high}]")
-        crops.show(below, maps[key][DISCS], cmap="magma", vmin=0, vmax=most)
-    save(figure, OUT / "comparison.png", digest(CONFIGS / "readme.json"))
+        top.set_title(f"{points[key]}: {value} [{low}, {high}]")
+        crops.show(below, maps[key][map_rows], cmap="magma", vmin=0, vmax=most)
+    save(figure, OUT / f"{name}.png", digest(CONFIGS / config))
 
 
 def draw_report(folder):
@@ -119,6 +128,7 @@ def draw_crops(folder, question, is_reduced=True):
 def main():
     parser = argparse.ArgumentParser(description="The pictures of the README (PNG).")
     parser.add_argument("results", nargs="?", help="a folder that `ssrlab run experiments/studies/configs/readme.json` filled")
+    parser.add_argument("--techniques", metavar="TECHNIQUE_PICTURES", help="the results folder of that study, for pictures of techniques and marches")
     parser.add_argument("--report", metavar="QUICKSTART", help="the results folder of the quickstart, for a picture of its report")
     parser.add_argument("--comparison", metavar="COMPARISON", help="the results folder of the comparison, for pictures of third-party scenes")
     parser.add_argument("--composed", metavar="COMPOSED_MOTION", help="that of composed_ssr in motion, for more of them")
@@ -126,7 +136,11 @@ def main():
     arguments = parser.parse_args()
     style.apply()
     if arguments.results:
-        draw_comparison(arguments.results)
+        draw_comparison(arguments.results, "readme.json", DISCS[0], "comparison", BEST, *DISCS[1:])
+    if arguments.techniques:
+        draw_comparison(arguments.techniques, "technique_pictures.json", DISCS[0], "simple_ssr", SIMPLE, *DISCS[1:])
+        draw_comparison(arguments.techniques, "technique_pictures.json", DISCS[0], "four_mode_ssr", FOUR_MODES, *DISCS[1:])
+        draw_comparison(arguments.techniques, "technique_pictures.json", "fence", "tracers", MARCHES, np.s_[70:180], np.s_[70:180])
     if arguments.report:
         draw_report(arguments.report)
     if arguments.comparison:

@@ -5,7 +5,8 @@ named rows and columns in that order (all, where a key is left out).
 Numbers and names in prose are made in the same way: `<!--=NAME-->0.18<!--/-->`, where `PAGE.numbers.json` beside the page gives each NAME its
 expression (`<!--=PAGE.md#NAME-->`: that of another page): cell(), cells(), shown(), most(), first(), shots(), rank_correlation(), halving(), share_of_variance(),
 over_scenes() and p_holm() of kept tables (Numbers), ratios(), number(value), fixed(value, places),
-span(values, places), min, max, sum, len, zip and abs."""
+span(values, places), min, max, sum, len, zip and abs. `<!--=made PAGE.md-->` stands for the day and the commits of the studies whose tables PAGE has,
+as two cells of a table."""
 
 import functools
 import math
@@ -200,6 +201,16 @@ def expressions_of(file):
     return read_json(numbers_file(file), {"*": str}) if os.path.exists(numbers_file(file)) else {}
 
 
+def when_made(page, summaries):
+    """The day on which the last of the studies ended whose tables a page has, and the commits that made them: "2026-11-23 | `5af6c5ddfb`"."""
+    studies = dict.fromkeys(block["study"] for block in BLOCK.finditer(read_text(page)))
+    origins = [summary_file.read(path_inside(summaries, study + ".csv", page))[0] for study in studies]
+    if not origins:
+        raise ResultsError(f"{page}: it has no tables, so that no day is known")
+    commits = dict.fromkeys(commit for origin in origins for commit in origin["commit"].split(" and "))
+    return f"{max(origin['finished'] for origin in origins)[:10]} | {', '.join(f'`{commit[:10]}`' for commit in commits)}"
+
+
 def filled(text, summaries, file):
     """The text with each table and each number in prose made anew. Fails on one that no summary holds."""
 
@@ -214,6 +225,9 @@ def filled(text, summaries, file):
         return block["head"] + markdown(table, cells, summary_file.made_from(origin, table, cells)) + block["end"]
 
     def said(number):
+        if number["name"].startswith("made "):
+            page = path_inside(os.path.dirname(file), number["name"].removeprefix("made "), file)
+            return number["head"] + when_made(page, summaries) + number["end"]
         page, _, name = number["name"].rpartition("#")
         of = os.path.normpath(os.path.join(os.path.dirname(file), page)) if page else file
         expressions = expressions_of(of)
