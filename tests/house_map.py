@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the rooms of the house and which includes which, from the includes: tests/house_map.svg, which CONTRIBUTING.md shows.
+"""Draws the rooms of the house and which includes which, from the includes: tests/house_map.svg, which experiments/docs/architecture.md shows.
 
 usage: house_map.py [--check]    --check: fail where the picture is not of today's includes"""
 import re

@@ -13,7 +13,7 @@ constexpr float promise_window = 2.0f, least_survival = 0.1f;
 
 /// A path that is expected to bring more than twice promise_window of its pixel's light is split into parts that bring
 /// about promise_window each. Half of that gains a little more of the mean variance and costs rays that the median
-/// pixel does not need (groundtruth/README.md). The limit keeps a wrong estimate affordable.
+/// pixel does not need (groundtruth/measurements.md). The limit keeps a wrong estimate affordable.
 constexpr unsigned most_parts = 32;
 
 /// Pairs of the parts of a path begin here, each at a place of its own that is drawn by a hash: parts that meet there

@@ -1,7 +1,7 @@
 // What the path tracer gains by what it learns, and what a reference costs: variance of the specular light times rays,
 // and times processor time, with each thing that is learnt over neither (`learning`), and the rays of a reference whose
 // median pixel has an error of 3 % (`rays_to_3_percent`). `truth_benchmark --table` prints the first as a table of
-// groundtruth/README.md. Scenes are found as by `ssrlab`; what is nowhere is left out with a note.
+// groundtruth/measurements.md. Scenes are found as by `ssrlab`; what is nowhere is left out with a note.
 #include "core/error.h"
 #include "core/scene/load_scene.h"
 #include "groundtruth/paths/path_tracer.h"
