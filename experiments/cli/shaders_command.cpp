@@ -195,7 +195,7 @@ void add_shaders(Commands& line) {
                                       "and the scene is mirror_pillars");
     add_device(command, line.common), add_scene_path(command, line.common), add_cache(command, line.common);
     add_reading(command);
-    command.callback([&, scene] {
+    command.callback([&, scene] {  // this pointer ends with this function, before the command runs
         shaders.leaves_out = scene->count() > 0;
         shaders_command(shaders, line.common);
     });

@@ -175,3 +175,11 @@ TEST_F(CommandLine, TellsWarningsOfASceneOnce) {
     EXPECT_EQ(warnings(rest.text), 0u) << rest.text;
     EXPECT_EQ(warnings(read_text(folder / "o/manifest.json")), 2u) << "that of each shot";
 }
+
+TEST_F(CommandLine, ShowsWhatACompilerMakesOfATechnique) {
+    const Outcome o = ssrlab("shaders mcguire_dda --chip navi21 --csv table.csv");
+    if (o.text.find("there is no radv") != std::string::npos) GTEST_SKIP() << o.text;
+    EXPECT_EQ(o.code, 0) << o.text;
+    EXPECT_NE(o.text.find("mcguire_dda default on navi21 (radv Mesa "), std::string::npos) << o.text;
+    EXPECT_TRUE(fs::exists(folder / "table.csv"));
+}
