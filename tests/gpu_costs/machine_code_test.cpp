@@ -54,6 +54,17 @@ TEST(MachineCode, WorkIsThatOfItsInstructions) {
     EXPECT_THROW(machine_code_of("BB0:\n\ts_branch BB7\n", 64, rates), Error);
 }
 
+TEST(MachineCode, PaddingOfLoopsIsNoInstruction) {
+    const MachineCode code = machine_code_of(
+        "BB0:\n\tv_mov_b32 v0, v1\n\ts_inst_prefetch 0x3\n\ts_nop 0\n\ts_nop 0\nBB1:\n\tv_mov_b32 v0, v2\n"
+        "\ts_cbranch_scc1 BB1\nBB2:\n\ts_set_inst_prefetch_distance 0x2\n\ts_endpgm\n",
+        64, rates);
+    ASSERT_EQ(code.blocks.size(), 3u);
+    EXPECT_EQ(code.blocks[0].instructions, 1u);
+    EXPECT_EQ(code.blocks[0].padding, 3u);
+    EXPECT_EQ(code.blocks[2].padding, 1u);
+}
+
 /// BB0 jumps over BB1 where no lane is left; BB2 follows both; BB3 is a loop that BB4 ends.
 TEST(MachineCode, BlocksWithoutMarksRunAsThoseThatLeadToThem) {
     const MachineCode code = machine_code_of("BB0:\n" + mark(0) +

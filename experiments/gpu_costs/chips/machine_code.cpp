@@ -199,7 +199,8 @@ MachineCode machine_code_of(const std::string& assembly, unsigned lanes, const C
             const Unit unit = unit_of(line.name);
             const ChipWork work = work_of(line, unit, lanes, rates);
             block.work.add(work, 1);
-            ++block.instructions;
+            ++(is_one_of(line.name, {"s_nop", "s_inst_prefetch", "s_set_inst_prefetch"}) ? block.padding
+                                                                                         : block.instructions);
             clock.step(line, unit, work.vector);
             if (unit == Unit::branch) {
                 const auto target = places.find(line.rest.substr(0, line.rest.find_first_of(" \t")));

@@ -24,7 +24,8 @@ struct MachineCode {
     struct Block {
         std::vector<unsigned> successors, marks;  ///< places in `blocks`; marks as MarkedShader has them
         ChipWork work;                            ///< of a wave that runs it once, without marks
-        unsigned instructions = 0;
+        unsigned instructions = 0;                ///< without padding
+        unsigned padding = 0;  ///< instructions that align loops: newer versions of Mesa state them in no number
     };
     std::vector<Block> blocks;
 };
