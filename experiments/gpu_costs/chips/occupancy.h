@@ -10,11 +10,14 @@ struct SimdLimits {
     unsigned sgpr_step;
     unsigned waves;  ///< at most
     bool is_rdna;    ///< radv counts the waves of RDNA in halves: two for each wave of 64 lanes
+    /// As `vgprs`, where radv's device without hardware states waves of fewer registers than the chip has; else 0.
+    unsigned stated_vgprs = 0;
 };
 
-/// Limits of the chip's generation; nullopt for a chip that is not listed. Source: Mesa 22.3,
+/// Limits of the chip's generation; nullopt for a chip that is not listed. Source: Mesa,
 /// src/amd/vulkan/winsys/null/radv_null_winsys.c and src/amd/common/ac_gpu_info.c; sizes of register files: AMD's
-/// instruction set manuals of GCN 3, Vega, RDNA 2 and RDNA 3.
+/// instruction set manuals of GCN 3, Vega, RDNA 2 and RDNA 3. For gfx1151 and RDNA 4 the first of these files has 512
+/// registers in Mesa 25.0.7, the second 768.
 std::optional<SimdLimits> simd_limits(const std::string& chip);
 
 /// How many waves of a shader a SIMD holds at a time, and what limits them. If shared memory is the limit, the number
