@@ -44,13 +44,19 @@ function estimatesPart() {
     const place = e => e.stage === "total" ? pointLabel(e) : `${e.stage} of ${pointLabel(e)}`;
     return [
         refusalsNote(refused, own.length, place, "All points"),
-        estimated.length ? h("p", {class: "note"}, howSure()) : "",
+        estimated.length ? h("p", {class: "note"}, howSure(), compiledBy(estimated)) : "",
         stages.length ? h("div", {class: "bars"}, estimateBars(own, stages),
                           h("div", {}, boundLegend(stages), estimateSentences(own, stages))) :
                         "",
         estimated.length ? estimateTable(estimated) : ""
     ];
 }
+
+/// Results of before have no driver.
+const compiledBy = estimated => {
+    const drivers = unique(estimated.map(e => e.driver)).filter(Boolean);
+    return drivers.length ? ` The passes were compiled by ${drivers.join(" and ")}.` : "";
+};
 
 const howSure = () => `Intervals hold sampling alone: ${report.modelRange.text}.`;
 

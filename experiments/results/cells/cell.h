@@ -114,16 +114,16 @@ struct CompiledRow : CompilerNumbers {
 /// refusal has no numbers.
 struct EstimateRow {
     std::string shot, technique, point, stage;  ///< stage: also `total`
-    std::string chip, product;
+    std::string chip, driver, product;
     std::optional<double> microseconds, low, high;
     std::string bound;  ///< the part of the chip that takes longest, see ChipTime
     std::optional<double> vector, scalar, shared_memory, textures, targets, memory, latency, caches;
     std::optional<double> waves, active_lanes, unmatched, cut_lanes;
     std::string refusal;  ///< why there are no numbers
 
-    COLUMNS(EstimateRow, shot, technique, point, stage, chip, product, microseconds, low, high, bound, vector, scalar,
-            shared_memory, textures, targets, memory, latency, caches, waves, active_lanes, unmatched, cut_lanes,
-            refusal)
+    COLUMNS(EstimateRow, shot, technique, point, stage, chip, driver, product, microseconds, low, high, bound, vector,
+            scalar, shared_memory, textures, targets, memory, latency, caches, waves, active_lanes, unmatched,
+            cut_lanes, refusal)
 };
 
 /// What was measured: the rows of a cell, or of all cells of a study in their order.

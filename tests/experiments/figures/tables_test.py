@@ -500,8 +500,8 @@ def test_compiled(temporary):
     table = {"name": "chips", "caption": "Registers", "of": "compiled", "where": {"shot": SHOTS[0]},
              "rows": "stage", "columns": ["chip", "quantity"]}  # fmt: skip
     write_results(folder, [table])
-    columns = ("shot", "technique", "point", "stage", "chip", "vgprs", "waves", "hash", "refusal")
-    empty = dict.fromkeys(columns, "") | {"shot": SHOTS[0], "technique": "sssr", "point": "default"}
+    columns = ("shot", "technique", "point", "stage", "chip", "driver", "vgprs", "waves", "hash", "refusal")
+    empty = dict.fromkeys(columns, "") | {"shot": SHOTS[0], "technique": "sssr", "point": "default", "driver": "radv Mesa 25.0.7"}
     rows = [
         empty | {"stage": "trace", "chip": "navi21", "vgprs": "48", "waves": "10", "hash": "12345678"},
         empty | {"stage": "trace", "chip": "vega10", "vgprs": "52", "waves": ""},
@@ -516,6 +516,7 @@ def test_compiled(temporary):
     values = {(row[0], head): value for row in grid[1:] for head, value in zip(grid[0], row, strict=True) if value and head in HEADS}
     said = read(os.path.join(folder, "tables", "chips.md"))
     check("Numbers of the compiler, shown with three digits" in said and "seed;" not in said, said)
+    check("compiled by radv Mesa 25.0.7." in said, said)
     check(values == {("trace", HEADS[0]): "48", ("trace", HEADS[1]): "10", ("trace", HEADS[2]): "52", ("blur", HEADS[0]): "16", ("blur", HEADS[1]): "16"}, grid)
 
 

@@ -73,7 +73,7 @@ def _compiled_rows(rows):
                 yield row | {"quantity": quantity, "value": value}
 
 
-ESTIMATE_TEXTS = ("product", "bound", "refusal")  # of estimates.csv, beside what names its rows
+ESTIMATE_TEXTS = ("driver", "product", "bound", "refusal")  # of estimates.csv, beside what names its rows
 LANE_SHARES = ("active_lanes", "unmatched", "cut_lanes")
 TIME = "microseconds"  # which alone has an interval there, and is above 0
 
@@ -293,6 +293,7 @@ def _about(selection, filled):
         "clocks": sorted({_clock(selection, r) for r in filled if r.get("clock")}),
         "has_adjusted_intervals": table.of == "effects",
         "is_estimated": table.of == "estimates",
+        "compilers": sorted({r["driver"] for r in filled if r.get("driver")}),
         "sample": ASSETS if over in SAMPLED else None,
         "assets": {selection.label(s, table.rows): selection.results.asset(s["shot"]) for s in shots} if table.rows == ["shot"] else None,
     }

@@ -16,14 +16,14 @@ MOST_BYTES = 180_000  # what the comparison of 22 points over 49 shots (experime
 MOST_NAMED = 8  # shots below a table that does not show all of the study's; the summary's head names any number
 COLUMNS = [f.name for f in fields(Cell) if f.name not in ("is_share", "may_be_zero")]  # which only means ask for, before they are kept
 ABOUT = ("name", "caption", "shots", "resolutions", "over", "over_count", "clocks")  # a table; see cells_of()
-LATER = ("has_adjusted_intervals", "is_estimated", "sample", "assets")  # of a table, too; summaries of before have none
+LATER = ("has_adjusted_intervals", "is_estimated", "sample", "assets", "compilers")  # of a table, too; summaries of before have none
 MARK = "# "
 # Shapes of its head, as require() of json_files.py has them.
 _ANY = (str, bool, float, list, dict, None)
 _ORIGIN = {"study": str, "title": str, "commit": str, "device": str, "shots": int, "estimators": int, "is_complete": bool}
 _ABOUT = {
     **{"name": str, "caption": str, "shots": [str], "resolutions": [str], "over": (str, None), "over_count": (int, None), "clocks": [str]},
-    **{"has_adjusted_intervals?": bool, "is_estimated?": bool, "sample?": (str, None), "assets?": ({"*": str}, None)},
+    **{"has_adjusted_intervals?": bool, "is_estimated?": bool, "sample?": (str, None), "assets?": ({"*": str}, None), "compilers?": [str]},
 }
 
 
@@ -115,7 +115,7 @@ def read(file):
 
 
 def made_from(origin_of_all, table, cells):
-    """The line below a table: command, commit, the shots of its own cells, their sizes, seeds, device and clock."""
+    """The line below a table: command, commit, the shots of its own cells, their sizes, seeds, device, clock and compiler of GPUs."""
     seeds = sorted({c.seeds for c in cells if c.seeds})
     counted = f", {seeds[0]} to {seeds[-1]} seeds" if len(seeds) > 1 else f", {seeds[0]} seed{'s' * (seeds[0] > 1)}" if seeds else ""
     count, whole = len(table["shots"]), origin_of_all["shots"]
@@ -126,7 +126,8 @@ def made_from(origin_of_all, table, cells):
             shots += f" ({', '.join(table['shots'])})"
     sizes = " at " + " and ".join(table["resolutions"]) if table["resolutions"] else ""
     clocks = " and ".join(table["clocks"])
+    compilers = " and ".join(table.get("compilers", []))
     return (
         f"`ssrlab run {origin_of_all['study']}`{'' if origin_of_all['is_complete'] else ' (not complete)'}: "
-        f"commit {origin_of_all['commit']}, {shots}{sizes}{counted}, {origin_of_all['device']}{clocks and f', clock {clocks}'}."
+        f"commit {origin_of_all['commit']}, {shots}{sizes}{counted}, {origin_of_all['device']}{clocks and f', clock {clocks}'}{compilers and f', compiled by {compilers}'}."
     )

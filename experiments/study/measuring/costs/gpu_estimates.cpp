@@ -164,10 +164,10 @@ ChipEstimate estimate_of(const StageEstimate& stage, const PassCost& cost, const
     return estimate;
 }
 
-EstimateRow row_of(const std::string& shot, const PointConfig& point, const std::string& stage,
-                   const std::string& chip) {
+EstimateRow row_of(const std::string& shot, const PointConfig& point, const std::string& stage, const Chip& chip) {
     EstimateRow row;
-    row.shot = shot, row.technique = point.technique, row.point = point.point, row.stage = stage, row.chip = chip;
+    row.shot = shot, row.technique = point.technique, row.point = point.point, row.stage = stage;
+    row.chip = chip.name, row.driver = chip.driver;
     return row;
 }
 
@@ -246,10 +246,10 @@ std::vector<EstimateRow> rows_of_chip(const TracedFrame& frame, const std::strin
     }
 
     std::vector<EstimateRow> rows;
-    EstimateRow total = row_of(shot, point, "total", chip.name);
+    EstimateRow total = row_of(shot, point, "total", chip);
     ChipEstimate of_frame;
     for (const PassCost& cost : frame.costs) {
-        EstimateRow row = row_of(shot, point, cost.stage, chip.name);
+        EstimateRow row = row_of(shot, point, cost.stage, chip);
         row.product = rates.product;
         if (const StageEstimate& stage = traced[cost.stage]; stage.refusal.empty()) {
             const ChipEstimate estimate = estimate_of(stage, cost, rates);
@@ -279,7 +279,7 @@ std::vector<EstimateRow> refused_estimates(const std::string& why, const std::st
                                            const GpuCompilers& compilers) {
     std::vector<EstimateRow> rows;
     for (const GpuCompilers::Entry& compiler : compilers.entries)
-        rows.emplace_back(row_of(shot, point, "total", compiler.chip.name)).refusal = why;
+        rows.emplace_back(row_of(shot, point, "total", compiler.chip)).refusal = why;
     return rows;
 }
 
@@ -294,7 +294,7 @@ std::vector<EstimateRow> estimate_rows(const TracedFrame& frame, const std::stri
             rows.insert(rows.end(), of_chip.begin(), of_chip.end());
             continue;
         }
-        EstimateRow row = row_of(shot, point, "total", compiler.chip.name);
+        EstimateRow row = row_of(shot, point, "total", compiler.chip);
         row.refusal =
             compiler.refusal.empty() ? "ssrlab has no published rates of " + compiler.chip.name : compiler.refusal;
         rows.push_back(row);
