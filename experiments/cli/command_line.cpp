@@ -77,6 +77,12 @@ void add_cache(CLI::App& command, CommonOptions& common) {
            "Folder that caches references; default: SSRLAB_CACHE, else ssrlab in the user's cache folder");
 }
 
+void add_mesa(CLI::App& command, std::filesystem::path& mesa) {
+    option(command, "--mesa FOLDER", mesa,
+           "Folder of an unpacked Mesa whose driver compiles, as experiments/newer_mesa.sh makes it; default: "
+           "SSRLAB_MESA, else the installed Mesa");
+}
+
 void add_scene(CLI::App& command, std::string& scene) {
     option(command, "scene SCENE", scene,
            "Name of a scene (see: ssrlab list scenes), or path to a .json, .gltf or .glb file")

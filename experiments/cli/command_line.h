@@ -66,6 +66,7 @@ void add_reading(CLI::App& command);
 void add_scene_path(CLI::App& command, CommonOptions& common);
 void add_device(CLI::App& command, CommonOptions& common);
 void add_cache(CLI::App& command, CommonOptions& common);
+void add_mesa(CLI::App& command, std::filesystem::path& mesa);
 /// The margin of equivalence: PrimaryComparisons::margin.
 void add_margin(CLI::App& command, double& margin, const std::string& otherwise);
 

@@ -96,7 +96,7 @@ void list_presets() {
 
 }  // namespace
 
-static void list_command(const std::string& what, const CommonOptions& common) {
+static void list_command(const std::string& what, const std::filesystem::path& mesa, const CommonOptions& common) {
     if (what == "scenes") list_scenes_with_tests(scene_search_path(common.scene_path));
     if (what == "techniques") list_techniques();
     if (what == "presets") list_presets();
@@ -115,7 +115,7 @@ static void list_command(const std::string& what, const CommonOptions& common) {
         for (const TemporalMetric& metric : temporal_metrics()) print(metric);
     }
     if (what == "chips")
-        for (const Chip& chip : known_chips()) std::printf("%-12s %s\n", chip.name.c_str(), chip.driver.c_str());
+        for (const Chip& chip : known_chips(mesa)) std::printf("%-12s %s\n", chip.name.c_str(), chip.driver.c_str());
     if (what == "devices") {
         const std::vector<DeviceInfo> devices = list_devices();
         for (size_t i = 0; i < devices.size(); ++i)
@@ -127,13 +127,15 @@ static void list_command(const std::string& what, const CommonOptions& common) {
 
 void add_list(Commands& line) {
     auto& what = line.keep<std::string>();
+    auto& mesa = line.keep<std::filesystem::path>(chosen_mesa());
     CLI::App& command = line.add(
         "list", "List scenes and what each tests, techniques, presets, tracers, denoisers, metrics, devices or chips");
     option(command, "what scenes|techniques|presets|tracers|denoisers|metrics|devices|chips", what, "What to list")
         ->required()
         ->check(
             CLI::IsMember({"scenes", "techniques", "presets", "tracers", "denoisers", "metrics", "devices", "chips"}));
+    add_mesa(command, mesa);
     add_scene_path(command, line.common);
     add_reading(command);
-    command.callback([&] { list_command(what, line.common); });
+    command.callback([&] { list_command(what, mesa, line.common); });
 }

@@ -23,6 +23,7 @@ struct ShadersOptions {
     std::string technique, preset;
     nlohmann::json parameters = nlohmann::json::object();
     std::vector<std::string> chips;  ///< names that radv has for them
+    std::filesystem::path mesa;      ///< a folder, see unpacked_mesa.h; "": the installed one
     std::string against;             ///< another preset, or a results folder; "": nothing
     ShotOptions shot;
     bool leaves_out = false;              ///< what the scene does not need
@@ -131,7 +132,7 @@ void write_assembly(const fs::path& folder, const std::vector<CompiledRow>& rows
 static void shaders_command(const ShadersOptions& options, const CommonOptions& common) {
     const PointConfig point = single_point(options.technique, options.preset, options.parameters);
     std::vector<Chip> chips;
-    for (const std::string& name : options.chips) chips.push_back(find_chip(name));
+    for (const std::string& name : options.chips) chips.push_back(find_chip(name, options.mesa));
     const Shot shot = shot_of(options.shot, common);
     Device device(common.device);
     const StagePipelines pipelines = pipelines_of(device, shot, point, options.leaves_out);
@@ -161,6 +162,11 @@ static void shaders_command(const ShadersOptions& options, const CommonOptions& 
         how.has_assembly = false;
         std::printf("%s%s %s on %s (%s)\n", all.empty() ? "" : "\n", point.technique.c_str(), point.point.c_str(),
                     chip.name.c_str(), chip.driver.c_str());
+        const auto of_other_driver = std::ranges::find_if(
+            others, [&](const CompiledRow& o) { return o.chip == chip.name && o.driver != chip.driver; });
+        if (of_other_driver != others.end())
+            std::printf("  note: %s is of %s, so that differences may be those of the compilers\n",
+                        shown_text(options.against).c_str(), shown_text(of_other_driver->driver).c_str());
         print(rows, others, options.against);
         if (!options.assembly.empty()) write_assembly(options.assembly, rows, texts);
         all.insert(all.end(), rows.begin(), rows.end());
@@ -177,6 +183,7 @@ void add_shaders(Commands& line) {
     ShadersOptions& shaders =
         line.keep<ShadersOptions>({.shot = {.scene = "mirror_pillars", .camera = {}, .size = {96, 54}}});
     shaders.chips.assign(default_chips.begin(), default_chips.end());
+    shaders.mesa = chosen_mesa();
     CLI::App& command = line.add(
         "shaders", "Show what a GPU's compiler makes of a technique's passes: registers, occupancy, instructions");
     option(command, "technique NAME", shaders.technique,
@@ -186,6 +193,7 @@ void add_shaders(Commands& line) {
     option(command, "--chip NAME", shaders.chips,
            "GPUs, by Mesa's names (see: ssrlab list chips); default: navi21, gfx1100, vega10")
         ->delimiter(',');
+    add_mesa(command, shaders.mesa);
     option(command, "--against PRESET|RESULTS", shaders.against,
            "Also show the differences from another preset, or from a study with \"gpu_compilers\"");
     option(command, "--assembly DIR", shaders.assembly, "Write the machine code of each shader into this folder");

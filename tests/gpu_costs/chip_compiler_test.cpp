@@ -166,7 +166,7 @@ TEST_F(ChipCompiler, NamesThePackageWhereThereIsNoRadv) {
     if (lavapipe.empty()) GTEST_SKIP() << "no lavapipe in /usr/share/vulkan/icd.d";
     const Environment files("VK_DRIVER_FILES", lavapipe.string()), older("VK_ICD_FILENAMES", lavapipe.string());
     try {
-        find_chip("navi21");
+        find_chip("navi21", "");
         FAIL() << "there was a chip";
     } catch (const MachineError& e) {
         EXPECT_NE(std::string(e.what()).find("apt-get install mesa-vulkan-drivers"), std::string::npos) << e.what();

@@ -1,6 +1,7 @@
 #pragma once
 #include "core/gpu/pipelines/pipeline_recipe.h"
 #include "experiments/gpu_costs/chips/compiled_shader.h"
+#include "experiments/gpu_costs/chips/unpacked_mesa.h"
 
 #include <array>
 #include <filesystem>
@@ -12,21 +13,27 @@
 
 /// A GPU by its name in radv.
 struct Chip {
-    std::string name;    ///< "navi21"
-    std::string device;  ///< "Null hardware (RADV NAVI21)"
-    std::string driver;  ///< "radv Mesa 22.3.6"
+    std::string name;            ///< "gfx1100", as it was asked for
+    std::string name_in_driver;  ///< "navi31": what this version of radv calls it
+    std::string device;          ///< "Null hardware (RADV NAVI31)"
+    std::string driver;          ///< "radv Mesa 25.0.7"
+    std::filesystem::path radv;  ///< the driver's file; "": the installed driver
 };
 
 /// RDNA 2, RDNA 3 and GCN 5.
 inline constexpr std::array default_chips = {"navi21", "gfx1100", "vega10"};
 
-/// `name`: in any case. Fails with Error if the installed radv does not know it, with MachineError where there is no
-/// radv.
-Chip find_chip(const std::string& name);
+/// `name`: in any case; a chip that Mesa renamed has both names. `mesa`: a folder, see unpacked_mesa.h; "": the
+/// installed one. Fails with Error if radv does not know the chip or `mesa` has no radv that can be used, with
+/// MachineError where none is installed.
+Chip find_chip(const std::string& name, const std::filesystem::path& mesa = chosen_mesa());
 
-/// All chips that the installed radv knows, among the chips of its versions up to Mesa 25. Takes some seconds. Fails
-/// with MachineError if there is no radv.
-std::vector<Chip> known_chips();
+/// All chips that radv knows, among the chips of its versions from Mesa 22.3 to 25.0. Takes some seconds. Fails as
+/// find_chip() does.
+std::vector<Chip> known_chips(const std::filesystem::path& mesa = chosen_mesa());
+
+/// The other name of a chip that Mesa renamed after 22.3 ("gfx1100" and "navi31"); "" for all others.
+std::string other_name(const std::string& chip);
 
 struct CompiledShader : CompilerNumbers {
     std::string stage;            ///< "compute", "vertex" or "fragment"

@@ -1,5 +1,7 @@
 #include "experiments/gpu_costs/chips/chip_rates.h"
+
 #include "core/list_text.h"
+#include "experiments/gpu_costs/chips/chip_compiler.h"
 
 #include <map>
 #include <ranges>
@@ -50,7 +52,8 @@ const std::map<std::string, ChipRates>& all_rates() {
 }  // namespace
 
 std::optional<ChipRates> chip_rates(const std::string& chip) {
-    const auto found = all_rates().find(chip);
+    auto found = all_rates().find(chip);
+    if (found == all_rates().end()) found = all_rates().find(other_name(chip));
     return found == all_rates().end() ? std::nullopt : std::optional(found->second);
 }
 

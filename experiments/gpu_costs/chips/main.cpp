@@ -1,14 +1,18 @@
-// chip_compiler CHIP RECIPES RESULTS [--assembly]: what Mesa's radv makes of pipelines for a chip that is not there.
+// chip_compiler CHIP RECIPES RESULTS [--assembly] [--driver FILE]: what Mesa's radv makes of pipelines for a chip that
+// is not there.
 //
 // A program of its own: radv reads the chip's name from the environment when it is loaded, once, and ends the process
 // on a name that it does not know. RECIPES holds bytes_of(), RESULTS gets a JSON object a line, each as soon as it is
 // known: the device, then what became of each recipe, or `error` of all. Lines are missing where the compiler ended the
-// process.
+// process. FILE is a radv that is not installed; `unusable` says why it cannot be used.
 #include "core/error.h"
 #include "core/files.h"
 #include "core/gpu/pipelines/pipeline.h"
 
+#include <dlfcn.h>
+#include <unistd.h>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -16,6 +20,29 @@
 using nlohmann::json;
 
 namespace {
+
+/// Libraries beside the driver come before those of the system. The linker reads the variable once, when a program
+/// starts.
+void start_again_beside(const std::string& driver, char** arguments) {
+    const char *const variable = "LD_LIBRARY_PATH", *const before = std::getenv(variable);
+    const std::string folder = std::filesystem::path(driver).parent_path().string();
+    if (before && std::string(before).starts_with(folder)) return;
+    setenv(variable, (before ? folder + ":" + before : folder).c_str(), 1);
+    execv("/proc/self/exe", arguments);
+}
+
+struct Unusable : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// The first function of a driver, which the loader of Vulkan asks for all others.
+PFN_vkGetInstanceProcAddr functions_of(const std::string& driver) {
+    void* const library = dlopen(driver.c_str(), RTLD_NOW);
+    if (!library) throw Unusable(dlerror());
+    void* const function = dlsym(library, "vk_icdGetInstanceProcAddr");
+    if (!function) throw Unusable(driver + " is no driver of Vulkan");
+    return reinterpret_cast<PFN_vkGetInstanceProcAddr>(function);
+}
 
 /// The device without hardware among those that there are; nothing where radv is not installed.
 std::optional<vk::raii::PhysicalDevice> find_chip(const vk::raii::Instance& instance) {
@@ -106,20 +133,30 @@ json compile(const vk::raii::Device& device, const PipelineRecipe& recipe, bool 
     return {{"shaders", shaders}};
 }
 
-void compile_all(const std::string& chip_name, const std::string& recipes, std::ostream& results, bool has_assembly) {
-    setenv("RADV_FORCE_FAMILY", chip_name.c_str(), 1);
+struct Order {
+    std::string chip, recipes, driver;  ///< driver: a file; "": those that are installed
+    bool has_assembly = false;
+};
+
+void compile_all(const Order& order, std::ostream& results) {
+    setenv("RADV_FORCE_FAMILY", order.chip.c_str(), 1);
     for (const char* changes_code : {"RADV_PERFTEST", "RADV_DEBUG", "ACO_DEBUG"}) unsetenv(changes_code);
     if (!std::freopen("/dev/null", "w", stderr)) std::cerr << '\n';  // where radv names what it does not know
     const auto put = [&](const json& line) { results << line.dump() << std::endl; };
     const vk::raii::Context context;
+    // Debian 12's vk::raii::Context has no constructor for other functions than the loader's.
+    if (!order.driver.empty())
+        const_cast<vk::raii::ContextDispatcher&>(*context.getDispatcher()) =
+            vk::raii::ContextDispatcher(functions_of(order.driver));
     const vk::ApplicationInfo application{.pApplicationName = "ssrlab", .apiVersion = VK_API_VERSION_1_3};
     const vk::raii::Instance instance(context, vk::InstanceCreateInfo{.pApplicationInfo = &application});
     const std::optional<vk::raii::PhysicalDevice> chip = find_chip(instance);
+    if (!chip && !order.driver.empty()) throw Unusable(order.driver + " has no device that compiles without a GPU");
     if (!chip) return put({{"refusal", "there is no radv"}});
     put(describe(*chip));
     const vk::raii::Device device = make_device(*chip);
-    for (const PipelineRecipe& recipe : recipes_of(recipes)) try {
-            put(compile(device, recipe, has_assembly));
+    for (const PipelineRecipe& recipe : recipes_of(order.recipes)) try {
+            put(compile(device, recipe, order.has_assembly));
         } catch (const vk::SystemError& e) {
             put({{"refusal", e.what()}});
         }
@@ -129,14 +166,27 @@ void compile_all(const std::string& chip_name, const std::string& recipes, std::
 
 int main(int count, char** arguments) {
     if (count < 4) {
-        std::cerr << "usage: chip_compiler CHIP RECIPES RESULTS [--assembly], as ssrlab starts it\n";
+        std::cerr << "usage: chip_compiler CHIP RECIPES RESULTS [--assembly] [--driver FILE], as ssrlab starts it\n";
         return 2;
     }
+    Order order{.chip = arguments[1], .recipes = {}, .driver = {}};
+    for (int i = 4; i < count; ++i)
+        if (arguments[i] == std::string("--driver") && i + 1 < count)
+            order.driver = arguments[++i];
+        else
+            order.has_assembly = true;
+    if (!order.driver.empty()) start_again_beside(order.driver, arguments);
     std::ofstream results(arguments[3]);
+    const auto say = [&](const char* what, const std::exception& why) {
+        results << json{{what, why.what()}}.dump() << std::endl;
+    };
     try {
-        compile_all(arguments[1], read_text(arguments[2]), results, count > 4);
+        order.recipes = read_text(arguments[2]);
+        compile_all(order, results);
+    } catch (const Unusable& e) {
+        say("unusable", e);
     } catch (const std::exception& e) {
-        results << json{{"error", e.what()}}.dump() << std::endl;
+        say("error", e);
     }
     return results ? 0 : 3;
 }

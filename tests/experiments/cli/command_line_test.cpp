@@ -56,6 +56,16 @@ TEST_F(CommandLine, NamesMistakesInConfigs) {
     expect_mistake("tune study.json", "it can only be extended");
 }
 
+TEST_F(CommandLine, NamesMistakesOfUnpackedMesas) {
+    for (const char* command : {"shaders mcguire_dda --chip navi21", "list chips"}) {
+        expect_mistake(command + std::string(" --mesa nowhere"), "'nowhere', does not exist");
+        fs::create_directories(folder / "empty");
+        expect_mistake(command + std::string(" --mesa empty"), "has no libvulkan_radeon.so");
+        write_text(folder / "broken/usr/lib/libvulkan_radeon.so", "no library");
+        expect_mistake(command + std::string(" --mesa broken"), "cannot be used: ");
+    }
+}
+
 /// The steps of a search are studies in folders of their own, which name the technique.
 TEST_F(CommandLine, SearchesATechniqueThatIsDeclared) {
     config(R"({"shots": [{"scene": "mirror_pillars", "resolution": [32, 18]}], "reference": {"samples": 16}, "seeds": 1,

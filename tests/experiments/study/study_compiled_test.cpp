@@ -2,7 +2,9 @@
 #include "core/files.h"
 #include "experiments/gpu_costs/chips/chip_compiler.h"
 #include "experiments/results/cells/cell_store.h"
+#include "experiments/results/cells/estimate_table.h"
 #include "tests/experiments/study/study_fixture.h"
+#include "tests/gpu_costs/fake_mesa.h"
 
 namespace {
 
@@ -69,4 +71,36 @@ TEST_F(StudyTest, CompilesForChips) {
         EXPECT_GT(row.vgprs.value_or(0), 0);
         EXPECT_NE(row.hash, "");
     }
+}
+
+/// Another version of the compiler makes other cells, so that no table mixes both.
+TEST_F(StudyTest, KeepsVersionsOfCompilersApart) {
+    if (!unpack_fake_mesa(folder / "mesa")) GTEST_SKIP() << "no radv is installed";
+    std::string study = compiled_study + "\"navi21\"], \"costs\": true}";
+    write_text(folder / "study.json", study);
+    const auto ssrlab = [&](const std::string& command, const std::string& mesa) {
+        const std::string line = "cd '" + folder.string() + "' && SSRLAB_MESA='" + mesa + "' SSRLAB_CACHE='" +
+                                 (folder / "cache").string() + "' '" SSRLAB_PROGRAM "' " + command + " > log 2>&1";
+        const int status = std::system(line.c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    };
+    const auto expect_mesa_99 = [&](const std::string& out, bool is_99) {
+        const std::vector<CompiledRow> compiled = read_rows<CompiledRow>(folder / out / "compiled.csv");
+        const std::vector<EstimateTableRow> estimates = read_rows<EstimateTableRow>(folder / out / "estimates.csv");
+        ASSERT_FALSE(compiled.empty() || estimates.empty());
+        for (const CompiledRow& row : compiled) EXPECT_EQ(row.driver.starts_with("radv Mesa 99"), is_99) << row.driver;
+        for (const EstimateTableRow& row : estimates)
+            EXPECT_EQ(row.driver.starts_with("radv Mesa 99"), is_99) << row.driver;
+    };
+    ASSERT_EQ(ssrlab("run study.json --out one", ""), 0) << read_text(folder / "log");
+    expect_mesa_99("one", false);
+    ASSERT_EQ(ssrlab("run study.json --out one", "mesa"), 0) << read_text(folder / "log");
+    expect_mesa_99("one", true);
+    ASSERT_EQ(ssrlab("run study.json --out two", ""), 0) << read_text(folder / "log");
+    ASSERT_EQ(ssrlab("merge study.json two --out merged", ""), 0) << read_text(folder / "log");
+    expect_mesa_99("merged", false);
+    EXPECT_NE(ssrlab("merge study.json two --out other", "mesa"), 0) << "its cells are of the other version";
+    EXPECT_EQ(ssrlab("run study.json --out three", "nowhere"), 2);
+    EXPECT_NE(read_text(folder / "log").find("'nowhere', does not exist"), std::string::npos)
+        << read_text(folder / "log");
 }

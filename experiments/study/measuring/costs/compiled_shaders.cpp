@@ -74,7 +74,7 @@ GpuCompilers find_compilers(const std::vector<std::string>& names) {
     for (const std::string& name : names) try {
             compilers.entries.push_back({.chip = find_chip(name), .refusal = {}});
         } catch (const MachineError& e) {
-            compilers.entries.push_back({.chip = {.name = name, .device = {}, .driver = {}}, .refusal = e.what()});
+            compilers.entries.push_back({.chip = Chip{.name = name}, .refusal = e.what()});
         }
     return compilers;
 }
