@@ -97,5 +97,41 @@ class CostAgreement(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr), (2, "error: no shot has both times and costs\n"))
 
 
+COMPILED = """shot,technique,point,stage,pipeline,shader,chip,driver,vgprs,waves,instructions,latency,inverse_throughput
+s,v,a,v/x,0,compute,navi21,{driver},8,16,10,40,{cycles}
+s,v,a,v/y,0,compute,navi21,{driver},16,16,20,50,30
+s,v,b,v/x,0,compute,navi21,{driver},24,12,30,60,50
+s,v,b,v/x,0,vertex,navi21,{driver},1,1,1,1,1
+"""
+
+
+class MesaAgreement(unittest.TestCase):
+    """Two versions of a compiler: against numbers by hand."""
+
+    def run_on(self, newer, estimates=("", "")):
+        program = os.path.join(os.path.dirname(PROGRAM), "mesa_agreement.py")
+        with tempfile.TemporaryDirectory() as folder:
+            for name, text, estimate in (("older", COMPILED.format(driver="radv Mesa 22", cycles=20), estimates[0]), ("newer", newer, estimates[1])):
+                os.mkdir(os.path.join(folder, name))
+                for file, content in (("compiled.csv", text), ("estimates.csv", estimate)):
+                    if content:
+                        with open(os.path.join(folder, name, file), "w", encoding="utf-8") as out:
+                            out.write(content)
+            return subprocess.run([sys.executable, "-B", program, *(os.path.join(folder, n) for n in ("older", "newer"))], capture_output=True, text=True)
+
+    def test_ranks_and_ratios_by_hand(self):
+        newer = COMPILED.format(driver="radv Mesa 25", cycles=40)  # one of three pairs is in another order
+        done = self.run_on(newer, (ESTIMATES, ESTIMATES.replace(",R,4,", ",R,8,")))
+        self.assertIn("| radv Mesa 25 against radv Mesa 22 | values |", done.stdout, done.stderr)
+        self.assertIn("| navi21, instructions | 3 | 1.00 [1.00, 1.00] | 1.00 [1.00, 1.00] |", done.stdout)
+        self.assertIn("| navi21, cycles | 3 | 0.33 [0.33, 0.33] | 1.00 [1.00, 2.00] |", done.stdout)
+        self.assertIn("| navi21, estimated time of points | 3 | -0.33 [-0.33, -0.33] | 1.00 [1.00, 2.00] |", done.stdout)
+        self.assertNotIn("estimated", self.run_on(newer).stdout)
+
+    def test_refuses_one_version(self):
+        done = self.run_on(COMPILED.format(driver="radv Mesa 22", cycles=40))
+        self.assertEqual((done.returncode, done.stderr), (2, "error: both folders are of radv Mesa 22; run one of them with SSRLAB_MESA\n"))
+
+
 if __name__ == "__main__":
     unittest.main()
