@@ -34,7 +34,7 @@ COLUMNS = {  # of the files that ssrlab reads, which refuses those that lack one
     "splits.csv": "shot,frame,technique,point,target,mask,seeds,mse,bias_squared,variance,variance_low,variance_high,pixels,bias_squared_low,bias_squared_high",
     "time_effects.csv": "shot,technique,point,against,against_technique,against_point,stage,clock,rounds,ratio,low,high,p,p_holm,low_holm,high_holm,verdict",
     "costs.csv": "shot,technique,point,stage,quantity,value",
-    "estimates.csv": "shot,technique,point,stage,chip,product,microseconds,low,high,bound,vector,scalar,shared_memory,textures,targets,memory,latency,caches,waves,active_lanes,unmatched,cut_lanes,refusal",
+    "estimates.csv": "shot,technique,point,stage,chip,driver,product,microseconds,low,high,bound,vector,scalar,shared_memory,textures,targets,memory,latency,caches,waves,active_lanes,unmatched,cut_lanes,refusal",
 }
 NUMBERS = ("seeds", "corrected", "pixels", "non_finite", "negative", "frames", "rounds", "width", "height", "seed", "disturbed", "represents_shot", "ranked", "frame")  # where a row says nothing of them, 0
 
