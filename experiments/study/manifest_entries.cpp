@@ -23,6 +23,15 @@ nlohmann::json external_entry(const ExternalImages& images) {
     return entry;
 }
 
+/// An entry of a config's "techniques" that makes the point: the values that differ from the technique's defaults.
+nlohmann::json config_entry(const PointConfig& point, const Technique& technique) {
+    nlohmann::json entry = {{"technique", point.technique}};
+    const nlohmann::json defaults = plain_technique_of(point)->params.values();
+    for (const auto& [name, value] : technique.params.values().items())
+        if (defaults.at(name) != value) entry["parameters"][name] = value;
+    return entry;
+}
+
 nlohmann::json technique_entries(const Config& config) {
     nlohmann::json entries = nlohmann::json::array();
     const std::vector<SingleChange> changes = single_changes(config.techniques);
@@ -35,7 +44,10 @@ nlohmann::json technique_entries(const Config& config) {
              {"source", v.external ? "version " + v.external->version : find_technique(v.technique).source},
              {"parameters", v.external ? v.external->settings : technique->params.values()},
              {"depends_on_seed", technique->depends_on_seed()}});
-        if (v.external) entries.back()["external"] = external_entry(*v.external);
+        if (v.external)
+            entries.back()["external"] = external_entry(*v.external);
+        else
+            entries.back()["entry"] = config_entry(v, *technique);
         if (!v.label.empty()) entries.back()["label"] = v.label;
         if (!v.group.empty()) entries.back()["group"] = v.group;
         if (!v.swept.empty()) entries.back()["swept"] = v.swept;

@@ -71,7 +71,7 @@ struct AtCosts : AnswerContext {
         const std::string title = "### " + shown_number(cost) + " " + unit + "\n\n";
         if (rows.empty()) return title + "No point fits in any scene.\n\n";
         const size_t scenes = rows.front()->of_scenes;
-        std::string text = title + first_sentence(rows) + "\n";
+        std::string text = title + first_sentence(rows) + "\n" + point_sentence(machine, rows, cost);
         Names partly, fitting, absent;
         for (const AcrossRow* row : rows) {
             if (row->scenes < scenes)
@@ -92,6 +92,33 @@ struct AtCosts : AnswerContext {
             text += "No point fits in any scene: " + markdown_text(listed(absent, most_listed)) + ".\n";
         return text + "\n" + ranking("technique", rows, "scenes where it surely fits", fitting) +
                groups_at(machine, cost, rows);
+    }
+
+    /// The point that stands for a technique at a cost: the study's frozen one, else the best over all of these scenes.
+    std::string point_at(const std::string& machine, const std::string& technique, double cost) const {
+        for (const ChosenPoint& c : found.chosen)
+            if (c.technique == technique && c.cost == cost && c.chosen_on == "frozen") return c.point;
+        for (const FrozenPoint& p : found.to_freeze)
+            if (p.machine == machine && p.technique == technique && p.cost == cost) return p.point;
+        return "";
+    }
+
+    /// The first technique's point, and the entry of a config that makes this point.
+    std::string point_sentence(const std::string& machine, const Rows& rows, double cost) const {
+        const AcrossRow* first = first_of(rows);
+        const std::string point = first ? point_at(machine, first->technique, cost) : "";
+        for (const nlohmann::json& of : manifest.at("techniques")) {
+            if (point.empty() || of.at("technique") != first->technique || of.at("point") != point) continue;
+            std::string text =
+                "Its best point within this cost is " + markdown_text(label_of({first->technique, point}));
+            if (of.contains("entry")) {
+                const std::string entry = of["entry"].dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+                const bool ends_code = entry.find('`') != std::string::npos;
+                text += ", in a config " + (ends_code ? markdown_text(entry) : "`" + entry + "`");
+            }
+            return text + ".\n";
+        }
+        return "";
     }
 
     /// Each technique in each group of shots, where the study has several.

@@ -84,7 +84,7 @@ std::vector<FrozenPoint> freeze(const std::string& machine, double cost, const s
         if (!is_first && error < best->second.first) best->second = {error, name.second};
     }
     std::vector<FrozenPoint> points;
-    for (const auto& [technique, best] : least) points.push_back({cost, technique, best.second});
+    for (const auto& [technique, best] : least) points.push_back({cost, technique, best.second, machine});
     return points;
 }
 

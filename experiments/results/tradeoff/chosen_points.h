@@ -24,6 +24,7 @@ struct ChosenPoint {
 struct FrozenPoint {
     double cost = 0;
     std::string technique, point;
+    std::string machine = {};  ///< on whose scenes it was chosen; empty if a config names it
 };
 
 /// Share of scenes in which a point must keep a budget.

@@ -106,7 +106,7 @@ def write_study(folder):
         "study": {"name": "made_up", "config": "made_up.json"},
         "provenance": [{"ssrlab": {"commit": "abc1234"}, "host": {"name": n, "cpu": "c", "cores": 2}, "device": {"name": "d"}, "cells": [{"what": f"{s}: {names_of_cells[n]}"} for s in of]} for n, of in MACHINES],
         "shots": [{"shot": s, "scene": s, "width": 64, "height": 36, "truth_ladder": [{"rung": "on_screen", "target": "specular", "metric": "mse", "mask": "reflective", "value": 0.1}]} for s in (*shots, "sky")],
-        "techniques": [{"technique": v, "point": p, "parameters": {"rays": int(p[-1])} if "=" in p else {}} for v, p in keys.values()],
+        "techniques": [{"technique": v, "point": p, "parameters": {"rays": int(p[-1])} if "=" in p else {}, "entry": {"technique": v}} for v, p in keys.values()],
     }
     manifest["techniques"].append({"technique": "oracle", "point": "default", "uses_scene_data": True, "parameters": {}})
     with open(os.path.join(folder, "manifest.json"), "w", encoding="utf-8") as stream:
@@ -174,6 +174,8 @@ class Folder(unittest.TestCase):
         self.assertIn("| 3 | no technique fits in all scenes |", answers)
         self.assertIn("**v** has the least error, 0.125 times the error of none (geometric mean, 2 scenes)", answers)
         self.assertIn("2 scenes say nothing about other scenes", answers)
+        # v rays=2 takes 8 ms, rays=4 takes 16.
+        self.assertIn('Its best point within this cost is v rays=2, in a config `{"technique":"v"}`.', answers)
         self.assertIn("| v rays=1: rays: 1 -> 2 | wall | -50 [-52, -48] |", answers)
         self.assertIn("Ratios leave out sky,", answers)
         self.assertIn("The timer was not validated in 1 of 3 shots", answers)
