@@ -26,8 +26,8 @@ nlohmann::json external_entry(const ExternalImages& images) {
 /// An entry of a config's "techniques" that makes the point: the values that differ from the technique's defaults.
 nlohmann::json config_entry(const PointConfig& point, const Technique& technique) {
     nlohmann::json entry = {{"technique", point.technique}};
-    const nlohmann::json defaults = plain_technique_of(point)->params.values();
-    for (const auto& [name, value] : technique.params.values().items())
+    const nlohmann::json defaults = plain_technique_of(point)->params.values(), values = technique.params.values();
+    for (const auto& [name, value] : values.items())
         if (defaults.at(name) != value) entry["parameters"][name] = value;
     return entry;
 }
