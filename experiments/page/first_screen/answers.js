@@ -5,12 +5,12 @@ import {icon, legend, legendGroups, styleOf} from "../charts/styles.js";
 import {at, clickable, h, scroller} from "../elements/elements.js";
 import {numberCell, numbers, table} from "../elements/tables.js";
 import {drawBudget, showBudget} from "./budget.js";
-import {errorTimeChart} from "./error_time.js";
+import {costAxis, costBox, costListeners, errorTimeChart} from "./error_time.js";
 import {hasInflate, whyNoImages} from "../images/packed.js";
 import {drawWhy} from "../sections/error_shares.js";
 import {pointListeners} from "../sections/parts.js";
 import {answerChoice, answerOf, chosenPoint} from "../study/answers.js";
-import {timedOn, timesOf, totalTime} from "../study/costs.js";
+import {chipKinds, howEstimated, timedOn, timesOf, totalTime} from "../study/costs.js";
 import {manifestShots, pointKey, pointLabel, report, shortShot} from "../study/data.js";
 import {headline, headlineMetrics, headlineRows} from "../study/errors.js";
 import {allPoints} from "../study/points.js";
@@ -38,6 +38,8 @@ export function showAnswers() {
         return h("p", {}, lead ? h("b", {}, lead) : "", rest);
     }));
     pointListeners.push(drawAnswerCharts);
+    costListeners.push(drawAnswerCharts);
+    if (report.errors.length) at("answer-budget").append(costBox() ?? "");
     showBudget();
     return drawAnswers(shots);
 }
@@ -101,8 +103,9 @@ export function drawAnswerCharts() {
 }
 
 /// How the charts are read.
-const chartNote = shot => (timesOf(shot).length ? "Lower left is better. Dashed steps join the least errors within each time. " :
+const chartNote = shot => (timesOf(shot).length || costAxis.kind !== "time" ? "Lower left is better. Dashed steps join the least errors within each time. " :
                                                   "Lower is better. ") +
+    (costAxis.kind in chipKinds ? `Times are estimates. ${howEstimated()} ` : "") +
     "[a, b] and lines at marks are 95 % intervals.";
 
 /// Of a study without errors.

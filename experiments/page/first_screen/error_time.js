@@ -4,25 +4,43 @@ import Plot from "../vendor/plot.js";
 import {clampTo, errorAxis, linearAxis, logAxis} from "../charts/axes.js";
 import {markChart} from "../charts/plots.js";
 import {pointMark} from "../charts/styles.js";
+import {choiceBox} from "../elements/elements.js";
 import {budgetLine} from "./budget.js";
-import {costKinds, timedOn, totalCost, totalTime} from "../study/costs.js";
-import {pointLabel, shortShot} from "../study/data.js";
+import {chipKinds, costKinds, costOptions, timedOn, totalCost, totalTime} from "../study/costs.js";
+import {pointLabel, report, shortShot} from "../study/data.js";
 import {better, framesText, metricKey, rowText, unitText} from "../study/errors.js";
 import {ladderOf} from "../study/ladder.js";
 import {mistakesOfError, mistakesOfTime} from "../study/mistakes.js";
 import {chartedRows, parameterLines} from "../study/points.js";
-import {countText, interval, number} from "../values.js";
+import {countText, interval, microseconds, number} from "../values.js";
 import {openPoint} from "../viewer/viewer.js";
 
-/// What charts have along their x axis: "time", or a name of costKinds.
+/// What charts have along their x axis: "time", or a name of costKinds or chipKinds. Without times the first chip, if there
+/// is one.
 export const costAxis = {
-    kind: "time"
+    kind: report.times.length ? "time" : Object.keys(chipKinds)[0] ?? "time"
 };
+/// Called when the reader chooses another x axis.
+export const costListeners = [];
+
+/// A box for the x axis of all charts; several boxes show the same choice. Null where there is no choice.
+export function costBox() {
+    if (costOptions.length < 2) return null;
+    const box = choiceBox("Charts against", costAxis, "kind", costOptions, () => costListeners.forEach(draw => draw()));
+    costListeners.push(() => box.querySelector("select").value = costAxis.kind);
+    return box;
+}
+
 export const costOf = row => costAxis.kind === "time" ? totalTime(row) : totalCost(row, costAxis.kind);
 
-/// The points that summary.csv has on the front of error against what the x axis shows, in the order of their costs.
-const frontOf = timed =>
-    timed.filter(p => p.row.fronts.split(" ").includes(costAxis.kind)).sort((a, b) => a.time.value - b.time.value);
+/// The points on the front of error against what the x axis shows, in the order of their costs. summary.csv names those of
+/// times and counts. For estimates they are the ranked points with less error than all faster ones.
+function frontOf(timed) {
+    const ordered = [...timed].sort((a, b) => a.time.value - b.time.value);
+    if (!(costAxis.kind in chipKinds)) return ordered.filter(p => p.row.fronts.split(" ").includes(costAxis.kind));
+    let least = Infinity;
+    return ordered.filter(({row}) => row.low !== null && row.value < least && (least = row.value, true));
+}
 
 /// `all`: rows of one shot and metric; `open`: what a click on a mark does with its row. Without times the points stand
 /// beside each other. None is a line alone: its time and error would push all others together. Null where no row is
@@ -33,10 +51,11 @@ export function errorTimeChart(shot, all, {width = 440, height = 320, open = ope
     if (!rows.length) return null;
     const {metric, target, mask} = rows[0], isLog = better(metric) === "lower";
     const timed = rows.map(row => ({row, time: costOf(row)})).filter(p => p.time?.value > 0),
-          hasTimes = timed.length > 0, cost = costKinds[costAxis.kind];
+          hasTimes = timed.length > 0, chip = chipKinds[costAxis.kind],
+          cost = costKinds[costAxis.kind] ?? chip;
     const points = hasTimes ? timed : rows.map((row, i) => ({row, time: {value: i + 1, low: null, high: null}}));
     const y = errorAxis(isLog, points.map(p => p.row), metric + unitText(metric));
-    const xLabel = cost ? `${cost.axis}, in the last frame` : "total time (ms), " + timedOn(shot);
+    const xLabel = cost ? cost.axis + (chip ? "" : ", in the last frame") : "total time (ms), " + timedOn(shot);
     const order = linearAxis([1, rows.length], "points, in the order of the study (no times)");
     const x = hasTimes ? logAxis(timed.flatMap(({time}) => [time.low ?? time.value, time.high ?? time.value]), xLabel) :
                          {...order, ticks: order.ticks.filter(Number.isInteger)};
@@ -44,6 +63,7 @@ export function errorTimeChart(shot, all, {width = 440, height = 320, open = ope
                                 .map(m => `\n! ${m.text}`)
                                 .join("");
     const timeText = time => !hasTimes ? "" :
+        chip                           ? `\nestimated ${microseconds(time.value)} ${interval(time, 3)}` :
         cost                           ? `\n${countText(time.value * 1e6)} ${cost.name}` :
                                          `\n${number(time.value)} ms ${interval(time)}, ${time.frames} frames`;
     const marks = points.map(

@@ -1,13 +1,12 @@
 // The reader's choice of metric and points, and what it shows: the matrix, charts of error against time, the table.
 
 import {at, choiceBox, h} from "../elements/elements.js";
-import {drawAnswerCharts} from "./answers.js";
-import {costAxis, costOf, errorTimeChart} from "./error_time.js";
+import {costAxis, costBox, costListeners, costOf, errorTimeChart} from "./error_time.js";
 import {matrix, sortedPoints, sortKeys, timeRows} from "./matrix.js";
 import {choiceListeners, chosenRows, otherRows, showChoice, showSummary} from "./summary.js";
 import {pointLegend, pointListeners, pointsChanged} from "../sections/parts.js";
-import {costKinds} from "../study/costs.js";
-import {pointKey, report} from "../study/data.js";
+import {chipKinds, howEstimated} from "../study/costs.js";
+import {pointKey} from "../study/data.js";
 import {better} from "../study/errors.js";
 import {isOneSeed} from "../study/mistakes.js";
 import {
@@ -40,11 +39,6 @@ export function showExplorer() {
         ...(comparedPoints.length <= mostNamed ? [["point", "points"]] : []), ["technique", "techniques"],
         ...(pointGroups.length > 1 ? [["group", "groups"]] : []), ...swept.map(name => [name, name])
     ];
-    const costs = [["time", "time"], ...Object.entries(costKinds).map(([key, {name}]) => [key, name])];
-    const drawCharts = () => {
-        drawAnswerCharts();
-        drawErrorTime();
-    };
     const singles = `also show ${singleChangeKeys.size} points that change one parameter of a baseline`;
     at("points-choice").append(...[
         h("label", {}, "Filter", filter), choose("Sort by", "sort", Object.entries(sortKeys)),
@@ -52,7 +46,7 @@ export function showExplorer() {
         techniques.includes("none") &&
             choose("Cells relative to", "relativeTo", [["best", "the least"], ["none", "none"]]),
         choose("Colours and shapes stand for", "colourBy", colours),
-        report.costs.length > 0 && choiceBox("Charts against", costAxis, "kind", costs, drawCharts),
+        costBox(),
         singleChangeKeys.size > 0 && box(singles, "hasSingleChanges"),
         h("output", {id: "match", "aria-live": "polite"})
     ].filter(Boolean));
@@ -64,6 +58,7 @@ export function showExplorer() {
     };
     choiceListeners.push(draw);
     pointListeners.push(draw);
+    costListeners.push(drawErrorTime);
     draw();
 }
 
@@ -79,6 +74,7 @@ function drawErrorTime() {
     const rows = chosenRows(), others = otherRows();
     const timed = rows.some(costOf), isLog = better(choice.metric.split("|")[0]) === "lower";
     at("error-time-note").textContent = [
+        costAxis.kind in chipKinds ? `Times are estimates for a GPU that the study did not use. ${howEstimated()}` :
         costAxis.kind !== "time" ?
             "Counted work of all stages of a technique in the last frame: no times of a machine." :
             timed ? "Times are totals of a technique's stages, as medians over the frames. Lines are 95 % intervals." :

@@ -6,6 +6,7 @@ import {folded, h, scroller} from "../elements/elements.js";
 import {cell, numberCell, numbers, shareCell, table} from "../elements/tables.js";
 import {chipPart, leaveOut, longList, refusalsNote} from "./parts.js";
 import {stackedStages, stageName} from "./stages.js";
+import {howEstimated} from "../study/costs.js";
 import {isSamePoint, pointKey, pointLabel, report, shotLabel} from "../study/data.js";
 import {filteredRows} from "../study/points.js";
 import {interval, microseconds, number, unique} from "../values.js";
@@ -44,7 +45,7 @@ function estimatesPart() {
     const place = e => e.stage === "total" ? pointLabel(e) : `${e.stage} of ${pointLabel(e)}`;
     return [
         refusalsNote(refused, own.length, place, "All points"),
-        estimated.length ? h("p", {class: "note"}, howSure(), compiledBy(estimated)) : "",
+        estimated.length ? h("p", {class: "note"}, howEstimated(), compiledBy(estimated)) : "",
         stages.length ? h("div", {class: "bars"}, estimateBars(own, stages),
                           h("div", {}, boundLegend(stages), estimateSentences(own, stages))) :
                         "",
@@ -57,8 +58,6 @@ const compiledBy = estimated => {
     const drivers = unique(estimated.map(e => e.driver)).filter(Boolean);
     return drivers.length ? ` The passes were compiled by ${drivers.join(" and ")}.` : "";
 };
-
-const howSure = () => `Intervals hold sampling alone: ${report.modelRange.text}.`;
 
 /// Between what the model leaves the time.
 const modelRangeOf = e =>

@@ -15,13 +15,33 @@ export const costKinds = {
         {name: "operations", axis: "millions of scalar operations, as shaders state them", of: c => c.operations / 1e6}
 };
 
+const estimateTotals =
+    new Map(report.estimates.filter(e => e.stage === "total" && !e.refusal && e.value > 0 && e.technique !== "none")
+                .map(e => [e.chip + "|" + e.shot + "|" + pointKey(e), e]));
+
+/// By chip: how charts call its estimated times.
+export const chipKinds = Object.fromEntries([...estimateTotals.values()].map(({chip, product}) => [chip, {
+    name: `estimated time on ${product || chip}`,
+    axis: `estimated time on ${product || chip} (µs)`
+}]));
+
 const costTotals = new Map(report.costs.filter(c => c.stage === "total").map(c => [c.shot + "|" + pointKey(c), c]));
 
-/// The total of a point as a value of an axis, like totalTime(); undefined where nothing was counted.
+/// The total of a point as a value of an axis, like totalTime(); undefined where nothing was counted or estimated. `kind`:
+/// a name of costKinds or chipKinds.
 export function totalCost(row, kind) {
+    if (kind in chipKinds) return estimateTotals.get(kind + "|" + row.shot + "|" + pointKey(row));
     const total = costTotals.get(row.shot + "|" + pointKey(row));
     return total && {value: costKinds[kind].of(total), low: null, high: null};
 }
+
+/// What charts can have along their x axis, as options: times, counted work and chips, as far as there are any.
+export const costOptions = [
+    ...(report.times.length ? [["time", "time"]] : []),
+    ...Object.entries({...(report.costs.length ? costKinds : {}), ...chipKinds}).map(([kind, {name}]) => [kind, name])
+];
+
+export const howEstimated = () => `Intervals hold sampling alone: ${report.modelRange.text}.`;
 
 export const howCounted =
     "Counted by the shaders as they ran, in the shot's last frame with the first seed. Counts do not depend on the machine." +

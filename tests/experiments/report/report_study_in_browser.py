@@ -234,6 +234,12 @@ def test_stages(page):
     choose_in(page, "results", "Charts against", "bytes")
     labels = [chart.text for chart in page.find_elements(By.CSS_SELECTOR, "#scatter figure, #answer-charts figure")]
     check(labels and all("MB read and written" in label for label in labels), f"charts against bytes: {labels}")
+    chosen = "return document.querySelector('#answer-budget select').value"
+    equal(page.execute_script(chosen), "bytes", "the first screen's box shows the choice that was made below")
+    choose_in(page, "answers", "Charts against", "estimated time on Card <A>")
+    labels = [chart.text for chart in page.find_elements(By.CSS_SELECTOR, "#answer-charts figure")]
+    check(labels and all("estimated time on" in label for label in labels), f"charts against estimated times: {labels}")
+    check("Times are estimates." in page.find_element(By.ID, "answer-legend").text, "estimates are said to be estimates")
 
 
 def test_compiled(page, folder):
