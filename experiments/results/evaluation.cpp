@@ -19,7 +19,7 @@ void evaluate(StudyResults& study, const std::vector<ComparedPoint>& compared, c
     for (const TimeRow& t : study.times)
         if (const auto floor = aa_floor(study.manifest, t.shot)) floors[t.shot] = *floor;
     study.time_summary = summarise(study.times, floors);
-    set_fronts(study.summary, study.time_summary, study.costs);
+    set_fronts(study.summary, study.time_summary, study.costs, study.estimates);
     study.over_scenes = errors_over_scenes(study.summary, study.manifest, primary.margin, compared);
 
     study.effects = paired_effects(study.results, compared, not_repeatable, study.reference_noise);

@@ -135,7 +135,8 @@ const std::map<std::string, Meaning>& meanings() {
         {"high_ms", {"ms", "High end of the 95 % interval of the median"}},
         {"fronts",
          {"",
-          "Costs (time, fetches, bytes, operations) for which no ranked point of the shot has both less error and less "
+          "Costs (time, fetches, bytes, operations, or a chip for its estimated time) for which no ranked point of the "
+          "shot has both less error and less "
           "cost"}},
         {"dominated",
          {"",

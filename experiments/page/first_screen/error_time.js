@@ -33,14 +33,9 @@ export function costBox() {
 
 export const costOf = row => costAxis.kind === "time" ? totalTime(row) : totalCost(row, costAxis.kind);
 
-/// The points on the front of error against what the x axis shows, in the order of their costs. summary.csv names those of
-/// times and counts. For estimates they are the ranked points with less error than all faster ones.
-function frontOf(timed) {
-    const ordered = [...timed].sort((a, b) => a.time.value - b.time.value);
-    if (!(costAxis.kind in chipKinds)) return ordered.filter(p => p.row.fronts.split(" ").includes(costAxis.kind));
-    let least = Infinity;
-    return ordered.filter(({row}) => row.low !== null && row.value < least && (least = row.value, true));
-}
+/// The points that summary.csv has on the front of error against what the x axis shows, in the order of their costs.
+const frontOf = timed =>
+    timed.filter(p => p.row.fronts.split(" ").includes(costAxis.kind)).sort((a, b) => a.time.value - b.time.value);
 
 /// `all`: rows of one shot and metric; `open`: what a click on a mark does with its row. Without times the points stand
 /// beside each other. None is a line alone: its time and error would push all others together. Null where no row is

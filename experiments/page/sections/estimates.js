@@ -53,7 +53,6 @@ function estimatesPart() {
     ];
 }
 
-/// Results of before have no driver.
 const compiledBy = estimated => {
     const drivers = unique(estimated.map(e => e.driver)).filter(Boolean);
     return drivers.length ? ` The passes were compiled by ${drivers.join(" and ")}.` : "";

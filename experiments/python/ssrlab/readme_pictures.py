@@ -85,7 +85,7 @@ def draw_comparison(folder, config, scene, name, points, scene_rows, map_rows):
     maps = {key: crops.absolute_error(images[key], truth) for key in points}
     most = float(np.nanquantile(np.stack(list(maps.values())), 0.99))
     columns, heights = 3, [rows.stop - rows.start for rows in (scene_rows, map_rows)]
-    size = (style.DOUBLE_COLUMN, 0.49 / 206 * sum(heights) * style.DOUBLE_COLUMN)
+    size = (style.DOUBLE_COLUMN, 0.49 / 206 * sum(heights) * style.DOUBLE_COLUMN)  # 206 rows of 320 pixels, and titles, are half as high as wide
     figure, grid = plt.subplots(4, columns, figsize=size, layout="constrained", height_ratios=2 * heights)
     figure.set_constrained_layout_pads(w_pad=0.02, h_pad=0.02, wspace=0.01, hspace=0.01)
     for index, (key, image) in enumerate([(("truth", ""), truth), *((key, images[key]) for key in points)]):

@@ -94,31 +94,31 @@ struct AtCosts : AnswerContext {
                groups_at(machine, cost, rows);
     }
 
-    /// The point that stands for a technique at a cost: the study's frozen one, else the best over all of these scenes.
-    std::string point_at(const std::string& machine, const std::string& technique, double cost) const {
-        for (const ChosenPoint& c : found.chosen)
-            if (c.technique == technique && c.cost == cost && c.chosen_on == "frozen") return c.point;
+    /// The first technique's point, and the entry of a config that makes this point. The errors above are of points
+    /// that were chosen without the scene that judges them; this one is chosen on all scenes.
+    std::string point_sentence(const std::string& machine, const Rows& rows, double cost) const {
+        const AcrossRow* first = first_of(rows);
+        if (!first) return "";
+        const auto frozen = std::ranges::find_if(found.chosen, [&](const ChosenPoint& c) {
+            return c.technique == first->technique && c.cost == cost && c.chosen_on == "frozen";
+        });
+        if (frozen != found.chosen.end()) return named("Its frozen point is ", {first->technique, frozen->point});
         for (const FrozenPoint& p : found.to_freeze)
-            if (p.machine == machine && p.technique == technique && p.cost == cost) return p.point;
+            if (p.machine == machine && p.technique == first->technique && p.cost == cost)
+                return named("Chosen on all of these scenes together, its best point within this cost is ",
+                             {p.technique, p.point});
         return "";
     }
 
-    /// The first technique's point, and the entry of a config that makes this point.
-    std::string point_sentence(const std::string& machine, const Rows& rows, double cost) const {
-        const AcrossRow* first = first_of(rows);
-        const std::string point = first ? point_at(machine, first->technique, cost) : "";
+    std::string named(const std::string& lead, const PointName& point) const {
+        std::string text = lead + markdown_text(label_of(point));
         for (const nlohmann::json& of : manifest.at("techniques")) {
-            if (point.empty() || of.at("technique") != first->technique || of.at("point") != point) continue;
-            std::string text =
-                "Its best point within this cost is " + markdown_text(label_of({first->technique, point}));
-            if (of.contains("entry")) {
-                const std::string entry = of["entry"].dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
-                const bool ends_code = entry.find('`') != std::string::npos;
-                text += ", in a config " + (ends_code ? markdown_text(entry) : "`" + entry + "`");
-            }
-            return text + ".\n";
+            if (of.at("technique") != point.first || of.at("point") != point.second || !of.contains("entry")) continue;
+            const std::string entry = of["entry"].dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+            const bool ends_code = entry.find('`') != std::string::npos;
+            text += ", in a config " + (ends_code ? markdown_text(entry) : "`" + entry + "`");
         }
-        return "";
+        return text + ".\n";
     }
 
     /// Each technique in each group of shots, where the study has several.

@@ -125,7 +125,8 @@ PairP p_by_intervals(const MetricSummary& a, const MetricSummary& b, double marg
     return p;
 }
 
-void set_fronts(std::span<MetricSummary> errors, std::span<const TimeSummary> times, std::span<const CostRow> counts) {
+void set_fronts(std::span<MetricSummary> errors, std::span<const TimeSummary> times, std::span<const CostRow> counts,
+                std::span<const EstimateRow> estimates) {
     std::map<std::string, Totals> costs;
     for (const TimeSummary& t : times)
         if (t.stage == "total") costs[front::time][{t.shot, t.technique, t.point}] = t.median;
@@ -136,9 +137,14 @@ void set_fronts(std::span<MetricSummary> errors, std::span<const TimeSummary> ti
     for (const CostRow& c : counts)
         if (const auto cost = cost_of.find(c.quantity); cost != cost_of.end() && c.stage == "total")
             costs[cost->second][{c.shot, c.technique, c.point}] += double(c.value);
+    std::vector<std::string> names = {front::time, front::fetches, front::bytes, front::operations};
+    for (const EstimateRow& e : estimates) {
+        if (e.stage != "total" || !e.microseconds) continue;
+        if (std::ranges::count(names, e.chip) == 0) names.push_back(e.chip);
+        costs[e.chip][{e.shot, e.technique, e.point}] = *e.microseconds;
+    }
     for (MetricSummary& e : errors) e.fronts.clear();
-    for (const char* cost : {front::time, front::fetches, front::bytes, front::operations})
-        add_front(errors, cost, costs[cost]);
+    for (const std::string& cost : names) add_front(errors, cost, costs[cost]);
 }
 
 bool is_on_front(const MetricSummary& error, const std::string& cost) {

@@ -45,11 +45,11 @@ inline constexpr const char* bytes = "bytes";  ///< read and written
 inline constexpr const char* operations = "operations";
 }  // namespace front
 
-/// Sets `fronts` of each row: the costs, separated by blanks, for which the point is on its shot's front. By medians
-/// and means alone, among points with a standing: no other beats it in both. This is a hint; `ssrlab tradeoff` says
-/// which are certain.
+/// Sets `fronts` of each row: the costs and chips (by estimated time), separated by blanks, for which the point is on
+/// its shot's front. By medians and means alone, among points with a standing: no other beats it in both. This is a
+/// hint; `ssrlab tradeoff` says which are certain.
 void set_fronts(std::span<MetricSummary> errors, std::span<const TimeSummary> times,
-                std::span<const CostRow> costs = {});
+                std::span<const CostRow> counts = {}, std::span<const EstimateRow> estimates = {});
 bool is_on_front(const MetricSummary& error, const std::string& cost);
 
 /// Compares two errors by the ends of their 95 % intervals that face each other. Half-widths are Student's of the

@@ -175,7 +175,7 @@ class Folder(unittest.TestCase):
         self.assertIn("**v** has the least error, 0.125 times the error of none (geometric mean, 2 scenes)", answers)
         self.assertIn("2 scenes say nothing about other scenes", answers)
         # v rays=2 takes 8 ms, rays=4 takes 16.
-        self.assertIn('Its best point within this cost is v rays=2, in a config `{"technique":"v"}`.', answers)
+        self.assertIn('Chosen on all of these scenes together, its best point within this cost is v rays=2, in a config `{"technique":"v"}`.', answers)
         self.assertIn("| v rays=1: rays: 1 -> 2 | wall | -50 [-52, -48] |", answers)
         self.assertIn("Ratios leave out sky,", answers)
         self.assertIn("The timer was not validated in 1 of 3 shots", answers)

@@ -241,10 +241,22 @@ TEST(Fronts, HoldWhatNoRankedPointBeatsAtLess) {
              {std::pair("fetches", fetches), {"bytes_read", read}, {"bytes_written", written}})
             costs.push_back({"s", technique, "default", "total", quantity, count});
     }
-    set_fronts(errors, times, costs);
+    std::vector<EstimateRow> estimates;
+    for (const auto& [technique, stage, us] : {std::tuple("a", "total", std::optional(1.0)),
+                                               {"b", "total", 9.0},
+                                               {"b", "march", 0.1},
+                                               {"c", "total", 2.0}}) {
+        EstimateRow e;
+        e.shot = "s", e.technique = technique, e.point = "default", e.stage = stage, e.chip = "navi21",
+        e.microseconds = us;
+        estimates.push_back(e);
+        e.chip = "vega20", e.microseconds = {}, e.refusal = "no rates";
+        estimates.push_back(e);
+    }
+    set_fronts(errors, times, costs, estimates);
     std::vector<std::string> fronts;
     for (const MetricSummary& e : errors) fronts.push_back(e.fronts);
-    EXPECT_EQ(fronts, (std::vector<std::string>{"", "time bytes", "time fetches bytes", ""}));
+    EXPECT_EQ(fronts, (std::vector<std::string>{"navi21", "time bytes", "time fetches bytes navi21", ""}));
     EXPECT_TRUE(is_on_front(errors[1], front::bytes));
     EXPECT_FALSE(is_on_front(errors[1], "fetches"));
 }
