@@ -38,13 +38,13 @@ PairP compare(MetricSummary& e, const MetricSummary& best, const PairedErrors& p
 }
 
 /// The ranked points of one shot; the best measured one comes first.
-using Contest = std::vector<MetricSummary*>;
+using RankedPoints = std::vector<MetricSummary*>;
 
 /// Those with two ranked points or more, by target, metric and mask, which are families.
-std::map<std::array<std::string, 3>, std::vector<Contest>> contests_of(std::span<MetricSummary* const> ranked) {
-    std::map<std::array<std::string, 3>, std::map<std::string, Contest>> by_shot;
+std::map<std::array<std::string, 3>, std::vector<RankedPoints>> contests_of(std::span<MetricSummary* const> ranked) {
+    std::map<std::array<std::string, 3>, std::map<std::string, RankedPoints>> by_shot;
     for (MetricSummary* e : ranked) by_shot[{e->target, e->metric, e->mask}][e->shot].push_back(e);
-    std::map<std::array<std::string, 3>, std::vector<Contest>> families;
+    std::map<std::array<std::string, 3>, std::vector<RankedPoints>> families;
     for (auto& [error, shots] : by_shot)
         for (auto& [shot, points] : shots) {
             if (points.size() < 2) continue;
@@ -58,7 +58,7 @@ std::map<std::array<std::string, 3>, std::vector<Contest>> contests_of(std::span
 }
 
 /// By the adjusted p-values.
-void set_standing(const Contest& points) {
+void set_standing(const RankedPoints& points) {
     bool is_alone = true;
     for (MetricSummary* e : std::span(points).subspan(1)) {
         e->standing = standing::of(*e->p_best, *e->p_equivalent);
@@ -67,12 +67,12 @@ void set_standing(const Contest& points) {
     points.front()->standing = is_alone ? standing::best : standing::tied;
 }
 
-void rank(const std::vector<Contest>& family, const PairedErrors& paired, double margin) {
+void rank(const std::vector<RankedPoints>& family, const PairedErrors& paired, double margin) {
     std::vector<MetricSummary*> others;
     std::vector<AgainstBest> different;
     std::vector<double> beyond;
     std::vector<size_t> sizes;
-    for (const Contest& points : family) {
+    for (const RankedPoints& points : family) {
         for (MetricSummary* e : std::span(points).subspan(1)) {
             const PairP p = compare(*e, *points.front(), paired, margin);
             others.push_back(e), different.push_back({sizes.size(), p.different}), beyond.push_back(p.beyond);
@@ -81,7 +81,7 @@ void rank(const std::vector<Contest>& family, const PairedErrors& paired, double
     }
     const std::vector<double> p_best = adjusted_for_choice(different, sizes), p_equivalent = holm_adjusted(beyond);
     for (size_t i = 0; i < others.size(); ++i) others[i]->p_best = p_best[i], others[i]->p_equivalent = p_equivalent[i];
-    for (const Contest& points : family) set_standing(points);
+    for (const RankedPoints& points : family) set_standing(points);
 }
 
 using Totals = std::map<std::tuple<std::string, std::string, std::string>, double>;  // by shot, technique, point
@@ -182,7 +182,7 @@ void match_effects(std::span<MetricSummary> errors, std::span<const EffectRow> e
         behind.p_equivalent = std::max(*behind.p_equivalent, *e.p_equivalent_holm);
     }
     for (const auto& [error, family] : contests_of(ranked))
-        for (const Contest& points : family) set_standing(points);
+        for (const RankedPoints& points : family) set_standing(points);
 }
 
 DecidedPair decided_by_standings(std::span<const MetricSummary> errors) {

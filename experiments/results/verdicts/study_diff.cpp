@@ -22,9 +22,10 @@ using nlohmann::json;
 constexpr double rounding = 1e-6;             // relative: other compilers add in another order
 constexpr double most_disturbed_share = 0.5;  // of the frames that a time is the median of
 
-using Number = std::tuple<std::string, std::string, std::string, std::string, std::string, std::string, std::string>;
+using NameOfNumber =
+    std::tuple<std::string, std::string, std::string, std::string, std::string, std::string, std::string>;
 template <class Row>
-Number number_of(const Row& r) {
+NameOfNumber number_of(const Row& r) {
     return {r.shot, r.frame, r.technique, r.point, r.target, r.metric, r.mask};
 }
 
@@ -44,8 +45,8 @@ struct ComparedFolder {
 
     const json& manifest;
     PointSet not_repeatable, without_seeds;
-    std::map<Number, const MetricSummary*> errors;
-    std::map<Number, std::map<unsigned, double>> values;  ///< by seed
+    std::map<NameOfNumber, const MetricSummary*> errors;
+    std::map<NameOfNumber, std::map<unsigned, double>> values;  ///< by seed
     std::map<PointOfShot, const TimeSummary*> times;
     std::set<PointOfShot> points;
 };
