@@ -23,7 +23,7 @@
 namespace {
 
 struct TradeoffOptions {
-    std::filesystem::path results, out;
+    std::filesystem::path results, out, costs_from;
     std::string baseline, metric, mask, target, cost;                   ///< empty: the study's own, and time
     std::vector<double> times{5, 10, 20, 40}, factors{0.5, 0.25, 0.1};  ///< ms or counts; of the baseline's error
     std::vector<std::string> left_out;                                  ///< scenes or shots
@@ -58,7 +58,12 @@ static int tables_command(const std::vector<std::string>& arguments) {
 }
 
 static int tradeoff_command(const TradeoffOptions& options) {
-    const StudyResults tables = read_study_results(options.results);
+    StudyResults tables = read_study_results(options.results);
+    std::vector<CostsOfKind> costs_from;
+    if (!options.costs_from.empty()) {
+        if (options.cost.empty()) fail("--costs-from takes the estimated times of a chip; name the chip with --cost");
+        costs_from = take_costs_from(read_study_results(options.costs_from, Runs::left_out), options.cost, tables);
+    }
     PrimaryComparisons error = primary_of(tables.manifest);
     if (!options.metric.empty()) error.metric = options.metric;
     if (!options.mask.empty()) error.mask = options.mask;
@@ -66,11 +71,12 @@ static int tradeoff_command(const TradeoffOptions& options) {
     if (options.margin > 0) error.margin = options.margin;
     std::vector<double> costs = options.times;
     std::ranges::sort(costs);
-    const Tradeoff found = tradeoff_of(tables, {.error = error,
-                                                .cost = options.cost,
-                                                .baseline = options.baseline,
-                                                .costs = costs,
-                                                .left_out = options.left_out});
+    Tradeoff found = tradeoff_of(tables, {.error = error,
+                                          .cost = options.cost,
+                                          .baseline = options.baseline,
+                                          .costs = costs,
+                                          .left_out = options.left_out});
+    found.costs_from = std::move(costs_from);
     const std::filesystem::path out = options.out.empty() ? path_inside(options.results, "tradeoff") : options.out;
     create_folder(out);
     write_rows(out / "pairs.csv", found.pairs);
@@ -176,6 +182,9 @@ void add_tradeoff(Commands& line) {
            "Target of the error; default: that of the study's primary error");
     option(command, "--cost QUANTITY|CHIP", tradeoff.cost,
            "What replaces time: a counted quantity of costs.csv, or the estimated time of a chip in estimates.csv");
+    option(command, "--costs-from DIR", tradeoff.costs_from,
+           "Results folder with the estimates of --cost, if other shots have them: means over the shots of the same "
+           "group");
     add_reading(command);
     command.callback([&] { line.status = tradeoff_command(tradeoff); });
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include "experiments/results/tradeoff/chosen_points.h"
+#include "experiments/results/tradeoff/costs_of_places.h"
 #include "experiments/results/tradeoff/other_costs.h"
 #include "experiments/results/tradeoff/pairs.h"
 
@@ -97,6 +98,7 @@ struct Tradeoff {
     CostKind kind = CostKind::timed;
     std::string unit;                      ///< of costs
     std::vector<RefusedEstimate> refused;  ///< points without an estimated cost
+    std::vector<CostsOfKind> costs_from;   ///< of another study, see take_costs_from(); empty: the study's own
 };
 
 /// Fails with Error where the study has no such error, cost, baseline, shot or scene.

@@ -80,9 +80,12 @@ struct HeadAndChanges : AnswerContext {
             case CostKind::estimated:
                 return markdown_code(found.unit) +
                        ": microseconds that the chip would take for a technique's own stages. **No GPU ran anything**: "
-                       "experiments/gpu_costs/chips/README.md lists what is assumed. Intervals of costs hold the "
-                       "sampling of invocations, and code of which it is unknown whether it ran. Intervals do not hold "
-                       "the error of the assumptions. **The range of the model is wider**: " +
+                       "experiments/gpu_costs/chips/README.md lists what is assumed. " +
+                       (found.costs_from.empty()
+                            ? "Intervals of costs hold the sampling of invocations, and code of which it is unknown "
+                              "whether it ran."
+                            : means_over_places()) +
+                       " Intervals do not hold the error of the assumptions. **The range of the model is wider**: " +
                        model_range_text() + ". Two costs that differ by less than a factor of " +
                        number_text(model_decides_from) +
                        " are undecided. A point surely fits a budget if it fits at the upper end of this range.\n";
@@ -95,6 +98,17 @@ struct HeadAndChanges : AnswerContext {
                        "differently.\n";
         }
         return "";
+    }
+
+    std::string means_over_places() const {
+        Names kinds;
+        for (const CostsOfKind& kind : found.costs_from)
+            kinds.push_back(message_text(kind.group.empty() ? "" : markdown_text(kind.group) + ": ",
+                                         counted(kind.places, "place"), " at ", joined(kind.sizes, " and "),
+                                         kind.widest > 0 ? ", within " + fixed_text(100 * kind.widest) + " %" : ""));
+        return "Costs are means over the places of another study, and their intervals hold the scatter of these "
+               "places (" +
+               joined(kinds, "; ") + ").";
     }
 
     std::string doubts() const {
