@@ -9,14 +9,14 @@ namespace {
 
 using nlohmann::json;
 
-bool is_error(const auto& row, const PrimaryComparisons& error) {
+bool is_of_error(const auto& row, const PrimaryComparisons& error) {
     return row.target == error.target && row.metric == error.metric && row.mask == error.mask;
 }
 
 /// Of the last frame alone: none where the errors stand for all frames of the shot.
 std::vector<Rung> ladder_of(const StudyResults& tables, const std::string& shot, const PrimaryComparisons& error) {
     for (const MetricSummary& e : tables.summary)
-        if (e.represents_shot && e.shot == shot && is_error(e, error) && e.frame.empty()) return {};
+        if (e.represents_shot && e.shot == shot && is_of_error(e, error) && e.frame.empty()) return {};
     return truth_ladder(tables.manifest, shot, error);
 }
 
@@ -39,7 +39,7 @@ std::unique_ptr<MeasuredShot> measured_shot(const StudyResults& tables, const Pr
             return other.shot == row.shot && other.technique == row.technique && other.point == row.point;
         };
         for (const ResultRow& r : tables.results)
-            if (r.represents_shot && r.value && is_of_point(r) && is_error(r, error))
+            if (r.represents_shot && r.value && is_of_point(r) && is_of_error(r, error))
                 p.seeds.emplace_back(r.seed, *r.value);
         if (found.kind != CostKind::timed) continue;
         // Several seeds may have been timed: each of their frames is a round of its own.
