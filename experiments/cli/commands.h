@@ -22,6 +22,7 @@ void add_capture(Commands& line);
 void add_inspect(Commands& line);
 void add_needs(Commands& line);
 void add_shaders(Commands& line);
+void add_export_shaders(Commands& line);
 void add_rays(Commands& line);
 void add_record(Commands& line);
 void add_watch(Commands& line);
