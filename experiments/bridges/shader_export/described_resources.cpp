@@ -39,17 +39,17 @@ std::optional<unsigned> binding_of(const FrameCommand& command, const std::strin
     return {};
 }
 
-std::string DescribedResources::share_of(glm::uvec2 size, glm::uvec2 size_at_double) const {
-    return share_text({frames_.screen, size, size_at_double});
+std::string DescribedResources::share_of(glm::uvec2 size, glm::uvec2 other_size) const {
+    return share_text({frames_.screen, size, other_.screen, other_size});
 }
 
-json DescribedResources::image_use(const FrameCommand& command, const UsedResource& used, const UsedResource& at_double,
+json DescribedResources::image_use(const FrameCommand& command, const UsedResource& used, const UsedResource& other,
                                    const ShaderLayout& layout) {
     json use = {{"name", used.variable},
                 {"resource", used.resource},
                 {"format", vulkan_name(used.format)},
                 {"size", {used.extent.x, used.extent.y}},
-                {"share", share_of(used.extent, at_double.extent)}};
+                {"share", share_of(used.extent, other.extent)}};
     if (used.first_mip > 0 || used.mips > 1) use["first_mip"] = used.first_mip, use["mips"] = used.mips;
     if (lives_.is_history(used.resource)) use["side"] = lives_.is_previous(used) ? "previous" : "current";
     if (const auto found = layout.resources.find(used.variable); found != layout.resources.end()) {
@@ -92,9 +92,9 @@ void DescribedResources::list_image(const FrameCommand& command, const UsedResou
     list.push_back(std::move(image));
 }
 
-json DescribedResources::buffer_use(const FrameCommand& command, const UsedResource& used,
-                                    const UsedResource& at_double, const ShaderLayout& layout) {
-    const std::string bytes = bytes_text(frames_.screen, used.bytes, at_double.bytes);
+json DescribedResources::buffer_use(const FrameCommand& command, const UsedResource& used, const UsedResource& other,
+                                    const ShaderLayout& layout) {
+    const std::string bytes = bytes_text({frames_.screen, used.bytes, other_.screen, other.bytes});
     if (std::ranges::none_of(buffers, [&](const json& known) { return known.at("name") == used.resource; }))
         buffers.push_back({{"name", used.resource},
                            {"bytes", used.bytes},

@@ -23,18 +23,18 @@ std::optional<unsigned> binding_of(const FrameCommand& command, const std::strin
 /// Describes what passes use, and lists it: the parts "inputs", "images" and "buffers" of passes.json.
 class DescribedResources {
 public:
-    /// `at_double`: of a screen of twice the width and height. All references must outlive this.
-    DescribedResources(const FramePasses& frames, const FramePasses& at_double, const DeclaredFacts& facts,
+    /// `other`: of another screen, see screen_share.h. All references must outlive this.
+    DescribedResources(const FramePasses& frames, const FramePasses& other, const DeclaredFacts& facts,
                        const ResourceLives& lives)
-        : frames_(frames), at_double_(at_double), facts_(facts), lives_(lives) {}
+        : frames_(frames), other_(other), facts_(facts), lives_(lives) {}
 
-    /// `layout`: of the shader; empty for what a pass draws to. `at_double`: the same use in the larger frames.
-    nlohmann::json image_use(const FrameCommand& command, const UsedResource& used, const UsedResource& at_double,
+    /// `layout`: of the shader; empty for what a pass draws to. `other`: the same use on the other screen.
+    nlohmann::json image_use(const FrameCommand& command, const UsedResource& used, const UsedResource& other,
                              const ShaderLayout& layout);
-    nlohmann::json buffer_use(const FrameCommand& command, const UsedResource& used, const UsedResource& at_double,
+    nlohmann::json buffer_use(const FrameCommand& command, const UsedResource& used, const UsedResource& other,
                               const ShaderLayout& layout);
     /// A number of pixels or workgroups as a share of the screen: share_text().
-    std::string share_of(glm::uvec2 size, glm::uvec2 size_at_double) const;
+    std::string share_of(glm::uvec2 size, glm::uvec2 other_size) const;
     /// Moves images that no pass writes from the images to a list of their own, which it returns.
     nlohmann::json take_fixed_images();
 
@@ -44,7 +44,7 @@ public:
 private:
     void list_image(const FrameCommand& command, const UsedResource& used, const nlohmann::json& use);
 
-    const FramePasses &frames_, &at_double_;
+    const FramePasses &frames_, &other_;
     const DeclaredFacts& facts_;
     const ResourceLives& lives_;
 };

@@ -56,14 +56,14 @@ json clear_step(const FrameCommand& command) {
 
 class Describer {
 public:
-    Describer(const PointConfig& point, const FramePasses& frames, const FramePasses& at_double)
+    Describer(const PointConfig& point, const FramePasses& frames, const FramePasses& other)
         : point_(point),
           frames_(frames),
-          at_double_(at_double),
+          other_(other),
           facts_(declared_facts(point)),
           layouts_(layouts_of(frames.frames[1])),
           lives_(frames, layouts_),
-          resources_(frames, at_double, facts_, lives_) {}
+          resources_(frames, other, facts_, lives_) {}
 
     ShaderExport result() {
         const std::vector<FrameCommand>& frame = frames_.frames[1];
@@ -116,20 +116,19 @@ private:
     /// `place`: in the second frame.
     json pass_step(size_t place) {
         const FrameCommand& command = frames_.frames[1][place];
-        const FrameCommand* const same = same_run(place, at_double_.frames[1]);
-        if (!same)
-            fail("pass ", command.stage, " is another one at twice the screen's size; choose another --resolution");
-        const FrameCommand& larger = *same;
+        const FrameCommand* const same = same_run(place, other_.frames[1]);
+        if (!same) fail("pass ", command.stage, " has other shaders on another screen; choose another --resolution");
+        const FrameCommand& elsewhere = *same;
         const ShaderLayout& layout = layouts_[place];
         json uses = json::array(), targets = json::array();
         for (size_t i = 0; i < command.samplers.size(); ++i)
-            uses.push_back(resources_.image_use(command, command.samplers[i], larger.samplers.at(i), layout));
+            uses.push_back(resources_.image_use(command, command.samplers[i], elsewhere.samplers.at(i), layout));
         for (size_t i = 0; i < command.images.size(); ++i)
-            uses.push_back(resources_.image_use(command, command.images[i], larger.images.at(i), layout));
+            uses.push_back(resources_.image_use(command, command.images[i], elsewhere.images.at(i), layout));
         for (size_t i = 0; i < command.buffers.size(); ++i)
-            uses.push_back(resources_.buffer_use(command, command.buffers[i], larger.buffers.at(i), layout));
+            uses.push_back(resources_.buffer_use(command, command.buffers[i], elsewhere.buffers.at(i), layout));
         for (size_t i = 0; i < command.targets.size(); ++i) {
-            targets.push_back(resources_.image_use(command, command.targets[i], larger.targets.at(i), {}));
+            targets.push_back(resources_.image_use(command, command.targets[i], elsewhere.targets.at(i), {}));
             targets.back()["location"] = i, targets.back()["access"] = "write";
         }
         std::sort(uses.begin(), uses.end(), [](const json& a, const json& b) { return a["binding"] < b["binding"]; });
@@ -138,7 +137,7 @@ private:
                      {"resources", uses},
                      {"targets", targets},
                      {"push_constants", described_push(command, same_run(place, frames_.frames[0]), layout)}};
-        add_size(step, command, larger);
+        add_size(step, command, elsewhere);
         add_tests(step, command);
         step["file"] = file_of(command, layout, step);
         return step;
@@ -156,7 +155,7 @@ private:
         return nullptr;
     }
 
-    void add_size(json& step, const FrameCommand& command, const FrameCommand& larger) const {
+    void add_size(json& step, const FrameCommand& command, const FrameCommand& elsewhere) const {
         if (!command.recipe.is_compute) {
             const UsedResource& area = !command.targets.empty() ? command.targets.front()
                                        : command.depth_image    ? *command.depth_image
@@ -171,7 +170,7 @@ private:
         }
         const glm::uvec3 groups = command.groups;
         step["groups"] = {groups.x, groups.y, groups.z};
-        step["groups_share"] = resources_.share_of(glm::uvec2(groups), glm::uvec2(larger.groups));
+        step["groups_share"] = resources_.share_of(glm::uvec2(groups), glm::uvec2(elsewhere.groups));
     }
 
     /// The name of the shader's file, which is written at its first use.
@@ -193,7 +192,7 @@ private:
     }
 
     const PointConfig& point_;
-    const FramePasses &frames_, &at_double_;
+    const FramePasses &frames_, &other_;
     const DeclaredFacts facts_;
     const std::vector<ShaderLayout> layouts_;  ///< of the second frame
     const ResourceLives lives_;
@@ -206,6 +205,6 @@ private:
 
 }  // namespace
 
-ShaderExport describe_export(const PointConfig& point, const FramePasses& frames, const FramePasses& at_double) {
-    return Describer(point, frames, at_double).result();
+ShaderExport describe_export(const PointConfig& point, const FramePasses& frames, const FramePasses& other) {
+    return Describer(point, frames, other).result();
 }

@@ -9,6 +9,6 @@ struct ShaderExport {
     nlohmann::json description;
 };
 
-/// `frames`: of one screen; `at_double`: of a screen of twice the width and height, by which sizes are told that grow
-/// with the screen. Fails with Error if the two have other passes, or if a pass runs in the first frame only.
-ShaderExport describe_export(const PointConfig& point, const FramePasses& frames, const FramePasses& at_double);
+/// `frames`: of one screen; `other`: of another screen, which tells how sizes depend on the screen (screen_share.h).
+/// Fails with Error if the two have other shaders, or if a pass runs in the first frame only.
+ShaderExport describe_export(const PointConfig& point, const FramePasses& frames, const FramePasses& other);

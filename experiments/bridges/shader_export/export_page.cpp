@@ -50,6 +50,12 @@ std::string dispatch_of(const json& step) {
     return "Workgroups: " + count + (is_fixed ? " on every screen." : ", which is " + share + ".") + size;
 }
 
+std::string mips_of(const json& use) {
+    const unsigned first = use.at("first_mip"), count = use.at("mips");
+    return count == 1 ? "mip " + std::to_string(first)
+                      : "mips " + std::to_string(first) + " to " + std::to_string(first + count - 1);
+}
+
 std::string resources_of(const json& step) {
     std::string text = table({"set", "binding", "name", "GLSL type", "format", "size", "access", "holds"});
     for (const json& use : step.at("resources")) {
@@ -57,8 +63,7 @@ std::string resources_of(const json& step) {
         std::string holds = use.at("name") == use.at("resource") ? "" : code(use.at("resource"));
         if (use.contains("side"))
             holds += (holds.empty() ? "" : ", ") + use["side"].get<std::string>() + " side of the history";
-        if (use.contains("first_mip"))
-            holds += (holds.empty() ? "" : ", ") + use["mips"].dump() + " mips from mip " + use["first_mip"].dump();
+        if (use.contains("first_mip")) holds += (holds.empty() ? "" : ", ") + mips_of(use);
         std::string access = use.at("access");
         if (use.value("filter", "") == "linear") access += ", linear filter";
         text += row({use["set"].dump(), use["binding"].dump(), code(use["name"]), use["type"],
@@ -116,7 +121,8 @@ std::string inputs_of(const json& description) {
 The engine writes these images before the first pass. Formats are those of ssrlab; shaders read floats of any format.
 )" + table({"name", "format", "size", "meaning"});
     for (const json& input : description.at("inputs"))
-        text += row({code(input["name"]), input["format"], size_of(input), input["meaning"]});
+        text += row({code(input["name"]), input["format"], size_of(input),
+                     input["meaning"] == "" ? "see the shaders that read it" : input["meaning"].get<std::string>()});
     if (description.at("fixed_images").empty()) return text;
     text += R"(
 These images never change. A file holds the texels in the format, row by row, the top row first.
@@ -198,8 +204,8 @@ std::string export_page(const json& description) {
     const json &screen = description.at("screen"), &ssrlab = description.at("ssrlab");
     const std::string commit = ssrlab.at("commit");
     return "# The passes of " + text_of(description.at("technique")) + "\n\n" + text_of(description.at("title")) +
-           ".\nParameters: " + text_of(description.at("point")) + ". Source: " + text_of(description.at("source")) +
-           ".\n\nssrlab " + text_of(ssrlab.at("version")) + (commit.empty() ? "" : ", commit " + commit) +
+           ".\nParameters: " + text_of(description.at("point")) + ".\nSource: " + text_of(description.at("source")) +
+           "\n\nssrlab " + text_of(ssrlab.at("version")) + (commit.empty() ? "" : ", commit " + commit) +
            ", wrote this folder. The licence is " + text_of(description.at("license")) +
            R"(, see [LICENSE](LICENSE).
 [passes.json](passes.json) has the same content for programs.
@@ -207,7 +213,7 @@ std::string export_page(const json& description) {
 The shaders are GLSL 4.60 for Vulkan 1.2 or newer. All resources are in descriptor set 0.
 Storage images have no format in the text, so the device needs the feature `shaderStorageImageWriteWithoutFormat`.
 
-W and H are the width and height of the screen in pixels. Sizes that do not divide are rounded up, unless said.
+W and H are the width and height of the screen in pixels.
 )" + "Numbers without W and H, and values of push constants, are those of a test scene with " +
            screen[0].dump() + " x " + screen[1].dump() + " pixels.\n" + inputs_of(description) +
            own_resources_of(description) + result_of(description) + steps_of(description) + shaders_of(description);

@@ -3,6 +3,7 @@
 #include "core/files.h"
 #include "core/list_text.h"
 #include "experiments/results/cells/host_info.h"
+#include "variants/registry.h"
 
 using nlohmann::json;
 
@@ -30,7 +31,8 @@ std::string FileHeads::head_of_pass(const PointConfig& point, const json& step) 
             if (access.ends_with("write")) written.push_back(use.at("name"));
         }
     return "// Pass " + step.at("stage").get<std::string>() + " of the technique " + point.technique + ", " +
-           point.point + ".\n// Reads: " + (read.empty() ? "nothing" : joined(read)) +
+           point.point + ".\n// Source: " + find_technique(point.technique).source +
+           "\n// Reads: " + (read.empty() ? "nothing" : joined(read)) +
            ".\n// Writes: " + (written.empty() ? "nothing" : joined(written)) + ".\n" + lines_of_all();
 }
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-/// The comments that begin exported shaders: what the pass does, its licence, and the ssrlab that wrote it.
+/// The comments that begin exported shaders: pass, source, licence, and the ssrlab that wrote it.
 class FileHeads {
 public:
     /// Reads the repository's LICENSE, and what this program was built from.

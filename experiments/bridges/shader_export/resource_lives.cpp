@@ -23,11 +23,15 @@ ResourceLives::ResourceLives(const FramePasses& frames, const std::vector<Shader
     for (size_t i = 0; i < frames.frames[1].size(); ++i) {
         const FrameCommand& command = frames.frames[1][i];
         const auto note_read = [&](const UsedResource& used) {
-            if (access_of(layouts[i], used).is_read && !written_.contains(used.storage) &&
+            const bool is_coarser_mip = used.first_mip > 0;  // which a pass that makes a pyramid writes, too
+            if (access_of(layouts[i], used).is_read && !is_coarser_mip && !written_.contains(used.storage) &&
                 ever_written.contains(used.storage))
                 kept_.insert(used.resource);
         };
-        for (const UsedResource& used : command.samplers) note_read(used);
+        for (const UsedResource& used : command.samplers) {
+            note_read(used);
+            if (used.variable == "previous_" + used.resource) previous_.insert(used.storage);
+        }
         for (const auto* resources : {&command.images, &command.buffers})
             for (const UsedResource& used : *resources) note_read(used);
         for (const UsedResource& used : command.targets) written_.insert(used.storage);
@@ -43,5 +47,5 @@ bool ResourceLives::is_history(const std::string& resource) const {
 }
 
 bool ResourceLives::is_previous(const UsedResource& used) const {
-    return is_history(used.resource) && !written_.contains(used.storage);
+    return is_history(used.resource) && (previous_.contains(used.storage) || !written_.contains(used.storage));
 }

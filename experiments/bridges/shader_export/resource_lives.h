@@ -19,6 +19,6 @@ public:
 
 private:
     std::map<std::string, std::set<const void*>> sides_;
-    std::set<const void*> written_;  ///< in the second frame
+    std::set<const void*> written_, previous_;  ///< in the second frame
     std::set<std::string> kept_;
 };

@@ -43,7 +43,7 @@ size_t export_shaders(Device& device, const ExportRequest& request, const fs::pa
     check_export_folder(folder);
     ShaderExport made =
         describe_export(request.point, frame_passes(device, request.point, request.screen, request.scene_path),
-                        frame_passes(device, request.point, 2u * request.screen, request.scene_path));
+                        frame_passes(device, request.point, 2u * request.screen + 1u, request.scene_path));
     made.description["made_by"] = maker;
     made.files["README.md"] = export_page(made.description);
     for (const auto& [name, text] : made.files) made.description["written"].push_back(name);
