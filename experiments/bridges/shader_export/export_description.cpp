@@ -17,11 +17,6 @@ using nlohmann::json;
 
 constexpr const char* vertex_file = "fullscreen.vert";
 
-/// Commands with equal keys share a file.
-std::string key_of(const FrameCommand& command) {
-    return command.is_clear() ? "" : command.stage + '\n' + bytes_of({command.recipe});
-}
-
 std::string file_name(size_t number, const FrameCommand& command) {
     std::string stage = command.stage;
     std::ranges::replace(stage, '/', '_');
@@ -71,7 +66,7 @@ public:
         for (size_t i = 0; i < frame.size(); ++i)
             steps.push_back(frame[i].is_clear() ? clear_step(frame[i]) : pass_step(i));
         for (const FrameCommand& command : frames_.frames[0])
-            if (!command.is_clear() && !names_.contains(key_of(command)))
+            if (!command.is_clear() && !names_.contains(command.pipeline))
                 fail("pass ", command.stage, " runs in the first frame only, which an export cannot describe");
         json description = header();
         description["fixed_images"] = resources_.take_fixed_images();
@@ -147,8 +142,8 @@ private:
     /// on. Null if there is none.
     const FrameCommand* same_run(size_t place, const std::vector<FrameCommand>& other) const {
         const std::vector<FrameCommand>& frame = frames_.frames[1];
-        const std::string key = key_of(frame[place]);
-        const auto has_key = [&](const FrameCommand& command) { return key_of(command) == key; };
+        const std::string& key = frame[place].pipeline;
+        const auto has_key = [&](const FrameCommand& command) { return command.pipeline == key; };
         auto runs = std::count_if(frame.begin(), frame.begin() + long(place), has_key);
         for (const FrameCommand& command : other)
             if (has_key(command) && runs-- == 0) return &command;
@@ -175,7 +170,7 @@ private:
 
     /// The name of the shader's file, which is written at its first use.
     std::string file_of(const FrameCommand& command, const ShaderLayout& layout, const json& step) {
-        const auto [entry, is_new] = names_.try_emplace(key_of(command), file_name(names_.size() + 1, command));
+        const auto [entry, is_new] = names_.try_emplace(command.pipeline, file_name(names_.size() + 1, command));
         if (!is_new) return entry->second;
         const StandaloneGlsl glsl = standalone_glsl(command, heads_.head_of_pass(point_, step));
         files_[entry->second] = glsl.text;
@@ -198,7 +193,7 @@ private:
     const ResourceLives lives_;
     const FileHeads heads_;
     DescribedResources resources_;
-    std::map<std::string, std::string> names_;  ///< of files, by key_of()
+    std::map<std::string, std::string> names_;  ///< of files, by FrameCommand::pipeline
     std::map<std::string, std::string> files_;
     json shaders_ = json::array();
 };

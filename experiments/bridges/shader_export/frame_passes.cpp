@@ -63,6 +63,7 @@ private:
                              .shader = run.shader,
                              .glsl = glsl,
                              .recipe = run.recipe,
+                             .pipeline = run.stage + '\n' + bytes_of({run.recipe}),
                              .params = run.params,
                              .constants = run.constants,
                              .groups = run.recipe.is_compute ? run.groups() : glm::uvec3(0),

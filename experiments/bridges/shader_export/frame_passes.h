@@ -23,6 +23,7 @@ struct FrameCommand {
     std::string stage, shader;
     std::string glsl;  ///< of the compute or fragment shader, expanded, as it was compiled; "": a clear
     PipelineRecipe recipe;
+    std::string pipeline;  ///< equal for passes of one stage and one recipe; "": a clear
     ParameterSet params;   ///< of its shader
     Constants constants;   ///< that replace values of `params`
     glm::uvec3 groups{0};  ///< of a compute pass

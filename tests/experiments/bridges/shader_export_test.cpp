@@ -60,7 +60,8 @@ std::vector<PipelineRecipe> recipes_of(Device& device, const PointConfig& point)
 
 /// Compiles a text alone: no includes, no bindings or locations but its own.
 Spirv compiled(const std::string& text, EShLanguage stage) {
-    glslang::InitializeProcess();
+    static const bool is_initialised = glslang::InitializeProcess();  // once: it parses all built-in functions
+    EXPECT_TRUE(is_initialised);
     glslang::TShader shader(stage);
     const char* const lines = text.c_str();
     shader.setStrings(&lines, 1);
@@ -76,7 +77,6 @@ Spirv compiled(const std::string& text, EShLanguage stage) {
         glslang::GlslangToSpv(*program.getIntermediate(stage), spirv);
     else
         ADD_FAILURE() << shader.getInfoLog() << program.getInfoLog();
-    glslang::FinalizeProcess();
     return spirv;
 }
 
