@@ -5,7 +5,7 @@
 function(add_suites program folder)
   set(slow_suites StudyTest CommandLine NoiseCoverage TracersTest StabilityTest ExactTracers SeedDependence CompiledShaders
     estimator EstimatesOfSamples FrostbiteEstimators FourModeTest FrostbiteTruth ShaderWorkTest Faults ExternalImagesTest
-    GpuEstimates Registry DiligentTechnique Needs)
+    GpuEstimates Registry DiligentTechnique Needs ExportedShaders)
   get_filename_component(name ${program} NAME)
   if(NOT EXISTS ${program})
     add_test(${name}_NOT_BUILT ${name}_NOT_BUILT)

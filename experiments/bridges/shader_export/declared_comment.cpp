@@ -37,8 +37,8 @@ std::string declared_comment(const std::string& source, const std::string& name)
         std::string comment = lines[i].comment;
         if (lines[i].is_noted)
             for (size_t next = i + 1; next < lines.size() && lines[next].is_comment(); ++next) {
-                const size_t column = lines[next].code.size();
-                if (column < 12) break;  // a comment about what follows stands at the line's begin
+                constexpr size_t least_column = 12;  // characters; a comment about what follows stands at the begin
+                if (lines[next].code.size() < least_column) break;
                 add(comment, lines[next].comment);
             }
         if (!comment.empty()) return comment;

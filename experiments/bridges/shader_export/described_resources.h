@@ -15,7 +15,7 @@ struct DeclaredFacts {
 /// Of the technique's technique.json and the chosen denoiser's denoiser.json.
 DeclaredFacts declared_facts(const PointConfig& point);
 
-/// The name that Vulkan has for the access: "read", "write", "read and write", or "none".
+/// What the shader does with the resource: "read", "write", "read and write", or "none".
 std::string access_name(const ShaderResourceLayout& layout);
 /// Of a resource of the compute or fragment shader; nullopt if its pipeline has none of the name.
 std::optional<unsigned> binding_of(const FrameCommand& command, const std::string& name);
