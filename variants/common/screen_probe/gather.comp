@@ -1,11 +1,14 @@
-// Gathers what the screen shows in the directions of each texel, and keeps what has left the screen.
+// Gathers what the screen shows in the directions of each texel, and keeps what has left the screen. A workgroup looks
+// in all directions of a texel at once: one invocation for each texel would keep a GPU waiting for a few waves.
 #include "common/mirror_ray.glsl"
 #include "common/half.glsl"
 #include "common/luminance.glsl"
 #include "common/screen_probe/octahedral_map.glsl"
 #include "core/shaders/gbuffer/environment.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+const uint group_terms = 5u;
+#include "common/screen_probe/group_sum.glsl"
+layout(local_size_x = 8, local_size_y = 8) in;  // directions of a texel
 uniform sampler2D lit, previous_probe_seen, previous_probe_facts;
 // Seen: a share of the texel's directions in which there are surfaces, rgb that times their radiance. Facts: x that times
 // the mean of 1 / distance (1/m), y share of the directions that were on the screen.
@@ -15,8 +18,8 @@ uniform writeonly image2D probe_seen, probe_facts;
 uniform writeonly image2D probe_lit, probe_unoccluded;
 // Of the environment in the texel's directions: luminance times solid angle over that of all directions, alone (w) and
 // times the direction.
-uniform sampler2D previous_probe_environment;
 uniform writeonly image2D probe_environment;
+uniform sampler2D previous_probe_moments;  // of spread.comp
 
 struct Samples {
     float on_screen;        // number
@@ -25,15 +28,6 @@ struct Samples {
     vec4 lit, unoccluded;   // of probe_lit, probe_unoccluded
     vec4 environment;       // of probe_environment
 };
-
-// Mean over all directions, of the frame before.
-vec4 environment_moments() {
-    const int blocks = probe_width / 2;  // of 2x2 texels, whose mean a sampler gives at their common corner
-    vec4 sum = vec4(0.0);
-    for (int i = 0; i < blocks * blocks; ++i)
-        sum += 4.0 * textureLod(previous_probe_environment, (vec2(i % blocks, i / blocks) + 0.5) / float(blocks), 0.0);
-    return sum;
-}
 
 // Luminance over pi with which it would light a surface, unoccluded and up to first moments (Ramamoorthi and
 // Hanrahan 2001, "An Efficient Representation for Irradiance Environment Maps").
@@ -69,32 +63,37 @@ float solid_angle(vec3 direction, int squares) {
     return side * side * stretch * stretch * stretch / (4.0 * pi);
 }
 
-Samples samples_of(ivec2 texel) {
-    const int rows = 8;
+Samples sample_at(ivec2 texel, ivec2 inside, int rows) {
     Samples samples = Samples(0.0, vec4(0.0), 0.0, vec4(0.0), vec4(0.0), vec4(0.0));
-    vec4 moments = float(camera.frame.w) * environment_moments();
-    for (int i = 0; i < rows * rows; ++i) {
-        vec2 place = vec2(texel) + (vec2(i % rows, i / rows) + 0.5) / float(rows);
-        vec3 ws_direction = octahedral_direction(2.0 * place / float(probe_width) - 1.0);
-        // Captures know the environment in the directions of their pixels' lobes alone.
-        float luminance = is_environment(3u) ? 0.0 : luminance_bt709(environment_along_ray(ivec2(0), ws_direction));
-        samples.environment += solid_angle(ws_direction, rows * probe_width) * luminance * vec4(ws_direction, 1.0);
-        vec3 direction = mat3(camera.view_from_world) * ws_direction;
-        vec4 clip = camera.clip_from_view * vec4(direction, 0.0);
-        if (clip.w <= 0.0) continue;
-        ivec2 pixel = pixel_from_screen((clip.xy / clip.w * 0.5 + 0.5) * camera.extent.xy);
-        if (is_on_screen(pixel)) add_pixel(samples, pixel, moments);
-    }
-    samples.on_screen /= float(rows * rows);
-    samples.surfaces /= float(rows * rows);
-    samples.inverse_lengths /= float(rows * rows);
+    vec2 place = vec2(texel) + (vec2(inside) + 0.5) / float(rows);
+    vec3 ws_direction = octahedral_direction(2.0 * place / float(probe_width) - 1.0);
+    // Captures know the environment in the directions of their pixels' lobes alone.
+    float luminance = is_environment(3u) ? 0.0 : luminance_bt709(environment_along_ray(ivec2(0), ws_direction));
+    samples.environment = solid_angle(ws_direction, rows * probe_width) * luminance * vec4(ws_direction, 1.0);
+    vec3 direction = mat3(camera.view_from_world) * ws_direction;
+    vec4 clip = camera.clip_from_view * vec4(direction, 0.0);
+    if (clip.w <= 0.0) return samples;
+    ivec2 pixel = pixel_from_screen((clip.xy / clip.w * 0.5 + 0.5) * camera.extent.xy);
+    vec4 moments = float(camera.frame.w) * texelFetch(previous_probe_moments, ivec2(0), 0);
+    if (is_on_screen(pixel)) add_pixel(samples, pixel, moments);
     return samples;
 }
 
+Samples sum_over_group(Samples own) {
+    vec4 terms[group_terms] = vec4[group_terms](own.surfaces, own.lit, own.unoccluded, own.environment,
+                                                vec4(own.on_screen, own.inverse_lengths, 0.0, 0.0));
+    terms = group_sum(terms);
+    return Samples(terms[4].x, terms[0], terms[4].y, terms[1], terms[2], terms[3]);
+}
+
 void main() {
-    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(texel, ivec2(probe_width)))) return;
-    Samples samples = samples_of(texel);
+    ivec2 texel = ivec2(gl_WorkGroupID.xy);
+    int rows = int(gl_WorkGroupSize.y);
+    Samples samples = sum_over_group(sample_at(texel, ivec2(gl_LocalInvocationID.xy), rows));
+    if (gl_LocalInvocationIndex != 0u) return;
+    samples.on_screen /= float(rows * rows);
+    samples.surfaces /= float(rows * rows);
+    samples.inverse_lengths /= float(rows * rows);
     float has_previous = float(camera.frame.w);
     vec4 seen = has_previous * texelFetch(previous_probe_seen, texel, 0);
     vec2 facts = has_previous * texelFetch(previous_probe_facts, texel, 0).xy;
