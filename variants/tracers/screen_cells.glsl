@@ -12,20 +12,15 @@ struct CellExit {
 
 // Of the cell of 2^level pixels that `pixel` lies in.
 CellExit exit_of_cell(ScreenLine line, ivec2 pixel, int level) {
-    ivec2 low = pixel >> level << level, high = low + (1 << level) - 1;
-    bvec2 ascends = greaterThan(line.slope.xy, vec2(0.0));
-    ivec2 last = low + ivec2(ascends) * (high - low);
-    vec2 walls = vec2(last + ivec2(ascends));
-    vec2 t_walls = (walls - line.origin.xy) * line.inverse;
+    ivec2 ascends = ivec2(greaterThan(line.slope.xy, vec2(0.0)));
+    ivec2 walls = ((pixel >> level) + ascends) << level, last = walls - ascends;
+    vec2 t_walls = (vec2(walls) - line.origin.xy) * line.inverse;
     bool is_x = t_walls.x < t_walls.y;
     float t = is_x ? t_walls.x : t_walls.y;
-    ivec2 next = ivec2(floor(line.origin.xy + t * line.slope.xy));
+    ivec2 next = ivec2(line.origin.xy + t * line.slope.xy);
     next = clamp(next, min(pixel, last), max(pixel, last));
-    if (is_x)
-        next.x = ascends.x ? high.x + 1 : low.x - 1;
-    else
-        next.y = ascends.y ? high.y + 1 : low.y - 1;
-    return CellExit(t, next);
+    ivec2 beyond = walls + ascends - 1;
+    return CellExit(t, is_x ? ivec2(beyond.x, next.y) : ivec2(next.x, beyond.y));
 }
 
 // Levels leave out the last row or column of odd ones: what they lack is looked at on finer levels. No level has the

@@ -41,6 +41,7 @@ TraceEnd cells_trace(TraceRay ray) {
 
     int coarsest = depth_pyramid_coarsest(cells_pyramid_mips), level = 0;
     uint safe_steps = 0u;
+    bool recedes = is_farther(line.slope.z, 0.0);  // from the camera
     CellExit here = exit_of_cell(line, line.pixel, 0);  // not its own pixel
     // What only a hit needs comes after the loop: where both sides of a branch are run, each step would pay for it.
     float t_hit = 0.0;
@@ -51,10 +52,9 @@ TraceEnd cells_trace(TraceRay ray) {
         level = existing_level(here.pixel, level);
         CellExit ahead = exit_of_cell(line, here.pixel, level);
         float t_out = cells_interval ? min(ahead.t, line.end) : here.t;  // the flaw: only where it enters
-        float depth_in = depth_at(line, here.t), depth_out = depth_at(line, t_out);
         count_fetch();
         float surface = texelFetch(depth_pyramid, here.pixel >> level, level).r;
-        if (is_nearer(farther_of(depth_in, depth_out), surface)) {
+        if (is_nearer(depth_at(line, recedes ? t_out : here.t), surface)) {
             here = ahead;
             if (++safe_steps < cells_safe_steps) continue;
             level = min(level + 1, coarsest);
@@ -68,7 +68,7 @@ TraceEnd cells_trace(TraceRay ray) {
         }
         t_hit = closest_t(line, surface, here.t, t_out);
         bool is_met = !is_sky(surface, cells_sky_depth) &&
-                      !cells_is_behind_solid(nearer_of(depth_in, depth_out), surface);
+                      !cells_is_behind_solid(depth_at(line, recedes ? here.t : t_out), surface);
         is_hit = is_met && !(cells_leave_own_plane && is_own_plane_at(line, here.pixel, surface, t_hit));
         if (is_hit) break;
         here = ahead;
