@@ -1,6 +1,6 @@
 // Mode HiZ of an engine's reflection pass (its documentation, "Hi-Z Ray Marching"): from wall to wall of a depth
 // pyramid's cells. The level gets coarser after some cells in which the ray stayed in front, and finer where the ray is
-// behind.
+// behind. Ours: a ray that is behind something passes on in cells of up to `behind_level`.
 #ifndef TRACERS_CELLS_GLSL
 #define TRACERS_CELLS_GLSL
 #include "common/depth_pyramid.glsl"
@@ -40,12 +40,14 @@ TraceEnd cells_trace(TraceRay ray) {
     shorten_line(line, reach_of(cells_max_distance));
 
     int coarsest = depth_pyramid_coarsest(cells_pyramid_mips), level = 0;
+    int behind_level = min(int(cells_behind_level), coarsest);
     uint safe_steps = 0u;
     bool recedes = is_farther(line.slope.z, 0.0);  // from the camera
     CellExit here = exit_of_cell(line, line.pixel, 0);  // not its own pixel
     // What only a hit needs comes after the loop: where both sides of a branch are run, each step would pay for it.
     float t_hit = 0.0;
     bool is_hit = false, is_at_end = false;
+    bool is_behind = false;  // what the last cell showed
     for (uint i = 0u; i < cells_max_steps; ++i) {
         is_at_end = here.t >= line.end;
         if (is_at_end) break;
@@ -56,22 +58,30 @@ TraceEnd cells_trace(TraceRay ray) {
         float surface = texelFetch(depth_pyramid, here.pixel >> level, level).r;
         if (is_nearer(depth_at(line, recedes ? t_out : here.t), surface)) {
             here = ahead;
+            is_behind = false;
             if (++safe_steps < cells_safe_steps) continue;
             level = min(level + 1, coarsest);
             if (cells_reset_safe_steps) safe_steps = 0u;
             continue;
         }
         safe_steps = 0u;
-        if (level > 0) {
+        if (level > (is_behind ? behind_level : 0)) {
             --level;
             continue;
         }
         t_hit = closest_t(line, surface, here.t, t_out);
         bool is_met = !is_sky(surface, cells_sky_depth) &&
                       !cells_is_behind_solid(depth_at(line, recedes ? here.t : t_out), surface);
+        if (is_met && level > 0) {
+            is_behind = false;
+            --level;
+            continue;
+        }
         is_hit = is_met && !(cells_leave_own_plane && is_own_plane_at(line, here.pixel, surface, t_hit));
         if (is_hit) break;
         here = ahead;
+        is_behind = !is_met;
+        if (is_behind) level = min(level + 1, behind_level);
     }
     if (is_hit) return cells_hit(line, ray, here.pixel, t_hit);
     if (is_at_end) return missed_on_line(line, line.end < t_border);
