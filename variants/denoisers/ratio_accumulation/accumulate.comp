@@ -3,6 +3,7 @@
 // other pixels' rays, and a pixel without a ray in this frame keeps its history.
 #include "common/screen_probe/lookup.glsl"
 #include "denoisers/ratio_accumulation/history.glsl"
+#include "denoisers/ratio_accumulation/rounding.glsl"
 #include "denoisers/seen_rays.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -139,9 +140,10 @@ void accumulate(ivec2 pixel, Rays rays) {
         bool is_number = is_finite(state.shown) && is_finite(known_color(state.shown)) && is_finite(state.moments);
         if (!is_number) state = no_state;
     }
-    imageStore(accumulated, pixel, known_color(state.shown));
-    imageStore(reflected_length, pixel, vec4(state.ray_length));
-    imageStore(moments, pixel, state.moments);
+    uint noise = rounding_noise(pixel);
+    imageStore(accumulated, pixel, rounded(known_color(state.shown), noise));
+    imageStore(reflected_length, pixel, rounded(vec4(state.ray_length), noise));
+    imageStore(moments, pixel, rounded(state.moments, noise));
 }
 
 // Once for all pixels that have the same traced pixel, whose rays are loaded once.
