@@ -153,6 +153,20 @@ TEST_F(Cells, PassBehindWhatIsThin) {
     EXPECT_EQ(trace(ray).pixel.x, int(column) + 20);
 }
 
+/// Behind a screen of 32 pixels, by 30 cm and less, to a column beyond it.
+TEST_F(Cells, PassBehindWideThingsInCoarserCells) {
+    const BenchRay ray = bench.ray_to(start, {column + 40, 40.5f}, 5.4f);
+    for (unsigned x = column; x < column + 32; ++x) bench.set_column(x, 4.8f, to_left);
+    bench.set_column(column + 39, 5.37f, to_left);
+    const BenchEnd by_pixel = trace(ray), by_cell = trace(ray, {{"cells.behind_level", 3}});
+    EXPECT_EQ(by_pixel.pixel.x, int(column) + 39);
+    EXPECT_EQ(by_cell.pixel.x, by_pixel.pixel.x);
+    EXPECT_LT(by_cell.fetches + 15, by_pixel.fetches);
+    show_clutter();
+    EXPECT_LT(wrong({{"cells.behind_level", 1}}).end, 0.02);
+    EXPECT_LT(wrong({{"cells.behind_level", 2}}).end, 0.04);
+}
+
 /// As of fixed_stride: the line turns round, into the wall.
 TEST_F(Cells, ClipAtTheNearPlane) {
     bench.show_wall(0.3f);
