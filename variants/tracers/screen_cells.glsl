@@ -18,6 +18,7 @@ CellExit exit_of_cell(ScreenLine line, ivec2 pixel, int level) {
     bool is_x = t_walls.x < t_walls.y;
     float t = is_x ? t_walls.x : t_walls.y;
     ivec2 next = ivec2(line.origin.xy + t * line.slope.xy);
+    // Also where rounding left the cell, or a number below 0 was not rounded down.
     next = clamp(next, min(pixel, last), max(pixel, last));
     ivec2 beyond = walls + ascends - 1;
     return CellExit(t, is_x ? ivec2(beyond.x, next.y) : ivec2(next.x, beyond.y));
