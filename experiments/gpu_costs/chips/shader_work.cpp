@@ -28,13 +28,14 @@ ShaderWork shader_work(const MarkedShader& marks, const CompiledShader& original
     // Marks are left out, but they may change what the compiler makes of other instructions.
     const MachineCode& code = have_same_flow(own, with_marks) ? own : with_marks;
     const std::vector<BlockRuns> runs = runs_of(with_marks, marks);
-    const double arithmetic = ratio(original.inverse_throughput, simplified.inverse_throughput),
-                 latency = ratio(original.latency, simplified.latency);
+    // By instructions: radv's sums of clocks guess how often loops run. A loop that one of the codes nests deeper
+    // changes such a sum by a factor of four.
+    const double size = ratio(original.instructions, simplified.instructions);
     ShaderWork result{.blocks = std::vector<ShaderWork::Block>(marks.shader_blocks), .lanes = simplified.lanes};
     if (const auto waves = occupancy_of(chip, original).waves) result.resident_waves = std::max(1u, *waves);
     for (size_t b = 0; b < runs.size(); ++b) {
         ChipWork work = code.blocks[b].work;
-        work.vector *= arithmetic, work.scalar *= arithmetic, work.latency *= latency;
+        work.vector *= size, work.scalar *= size, work.latency *= size;
         ShaderWork::Block& block = result.blocks[runs[b].shader_block];
         block.work.add(work, runs[b].share);
         if (runs[b].is_bound) block.uncertain.add(work, runs[b].share);

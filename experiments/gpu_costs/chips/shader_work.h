@@ -15,7 +15,7 @@ struct ShaderWork {
 
 /// The work of a shader from three compilations: the pass's own (`original`), simplified, and simplified with marks;
 /// the latter two have assembly. Code of the simplified shader has up to a fifth more instructions than the original's.
-/// Arithmetic and latency are therefore scaled by what the compiler states about both, and registers are the
+/// Arithmetic and latency are therefore scaled by the ratio of both codes' instructions, and registers are the
 /// original's. Fails with Error on assembly that cannot be parsed.
 ShaderWork shader_work(const MarkedShader& marks, const CompiledShader& original, const CompiledShader& simplified,
                        const CompiledShader& marked, const std::string& chip, const ChipRates& rates);
