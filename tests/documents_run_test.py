@@ -37,7 +37,7 @@ NOT_RUN = {  # by a part of the line
 }
 # Of a command: options that replace those of the line, or stand beside them.
 QUICK = {
-    "export-shaders": {"--resolution": SIZE},
+    "export-shaders": {"--size": SIZE},
     "gbuffer": {"--size": SIZE},
     "judge": {"--samples": [32]},
     "needs": {"--size": SIZE, "--techniques": ["none"]},

@@ -16,14 +16,14 @@ struct ExportOptions {
     std::string technique, preset;
     nlohmann::json parameters = nlohmann::json::object();
     std::filesystem::path out;
-    std::vector<unsigned> resolution{480, 270};
+    std::vector<unsigned> size{480, 270};
 };
 
 }  // namespace
 
 static void export_shaders_command(const ExportOptions& options, const CommonOptions& common) {
     const ExportRequest request{.point = single_point(options.technique, options.preset, options.parameters),
-                                .screen = {options.resolution[0], options.resolution[1]},
+                                .screen = {options.size[0], options.size[1]},
                                 .scene_path = scene_search_path(common.scene_path)};
     make_technique(request.point.technique, request.point.parameters, request.point.preset);  // or says what is wrong
     check_export_folder(options.out);
@@ -46,10 +46,7 @@ void add_export_shaders(Commands& line) {
     option(command, "--out DIR", exported.out, "New or empty folder, or that of an earlier export, which is replaced")
         ->required();
     add_values(command, exported.preset, exported.parameters);
-    option(command, "--resolution W H", exported.resolution,
-           "Screen of the numbers in the description; default: 480 270. The shaders fit every screen")
-        ->expected(2)
-        ->check(CLI::Range(1, 4096));
+    add_size(command, exported.size, "480 270. Of the screen in the description; the shaders fit every screen");
     add_device(command, line.common), add_scene_path(command, line.common);
     command.callback([&] { export_shaders_command(exported, line.common); });
 }

@@ -112,7 +112,7 @@ private:
     json pass_step(size_t place) {
         const FrameCommand& command = frames_.frames[1][place];
         const FrameCommand* const same = same_run(place, other_.frames[1]);
-        if (!same) fail("pass ", command.stage, " has other shaders on another screen; choose another --resolution");
+        if (!same) fail("pass ", command.stage, " has other shaders on another screen; choose another --size");
         const FrameCommand& elsewhere = *same;
         const ShaderLayout& layout = layouts_[place];
         json uses = json::array(), targets = json::array();
