@@ -183,8 +183,8 @@ void add_tradeoff(Commands& line) {
     option(command, "--cost QUANTITY|CHIP", tradeoff.cost,
            "What replaces time: a counted quantity of costs.csv, or the estimated time of a chip in estimates.csv");
     option(command, "--costs-from DIR", tradeoff.costs_from,
-           "Results folder with the estimates of --cost, if other shots have them: means over the shots of the same "
-           "group");
+           "Results folder with the estimates of --cost, if other shots have them: means over its shots of the group "
+           "that a shot's own group begins with");
     add_reading(command);
     command.callback([&] { line.status = tradeoff_command(tradeoff); });
 }

@@ -18,7 +18,9 @@ struct AtCosts : AnswerContext {
         std::string text;
         for (const std::string& machine : machines) {
             const bool is_nameless = machine.starts_with("not timed");  // frozen points need no times
-            const std::string where = is_nameless ? "N" + machine.substr(1) : "Machine: " + machine;
+            const std::string where = is_nameless
+                                          ? "N" + machine.substr(1)
+                                          : (found.costs_from.empty() ? "Machine: " : "Images with errors: ") + machine;
             const std::string who = who_stands();
             text +=
                 message_text("## Which technique at which ", is_timed() ? "time" : "cost", "\n\n", markdown_text(where),

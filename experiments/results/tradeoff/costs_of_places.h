@@ -11,8 +11,8 @@ struct CostsOfKind {
 
 /// Gives each shot of `errors` the estimated times of `chip` that another study has: of each point, the mean over the
 /// places of the shot's kind, with its 95 % interval over places (Student's t). A shot belongs to the longest group of
-/// `costs` that its own group begins with ("rooms" for "rooms, at rest"), or to the one study without groups. A point
-/// that any of these places refuses is refused.
+/// `costs` that its own group begins with ("rooms" for "rooms, at rest"); a study of costs without groups serves all
+/// shots. A point that any of these places refuses is refused.
 /// Errors are thus of one size and times of another: a search needs thousands of small images, and times of small
 /// images say nothing about large ones.
 /// Fails with Error if `costs` has no estimate of the chip, no group for a shot, or other parameters for a point of
