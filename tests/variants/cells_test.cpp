@@ -161,7 +161,9 @@ TEST_F(Cells, PassBehindWideThingsInCoarserCells) {
     const BenchEnd by_pixel = trace(ray), by_cell = trace(ray, {{"cells.behind_level", 3}});
     EXPECT_EQ(by_pixel.pixel.x, int(column) + 39);
     EXPECT_EQ(by_cell.pixel.x, by_pixel.pixel.x);
-    EXPECT_LT(by_cell.fetches + 15, by_pixel.fetches);
+    EXPECT_LT(by_cell.fetches + 15, by_pixel.fetches) << "half of the screen's 32 pixels";
+    // Hits beside outlines are lost: 1.6 % and 3.1 % of 3000 rays, which are the same in each run. The bounds leave
+    // room for 13 and 27 rays, since devices round differently.
     show_clutter();
     EXPECT_LT(wrong({{"cells.behind_level", 1}}).end, 0.02);
     EXPECT_LT(wrong({{"cells.behind_level", 2}}).end, 0.04);
