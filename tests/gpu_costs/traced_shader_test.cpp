@@ -115,7 +115,8 @@ TEST_P(TracedShader, WavesTakeTheTurnsOfTheirBusiestLanes) {
 /// What all groups did is known here: it lies within five standard errors of what the chosen ones say.
 TEST_P(TracedShader, ChosenGroupsStandForAll) {
     PassList pass_list(device(), {1024, 512}, GetParam());
-    run(pass_list, true);
+    const HostImage plain = run(pass_list, false);
+    EXPECT_EQ(run(pass_list, true).values, plain.values);
     const PassTrace& trace = traces.at(0);
     const ShaderFlow flow = flow_of(trace.recipe);
     const std::vector<unsigned> depth = loop_depths(graph_of(flow));

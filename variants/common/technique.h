@@ -42,6 +42,9 @@ public:
     /// the parameters are set.
     virtual bool uses_scene_data() const { return false; }
 
+    /// Whether PassList::use_gpu_forms() may change a pass. Called after the parameters are set.
+    virtual bool has_gpu_forms() const { return false; }
+
     RayProbe* ray_probe = nullptr;  ///< connects an experiment with the tracers
 
     ParameterSet params;

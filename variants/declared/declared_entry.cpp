@@ -176,6 +176,7 @@ DeclaredEntry read_technique(const fs::path& named, bool checks_frames) {
 
     auto declaration = std::make_shared<Declaration>();
     declaration->name = declared_name(folder);
+    declaration->names_device = names_device(document.value);
     if (const auto passes = document.value.find("passes"); passes != document.value.end() && passes->is_array())
         declaration->reads_inputs =
             !std::ranges::all_of(*passes, [](const auto& pass) { return pass.contains("clear"); });

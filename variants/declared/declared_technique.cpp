@@ -29,6 +29,9 @@ public:
     ShaderIncludes shader_includes() const override;
     bool uses_scene_data() const override { return tracers_.needs().exact_hits; }
     bool needs_depth_layers() const override;
+    bool has_gpu_forms() const override {
+        return declaration_->names_device || (denoisers_ && denoisers_->entry().passes->names_device);
+    }
 
 private:
     Tracers own_parameters() {

@@ -77,6 +77,7 @@ DenoiserEntry read_denoiser(const std::string& name) {
     auto declaration = std::make_shared<Declaration>();
     declaration->name = "denoisers/" + name;
     declaration->is_denoiser = true;
+    declaration->names_device = names_device(document.value);
     declaration->draws_random_numbers = Condition::never();
     ParameterReader reader;
     ParameterSet all;

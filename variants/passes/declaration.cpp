@@ -30,6 +30,10 @@ std::string RoughnessLimit::surfaces_within() const {
     return (is_alpha ? "below " : is_excluded ? "smoother than " : "as smooth as ") + parameter;
 }
 
+bool names_device(const nlohmann::json& written) {
+    return written.dump().find("\"device.is_gpu\"") != std::string::npos;
+}
+
 KnownValues Declaration::known_values(const ParameterSet& params, const std::optional<SceneFacts>& facts) const {
     KnownValues known(params, facts);
     known.derive(conditions);

@@ -197,9 +197,10 @@ struct DeclaredPyramid {
 };
 
 struct Declaration {
-    std::string name;          ///< name of its folder
-    bool is_denoiser = false;  ///< runs in a technique that has traced rays
-    bool reads_inputs = true;  ///< has shaders, and therefore the parameter `repair_inputs`
+    std::string name;           ///< name of its folder
+    bool is_denoiser = false;   ///< runs in a technique that has traced rays
+    bool reads_inputs = true;   ///< has shaders, and therefore the parameter `repair_inputs`
+    bool names_device = false;  ///< see names_device()
     std::vector<Parameter> parameters;
     std::vector<TracerSlot> slots;
     size_t parameters_before_tracers = 0;  ///< number of `parameters` before those of the tracers
@@ -224,6 +225,9 @@ struct Declaration {
     /// Passes that run, in their order.
     std::vector<const DeclaredPass*> passes_in_use(const KnownValues& known) const;
 };
+
+/// Whether a condition of the written declaration names `device.is_gpu`.
+bool names_device(const nlohmann::json& written);
 
 /// The first element whose condition holds; null if none does.
 template <class T>

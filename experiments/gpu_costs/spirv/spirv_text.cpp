@@ -113,6 +113,33 @@ std::string SpirvText::built_in(const std::string& what, const std::string& type
 
 void SpirvText::add_functions(const std::string& lines) { added_functions_ += lines; }
 
+std::string SpirvText::add_copy() {
+    std::map<std::string, std::string> copies;
+    for (const Words& words : function_)
+        if (words.size() > 2 && words[1] == "=") copies[words[0]] = "%copy_of_" + words[0].substr(1);
+    for (const Words& words : std::vector<Words>(decorations_))
+        if (const auto copy = copies.find(words[1]); copy != copies.end()) {
+            decorations_.push_back(words);
+            decorations_.back()[1] = copy->second;
+        }
+    for (const Words& words : function_) {
+        for (const std::string& word : words) {
+            const auto copy = copies.find(word);
+            added_functions_ += (copy == copies.end() ? word : copy->second) + ' ';
+        }
+        added_functions_ += '\n';
+    }
+    return copies.at(function_.front()[0]);
+}
+
+std::string SpirvText::replace_entry_point(const std::string& name) {
+    const std::string former = function_.front()[0];
+    for (Words& words : header_)
+        if (words[0] == "OpEntryPoint" || words[0].starts_with("OpExecutionMode"))
+            std::ranges::replace(words, former, "%" + name);
+    return former;
+}
+
 void SpirvText::test_early_where_possible() {
     if (!is_tested_early(spirv_instructions(assembled()))) return;
     for (size_t i = 0; i < header_.size(); ++i)
@@ -131,7 +158,6 @@ void SpirvText::edit_blocks(const std::function<void(Block&)>& edit) {
         }
         Block block;
         block.label = unsigned(std::stoul(function_[i][0].substr(1)));
-        block.is_first = opcode(edited.back()) == "OpFunction";
         size_t end = i + 1;
         while (!ends_block(opcode(function_[end]))) ++end;
         block.terminator = function_[end];

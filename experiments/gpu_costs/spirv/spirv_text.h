@@ -21,12 +21,15 @@ public:
     /// The variable of a built-in input ("FragCoord") of the type "%name": the module's own if it has one.
     std::string built_in(const std::string& what, const std::string& type);
     void add_functions(const std::string& lines);
+    /// Adds a copy of the function as it is now, which later edits leave alone; returns its id.
+    std::string add_copy();
+    /// Makes the added function "%name" the entry point; returns the id of the former one.
+    std::string replace_entry_point(const std::string& name);
     /// Makes tests of depth and stencil come before the shader if is_tested_early() allows it.
     void test_early_where_possible();
 
     struct Block {
         unsigned label = 0;
-        bool is_first = false;                      ///< of the function
         std::vector<std::string> at_start, at_end;  ///< added lines: after variables and phis; before the branch
         std::vector<std::string> terminator;        ///< words of the terminator
     };

@@ -1,7 +1,5 @@
 #include "experiments/gpu_costs/waves/pass_tracer.h"
 
-#include <cstring>
-
 namespace {
 
 // Of whole groups: their mean is known to some percent, and records of 4 kB a lane fit 128 MiB, the least that devices
@@ -31,7 +29,6 @@ std::optional<InstrumentedPipeline> PassTracer::before(const PassRun& run) {
 }
 
 void PassTracer::after(const PassRun&, std::vector<std::byte> content) {
-    trace_.content.resize(content.size() / 4);
-    std::memcpy(trace_.content.data(), content.data(), content.size());
+    trace_.content = std::move(content);
     observer_(trace_);
 }

@@ -11,7 +11,8 @@ namespace {
 constexpr size_t header_words = sizeof(TraceLayout) / 4;
 
 /// Parts of the shader that are written here, in the assembly of SPIR-V; names stand for the ids of their own.
-/// `wave_group` and `wave_lane` are found first, by what kind of shader it is.
+/// `wave_group` and `wave_lane` are found first, by what kind of shader it is. Groups that are not chosen run the
+/// shader without decisions: a decision takes lavapipe longer than a step of a march.
 const char* const functions = R"(
 %wave_begin = OpFunction %wave_void None %wave_begin_type
 %wave_begin_start = OpLabel
@@ -48,10 +49,6 @@ OpFunctionEnd
 %wave_bit = OpFunctionParameter %wave_bool
 %wave_decide_start = OpLabel
 %wave_own = OpLoad %wave_uint %wave_record
-%wave_has_record = OpINotEqual %wave_bool %wave_own %wave_0
-OpSelectionMerge %wave_decide_end None
-OpBranchConditional %wave_has_record %wave_decide_record %wave_decide_end
-%wave_decide_record = OpLabel
 %wave_count_at = OpAccessChain %wave_pointer %wave_trace %wave_0 %wave_own
 %wave_count_and_1 = OpLoad %wave_uint %wave_count_at
 %wave_next_count = OpIAdd %wave_uint %wave_count_and_1 %wave_1
@@ -62,8 +59,8 @@ OpStore %wave_count_at %wave_next_count
 %wave_most = OpLoad %wave_uint %wave_most_at
 %wave_has_room = OpULessThan %wave_bool %wave_word %wave_most
 %wave_is_written = OpLogicalAnd %wave_bool %wave_bit %wave_has_room
-OpSelectionMerge %wave_decide_written None
-OpBranchConditional %wave_is_written %wave_decide_write %wave_decide_written
+OpSelectionMerge %wave_decide_end None
+OpBranchConditional %wave_is_written %wave_decide_write %wave_decide_end
 %wave_decide_write = OpLabel
 %wave_bit_place = OpBitwiseAnd %wave_uint %wave_count %wave_31
 %wave_bit_value = OpShiftLeftLogical %wave_uint %wave_1 %wave_bit_place
@@ -73,10 +70,24 @@ OpBranchConditional %wave_is_written %wave_decide_write %wave_decide_written
 %wave_bits = OpLoad %wave_uint %wave_word_at
 %wave_new_bits = OpBitwiseOr %wave_uint %wave_bits %wave_bit_value
 OpStore %wave_word_at %wave_new_bits
-OpBranch %wave_decide_written
-%wave_decide_written = OpLabel
 OpBranch %wave_decide_end
 %wave_decide_end = OpLabel
+OpReturn
+OpFunctionEnd
+%wave_main = OpFunction %wave_void None %wave_begin_type
+%wave_main_start = OpLabel
+%wave_main_begin = OpFunctionCall %wave_void %wave_begin
+%wave_main_record = OpLoad %wave_uint %wave_record
+%wave_has_record = OpINotEqual %wave_bool %wave_main_record %wave_0
+OpSelectionMerge %wave_main_end None
+OpBranchConditional %wave_has_record %wave_main_chosen %wave_main_other
+%wave_main_chosen = OpLabel
+%wave_main_traced = OpFunctionCall %wave_void @TRACED@
+OpBranch %wave_main_end
+%wave_main_other = OpLabel
+%wave_main_plain = OpFunctionCall %wave_void @PLAIN@
+OpBranch %wave_main_end
+%wave_main_end = OpLabel
 OpReturn
 OpFunctionEnd
 )";
@@ -171,13 +182,12 @@ PipelineRecipe traced(const PipelineRecipe& simplified) {
         text.test_early_where_possible();
     }
 
+    const std::string plain = text.add_copy(), shader = text.replace_entry_point("wave_main");
     unsigned calls = 0;
     const auto call = [&](const std::string& what) {
         return "%wave_call_" + std::to_string(++calls) + " = OpFunctionCall %wave_void " + what;
     };
     text.edit_blocks([&](SpirvText::Block& block) {
-        // Variables of a function come first.
-        if (block.is_first) block.at_start.push_back(call("%wave_begin"));
         const std::vector<std::string>& end = block.terminator;
         if (end[0] == "OpBranchConditional") block.at_end.push_back(call("%wave_decide " + end[1]));
         if (end[0] == "OpSwitch")
@@ -189,19 +199,20 @@ PipelineRecipe traced(const PipelineRecipe& simplified) {
                 block.at_end.push_back(call("%wave_decide " + is_case));
             }
     });
-    text.add_functions(replaced(functions, "@PLACE@", place));
+    text.add_functions(replaced(replaced(replaced(functions, "@PLACE@", place), "@TRACED@", shader), "@PLAIN@", plain));
     result.spirv.back() = text.assembled();
     return result;
 }
 
-std::vector<LaneTrace> lanes_of(const TraceLayout& layout, std::span<const uint32_t> content, unsigned place) {
+std::vector<LaneTrace> lanes_of(const TraceLayout& layout, std::span<const std::byte> content, unsigned place) {
+    const std::span words(reinterpret_cast<const uint32_t*>(content.data()), content.size() / 4);
     std::vector<LaneTrace> lanes;
     for (unsigned lane = 0; lane < layout.lanes; ++lane) {
         const size_t at = header_words + (size_t(place) * layout.lanes + lane) * (1 + layout.lane_words);
-        const uint32_t count = content[at];
+        const uint32_t count = words[at];
         lanes.push_back({.has_run = count > 0,
                          .decisions = count > 0 ? count - 1 : 0,
-                         .words = content.subspan(at + 1, layout.lane_words)});
+                         .words = words.subspan(at + 1, layout.lane_words)});
     }
     return lanes;
 }

@@ -29,8 +29,8 @@ struct PassTrace {
     std::string stage;
     PipelineRecipe original, recipe;  ///< the pass's own, and simplified() of it
     TraceLayout layout;
-    std::vector<uint32_t> content;  ///< content of the buffer
+    std::vector<std::byte> content;  ///< content of the buffer
 };
 
 /// The traces of the lanes of the chosen group at `place`.
-std::vector<LaneTrace> lanes_of(const TraceLayout& layout, std::span<const uint32_t> content, unsigned place);
+std::vector<LaneTrace> lanes_of(const TraceLayout& layout, std::span<const std::byte> content, unsigned place);

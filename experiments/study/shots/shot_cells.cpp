@@ -204,29 +204,35 @@ Cell renders_cell(StudySession& study, OpenShot& open, const PlannedCell& planne
     return render_point(study.device, open.shot, open.truth, *open.store, study.config, *planned.technique, settings);
 }
 
+/// Forms for GPUs are those of all devices for most techniques: what is counted for estimates is then counted for all.
 Cell costs_cell(StudySession& study, OpenShot& open, const PlannedCell& planned,
                 const std::function<void(double)>& report) {
     const auto lit = [&](const FrameStep& step) -> const HostImage& { return open.truth.lit(step); };
-    Cell cell;
-    if (study.config.counts_costs)
-        cell.costs =
-            count_costs(study.device, open.shot, *open.store, lit, *planned.technique, study.settings.keep_all, report);
-    if (study.config.gpu_compilers.empty()) return cell;
-    const StagePipelines pipelines =
-        stage_pipelines(study.device, open.shot, *open.store, lit, *planned.technique, study.settings.keep_all);
+    const bool keep_all = study.settings.keep_all, counts = study.config.counts_costs;
+    const PointConfig& point = *planned.technique;
     const std::string shot = open.shot.name();
-    const ChipCompilation how{.cache = study.settings.cache,
-                              .notice = [&](const std::string& text) { study.progress.say("warning: " + text); }};
-    cell.compiled = compiled_rows(pipelines, shot, *planned.technique, study.plan.compilers, how);
-    if (study.config.counts_costs) try {
-            const TracedFrame frame = trace_last_frame(study.device, open.shot, *open.store, lit, *planned.technique,
-                                                       study.settings.keep_all, report);
-            cell.estimates = estimate_rows(frame, shot, *planned.technique, study.plan.compilers, how);
+    const auto count = [&] { return count_costs(study.device, open.shot, *open.store, lit, point, keep_all, report); };
+    Cell cell;
+    if (study.config.gpu_compilers.empty()) {
+        cell.costs = count();
+        return cell;
+    }
+    std::optional<TracedFrame> frame;
+    if (counts) try {
+            frame = trace_last_frame(study.device, open.shot, *open.store, lit, point, keep_all, report);
         } catch (const MachineError&) {
             throw;
         } catch (const Error& e) {  // a shader that cannot be traced
-            cell.estimates = refused_estimates(e.what(), shot, *planned.technique, study.plan.compilers);
+            cell.estimates = refused_estimates(e.what(), shot, point, study.plan.compilers);
         }
+    const ChipCompilation how{.cache = study.settings.cache,
+                              .notice = [&](const std::string& text) { study.progress.say("warning: " + text); }};
+    cell.compiled = compiled_rows(
+        frame ? frame->pipelines : stage_pipelines(study.device, open.shot, *open.store, lit, point, keep_all), shot,
+        point, study.plan.compilers, how);
+    if (!counts) return cell;
+    if (frame) cell.estimates = estimate_rows(*frame, shot, point, study.plan.compilers, how);
+    cell.costs = frame && !frame->is_of_gpu_forms ? cost_rows(frame->costs, shot, point) : count();
     return cell;
 }
 

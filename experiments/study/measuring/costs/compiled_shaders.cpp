@@ -24,9 +24,13 @@ void StagePipelines::collect_from(PassList& pass_list) {
     pass_list.watch(this);
 }
 
+void StagePipelines::add(const std::string& stage, const PipelineRecipe& recipe) {
+    if (seen_.insert(stage + '\n' + bytes_of({recipe})).second)
+        entries_.push_back({.stage = stage, .number = count_[stage]++, .recipe = recipe});
+}
+
 std::optional<InstrumentedPipeline> StagePipelines::before(const PassRun& run) {
-    if (seen_.insert(run.stage + '\n' + bytes_of({run.recipe})).second)
-        entries_.push_back({.stage = run.stage, .number = count_[run.stage]++, .recipe = run.recipe});
+    add(run.stage, run.recipe);
     return {};
 }
 

@@ -15,6 +15,8 @@ public:
     /// Collects the pipelines of all later passes of `pass_list`, which then take their forms for GPUs. This object
     /// must outlive the rendering.
     void collect_from(PassList& pass_list);
+    /// The pipeline of one more run of a pass.
+    void add(const std::string& stage, const PipelineRecipe& recipe);
 
     struct Entry {
         std::string stage;

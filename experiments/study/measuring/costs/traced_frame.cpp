@@ -34,6 +34,10 @@ TracedFrame trace_last_frame(Device& device, const Shot& shot, FrameStore& store
                              const std::function<const HostImage&(const FrameStep&)>& lit, const PointConfig& point,
                              bool keep_all, const std::function<void(double)>& report) {
     TracedFrame result;
+    const auto keep = [&](const PassTrace& trace) {
+        result.pipelines.add(trace.stage, trace.original);
+        result.passes.push_back(traced_pass(trace));
+    };
     for (const bool is_traced : {false, true}) {
         const std::unique_ptr<Technique> technique = make_technique(point.technique, point.parameters, point.preset);
         if (technique->uses_scene_data()) return {};
@@ -41,11 +45,14 @@ TracedFrame trace_last_frame(Device& device, const Shot& shot, FrameStore& store
         PassList pass_list(device, shot.config.extent);
         pass_list.use_gpu_forms(true);
         CostCounter counter;
-        PassTracer tracer([&](const PassTrace& trace) { result.passes.push_back(traced_pass(trace)); });
+        if (is_traced) result.pipelines.collect_from(pass_list);
+        PassTracer tracer(keep);
         const auto watch = [&] { pass_list.watch(is_traced ? static_cast<PassWatcher*>(&tracer) : &counter); };
         play_shot(pass_list, *technique, shot, store, lit, point, watch,
                   [&](double share) { report((double(is_traced) + share) / 2); });
-        if (!is_traced) result.costs = counter.costs();
+        if (is_traced) continue;
+        result.costs = counter.costs();
+        result.is_of_gpu_forms = technique->has_gpu_forms();
     }
     return result;
 }

@@ -3,6 +3,7 @@
 #include "experiments/gpu_costs/waves/wave_replay.h"
 #include "experiments/study/config/config.h"
 #include "experiments/study/config/shots/shot.h"
+#include "experiments/study/measuring/costs/compiled_shaders.h"
 #include "experiments/study/measuring/frames/frame_source.h"
 
 #include <functional>
@@ -18,8 +19,10 @@ struct TracedFrame {
         /// By lanes of a wave: counts of the waves of each traced group.
         std::map<unsigned, std::vector<WaveCounts>> traced;
     };
-    std::vector<Pass> passes;     ///< one entry for each run of a pass
-    std::vector<PassCost> costs;  ///< by stage
+    std::vector<Pass> passes;      ///< one entry for each run of a pass
+    std::vector<PassCost> costs;   ///< by stage
+    bool is_of_gpu_forms = false;  ///< whether `costs` may differ from those of the technique's forms for CPUs
+    StagePipelines pipelines;      ///< of the frames before the last, and of the last
 };
 
 /// Renders the shot twice: its last frame is counted once and traced once. Empty for a technique whose rays ask the

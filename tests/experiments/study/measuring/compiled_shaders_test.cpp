@@ -3,10 +3,13 @@
 #include "core/gpu/device.h"
 #include "core/scene/load_scene.h"
 #include "experiments/study/config/points/all_points.h"
+#include "experiments/study/measuring/render_technique.h"
 #include "experiments/study/needs.h"
 #include "variants/registry.h"
 
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <optional>
 
@@ -69,6 +72,36 @@ TEST_F(CompiledShaders, NoTechniqueSpillsByDefaultAndAllOccupanciesAreExplained)
             EXPECT_NE(row.limit, "") << where << ": " << row.waves.value_or(-1) << " waves of "
                                      << row.vgprs.value_or(-1) << " VGPRs";
             EXPECT_GE(row.waves, 1) << where;
+        }
+    }
+}
+
+/// Counts of a technique without forms for GPUs are taken once for both.
+TEST(GpuForms, ATechniqueDeclaresThem) {
+    Device device;
+    std::vector<PointConfig> points = {single_point("composed_ssr", "amd_denoiser")};
+    for (const TechniqueEntry& entry : technique_table()) points.push_back(single_point(entry.name));
+    const Shot shot =
+        load_shot({.scene = "mirror_pillars", .extent = {32, 24}, .frames = {0}, .warm_up = 1, .direct_lit = true},
+                  scene_search_path({}));
+    for (const PointConfig& point : points) {
+        std::array<StagePipelines, 2> of_forms;  // for CPUs, for GPUs
+        for (const bool is_gpu : {false, true}) {
+            const std::unique_ptr<FrameSource> source = scene_source(device, shot, timed_config({point}, 0), true);
+            FrameStore store(*source, shot.config, 0);
+            const Renderer renderer(device, shot.config.extent, point);
+            of_forms[is_gpu].collect_from(*renderer.pass_list);
+            renderer.pass_list->use_gpu_forms(is_gpu);
+            for (const FrameStep& step : shot.steps) {
+                const FrameStore::Frame frame = store.frame(step, {});
+                renderer.render(frame.camera, 1, frame.gbuffer);
+                renderer.pass_list->times();
+            }
+            const auto recipe = [](const StagePipelines::Entry& entry) { return bytes_of({entry.recipe}); };
+            if (is_gpu)
+                EXPECT_EQ(!std::ranges::equal(of_forms[0].entries(), of_forms[1].entries(), {}, recipe, recipe),
+                          renderer.technique->has_gpu_forms())
+                    << point.technique << ' ' << point.point;
         }
     }
 }

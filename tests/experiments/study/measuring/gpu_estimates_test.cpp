@@ -5,6 +5,7 @@
 #include "experiments/gpu_costs/waves/pass_tracer.h"
 #include "experiments/gpu_costs/waves/traced_shader.h"
 #include "experiments/study/config/points/all_points.h"
+#include "experiments/study/measuring/costs/costs.h"
 #include "experiments/study/measuring/render_technique.h"
 #include "experiments/study/needs.h"
 
@@ -18,10 +19,11 @@
 namespace {
 
 struct GpuEstimates : testing::Test {
-    /// Of the coverage 512 groups of 8 x 8, which are all traced; few of the others, whose shaders take most of the
-    /// time.
+    /// Of the coverage 512 groups of 8 x 8, which are all traced; more where some are not to be traced; few of the
+    /// others, whose shaders take most of the time.
     static glm::uvec2 extent() {
         const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
+        if (name == "TracingChangesNoBit") return {264, 136};
         return name.starts_with("Cover") ? glm::uvec2(256, 128) : glm::uvec2(48, 32);
     }
     static Device& device() {
@@ -70,6 +72,31 @@ TEST_F(GpuEstimates, TracingChangesNoBit) {
     for (const std::string technique : {"mcguire_dda", "diligent_ssr"}) {
         const PointConfig point = single_point(technique);
         EXPECT_EQ(radiance(point, true), radiance(point, false)) << technique;
+    }
+}
+
+/// What is counted in the forms for GPUs stands for all devices, and pipelines come with the trace.
+TEST_F(GpuEstimates, ATracedFrameBringsTheCountsAndPipelinesOfItsPoint) {
+    const auto described = [](const StagePipelines& pipelines) {
+        std::vector<std::string> all;
+        for (const StagePipelines::Entry& entry : pipelines.entries())
+            all.push_back(entry.stage + ' ' + std::to_string(entry.number) + bytes_of({entry.recipe}));
+        return all;
+    };
+    for (const std::string technique : {"mcguire_dda", "amd_sssr"}) {
+        const PointConfig point = single_point(technique);
+        const TracedFrame frame = trace(point);
+        open(point);
+        EXPECT_EQ(described(frame.pipelines), described(stage_pipelines(device(), shot, *store, lit, point, true)));
+        EXPECT_EQ(frame.is_of_gpu_forms, technique == "amd_sssr");
+        if (frame.is_of_gpu_forms) continue;
+        open(point);
+        const std::vector<CostRow> counted = count_costs(device(), shot, *store, lit, point, true, [](double) {}),
+                                   traced = cost_rows(frame.costs, shot.name(), point);
+        ASSERT_EQ(counted.size(), traced.size());
+        for (size_t i = 0; i < counted.size(); ++i)
+            EXPECT_EQ(counted[i].stage + counted[i].quantity + std::to_string(counted[i].value),
+                      traced[i].stage + traced[i].quantity + std::to_string(traced[i].value));
     }
 }
 
