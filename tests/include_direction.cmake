@@ -106,7 +106,7 @@ foreach(room results study report bridges live)
   endforeach()
 endforeach()
 check_rooms(experiments gpu_costs results study report bridges live cli)
-check_rooms(experiments/results files stability cells source_table verdicts tradeoff answers)
+check_rooms(experiments/results files stability cells source_table verdicts tradeoff advice answers)
 check_rooms(experiments/gpu_costs spirv waves chips)
 check_rooms(experiments/study config measuring shots plan stability)
 # Techniques are JSON and shaders: C++ is what reads them and what they share.

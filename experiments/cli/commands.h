@@ -14,6 +14,7 @@ void add_judge(Commands& line);
 void add_scene_for(Commands& line);
 void add_tables(Commands& line);
 void add_tradeoff(Commands& line);
+void add_advise(Commands& line);
 void add_tune(Commands& line);
 void add_compare(Commands& line);
 void add_reference(Commands& line);

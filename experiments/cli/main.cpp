@@ -27,13 +27,11 @@ int parse_and_run(int argc, char** argv) {
         "--version", [] { return build_info().dump(); },
         "Print version, commit and the hash of all code, as manifest.json has them");
     Commands line(app);
-    for (const auto add : {add_run,       add_plan,     add_merge,          add_report,
-                           add_figures,   add_diff,     add_judge,          add_scene_for,
-                           add_tables,    add_tradeoff, add_tune,           add_compare,
-                           add_reference, add_gbuffer,  add_capture,        add_inspect,
-                           add_needs,     add_shaders,  add_export_shaders, add_rays,
-                           add_record,    add_watch,    add_stability,      add_new,
-                           add_describe,  add_list})
+    for (const auto add : {add_run,     add_plan,           add_merge,   add_report,   add_figures, add_diff,
+                           add_judge,   add_scene_for,      add_tables,  add_tradeoff, add_advise,  add_tune,
+                           add_compare, add_reference,      add_gbuffer, add_capture,  add_inspect, add_needs,
+                           add_shaders, add_export_shaders, add_rays,    add_record,   add_watch,   add_stability,
+                           add_new,     add_describe,       add_list})
         add(line);
     if (!words.empty() && !words.front().starts_with('-')) refuse_unknown_command(app, words.front());
     std::ranges::reverse(words);  // as CLI11 takes them

@@ -21,17 +21,6 @@ Names markdown_names(Names names) {
     return names;
 }
 
-/// Of the programs that made a study's cells.
-std::string commits_of(const json& manifest) {
-    const auto commit = [](const json& maker) {
-        const json program = maker.value("ssrlab", json::object()), name = program.value("commit", json());
-        const json dirty = program.value("dirty", json());
-        return (name.is_string() && !name.get<std::string>().empty() ? name.get<std::string>() : "unknown") +
-               (dirty.is_boolean() && dirty ? " with changes" : "");
-    };
-    return joined(distinct(manifest.value("provenance", json::array()), commit), " and ");
-}
-
 /// The head of answers.md, and what each change of a parameter gains and costs.
 struct HeadAndChanges : AnswerContext {
     std::string head() const {
@@ -216,6 +205,16 @@ AnswerContext::AnswerContext(const StudyResults& tables, const PrimaryComparison
 
 const MeasuredShot& AnswerContext::shot_of(const std::string& name) const {
     return **std::ranges::find(between.shots, name, [](const auto& shot) { return shot->name; });
+}
+
+std::string commits_of(const json& manifest) {
+    const auto commit = [](const json& maker) {
+        const json program = maker.value("ssrlab", json::object()), name = program.value("commit", json());
+        const json dirty = program.value("dirty", json());
+        return (name.is_string() && !name.get<std::string>().empty() ? name.get<std::string>() : "unknown") +
+               (dirty.is_boolean() && dirty ? " with changes" : "");
+    };
+    return joined(distinct(manifest.value("provenance", json::array()), commit), " and ");
 }
 
 std::string tradeoff_answers(const StudyResults& tables, const PrimaryComparisons& error, const Tradeoff& found,
