@@ -133,25 +133,23 @@ std::string beside_first(const AdviceOfQuestion& answer, const AdviceRow* first)
     Names near, equivalent, undecided, behind, absent;
     for (const AdviceRow* row : answer.rows) {
         if (row == first || row->technique == "none") continue;
-        const std::string text = name_text(*row) + " " + ratio_text(*row);
+        const std::string text = name_text(*row) + " " + ratio_text(*row), time = time_text(*row) + " ms";
         if (row->reason == above_budget)
-            absent.push_back(shown_text(row->technique) + " (the cheapest point, " + name_text(*row) + ", takes " +
-                             time_text(*row) + " ms)");
+            absent.push_back(name_text(*row) + " takes " + time);
         else if (!row->reason.empty())
-            absent.push_back(shown_text(row->technique + " (" + row->reason + ")"));
+            absent.push_back(shown_text(row->technique + ": " + row->reason));
         else if (row->standing == standing::behind)
             behind.push_back(text);
-        else if (row->standing == standing::equivalent)
-            equivalent.push_back(text);
         else if (row->standing.empty())
-            undecided.push_back(text);
+            undecided.push_back(text + ", " + time);
         else
-            near.push_back(text + ", probability " + chance_text(*row) + ", " + time_text(*row) + " ms");
+            (row->standing == standing::equivalent ? equivalent : near)
+                .push_back(text + ", probability " + chance_text(*row) + ", " + time);
     }
     return line_of("May be as good or better (no significant difference)", near) +
            line_of("Certainly about as good (within the margin of the studies)", equivalent) +
-           line_of("Not compared, because there are fewer than four scenes", undecided) +
-           line_of("Certainly worse", behind) + line_of("Does not fit", absent);
+           line_of("Not judged, because there are too few scenes", undecided) + line_of("Certainly worse", behind) +
+           line_of("Does not fit, by its cheapest point", absent);
 }
 
 std::string one_answer(const AdviceOfQuestion& answer) {
