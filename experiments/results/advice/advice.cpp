@@ -13,20 +13,25 @@ std::filesystem::path sources_beside(std::filesystem::path csv) { return csv.rep
 
 const nlohmann::json& types_of_sources() {
     static const nlohmann::json types = nlohmann::json::parse(R"({
-        "errors": [{"title": "text", "config": "text", "commit": "text", "sizes": ["text"]}],
-        "costs": {"title": "text", "config": "text", "commit": "text", "sizes": ["text"]},
-        "compilers": {"*": "text"}
+        "errors": [{"title": "text", "config": "text", "commit": "text", "finished": "text", "sizes": ["text"]}],
+        "costs": {"title": "text", "config": "text", "commit": "text", "finished": "text", "sizes": ["text"]},
+        "compilers": {"*": "text"},
+        "points": {"*": {"*": "object"}},
+        "rows": "size"
     })");
     return types;
 }
 
-void check_advice(const std::filesystem::path& csv, const std::vector<AdviceRow>& rows) {
-    if (rows.empty()) fail(csv.string(), " has no rows");
-    for (const AdviceRow& row : rows) {
+void check_advice(const std::filesystem::path& csv, const Advice& advice) {
+    require_type(advice.sources, types_of_sources(), sources_beside(csv).string());
+    if (const size_t rows = advice.sources["rows"].get<size_t>(); rows != advice.rows.size() || rows == 0)
+        fail(csv.string(), " has ", advice.rows.size(), " rows, and ", sources_beside(csv).string(), " says ", rows);
+    for (const AdviceRow& row : advice.rows) {
         if (row.reason.empty() && !row.ratio)
             fail(csv.string(), ": a row of ", row.technique, " has neither a ratio nor a reason");
-        if (!parse_json(row.parameters, csv.string() + ": parameters").is_object())
-            fail(csv.string(), ": the parameters of ", row.technique, " are no JSON object");
+        const nlohmann::json points = advice.sources["points"].value(row.technique, nlohmann::json::object());
+        if (!points.contains(row.point))
+            fail(sources_beside(csv).string(), " has no parameters of ", row.technique, " ", row.point);
     }
 }
 
@@ -42,8 +47,7 @@ Advice read_advice(const std::filesystem::path& csv) {
         if (!std::filesystem::exists(file)) fail(file.string(), " is missing; ", how_to_make_advice);
     try {
         Advice advice{.rows = read_rows<AdviceRow>(csv), .sources = read_json(sources_beside(csv))};
-        check_advice(csv, advice.rows);
-        require_type(advice.sources, types_of_sources(), sources_beside(csv).string());
+        check_advice(csv, advice);
         return advice;
     } catch (const MachineError&) {
         throw;

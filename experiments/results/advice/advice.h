@@ -24,30 +24,32 @@ struct AdviceRow {
     std::string surface;                  ///< the name of an AdvisedSurface
     std::string technique, point, label;  ///< if nothing fits: of the cheapest point
     std::string preset;                   ///< that the point started from; "": none
-    std::string parameters;               ///< JSON: all values that differ from the technique's defaults
     std::optional<double> rank, ratio, low, high, chance_first, chance_near;  ///< as in OverScenes
     std::string standing;
-    size_t scenes = 0;
-    std::optional<double> us, us_low, us_high;  ///< estimated time: the mean over `places` with its interval
+    size_t scenes = 0, of_scenes = 0;           ///< that have a ratio, and all of this kind
+    std::optional<double> us, us_low, us_high;  ///< estimated time: the mean over `places`; no interval below four
     size_t places = 0;
     std::string reason;  ///< why the technique has no error within the budget; "": it has
 
-    COLUMNS(AdviceRow, chip, ms, place, movement, surface, technique, point, label, preset, parameters, rank, ratio,
-            low, high, chance_first, chance_near, standing, scenes, us, us_low, us_high, places, reason)
+    COLUMNS(AdviceRow, chip, ms, place, movement, surface, technique, point, label, preset, rank, ratio, low, high,
+            chance_first, chance_near, standing, scenes, of_scenes, us, us_low, us_high, places, reason)
 };
 
 /// AdviceRow::reason of a technique whose points all take longer.
 inline constexpr const char* above_budget = "above the budget";
 
-/// The table, and the studies that it rests on.
+/// The table, and what it rests on.
 struct Advice {
     std::vector<AdviceRow> rows;
-    nlohmann::json sources;  ///< {"errors": [study], "costs": study, "compilers": {chip: driver}}
+    /// {"errors": [study], "costs": study, "compilers": {chip: driver}, "points": {technique: {point: parameters}},
+    /// "rows": their number}. Parameters are all that differ from the technique's defaults.
+    nlohmann::json sources;
 };
 
 /// Makes the table from studies of errors and a study of costs. All choices and verdicts are those of tradeoff_of(),
 /// asked for each chip, kind of place, movement and surface alone. A study's groups of shots name place and movement:
-/// "rooms, at rest". Fails with Error where a study lacks what is needed.
+/// "rooms, at rest". Rows at any cost are of all reflective surfaces alone, so that the file stays small. Fails with
+/// Error where a study lacks what is needed.
 Advice make_advice(std::vector<StudyResults> errors, const StudyResults& costs);
 
 /// Writes the rows, and beside them the sources: advice.csv and advice.json.

@@ -39,7 +39,7 @@ struct AdviceOfQuestion {
 std::string kind_text(const AdviceRow& row) { return row.place + ", " + row.movement; }
 std::string name_text(const AdviceRow& row) { return shown_text(row.label); }
 std::string ratio_text(const AdviceRow& row) { return measured(row.ratio, row.low, row.high); }
-std::string chance_text(const AdviceRow& row) { return row.chance_first ? fixed_text(*row.chance_first, 2) : ""; }
+std::string chance_text(const AdviceRow& row) { return row.chance_first ? fixed_text(*row.chance_first, 2) : "-"; }
 std::string budget_text(double ms) { return number_text(ms) + " ms"; }
 
 std::optional<double> in_ms(const std::optional<double>& us) { return us ? std::optional(*us / 1000) : std::nullopt; }
@@ -152,7 +152,7 @@ std::string beside_first(const AdviceOfQuestion& answer, const AdviceRow* first)
            line_of("Does not fit, by its cheapest point", absent);
 }
 
-std::string one_answer(const AdviceOfQuestion& answer) {
+std::string one_answer(const AdviceOfQuestion& answer, const json& points) {
     const AdviceRow &any = answer.any(), *first = answer.first();
     std::string text = shown_text(any.chip + ", " + budget_text(*any.ms) + ", " + kind_text(any) + ", ") +
                        surface_text(any.surface) + "\n";
@@ -166,12 +166,14 @@ std::string one_answer(const AdviceOfQuestion& answer) {
     text += "  Use " + name_text(*first) +
             (first->standing == standing::best ? ", which certainly errs least.\n"
                                                : ", which errs least, but not certainly.\n");
-    text += "  Parameters that differ from the defaults: " + shown_text(first->parameters) + "\n";
+    text += "  Parameters that differ from the defaults: " + shown_text(points[first->technique][first->point].dump()) +
+            "\n";
     text += "  Visible error (FLIP): " + ratio_text(*first) + " times the error without reflections, over " +
-            counted(first->scenes, "scene") + "\n";
+            std::to_string(first->scenes) + " of " + counted(first->of_scenes, "scene") + "\n";
     if (first->chance_first)
         text += "  Probability of the least mean error in scenes like these: " + chance_text(*first) + "\n";
-    text += "  Estimated time: " + time_text(*first) + " ms, mean over " + counted(first->places, "place") + "\n";
+    text += "  Estimated time: " + time_text(*first) + " ms, mean over " + counted(first->places, "place") +
+            (first->us_low ? "\n" : ", which are too few for an interval\n");
     return text + beside_first(answer, first);
 }
 
@@ -185,8 +187,8 @@ std::string what_it_rests_on(const Advice& advice, const std::string& chip) {
     std::string text = "This rests on:\n";
     for (const json& study : advice.sources["errors"]) text += "  Errors: " + study_text(study) + "\n";
     text += "  Times: " + study_text(advice.sources["costs"]);
-    if (advice.sources["compilers"].contains(chip))
-        text += ", " + shown_text(advice.sources["compilers"][chip].get<std::string>());
+    for (const auto& [of_chip, driver] : advice.sources["compilers"].items())
+        if (chip.empty() || chip == of_chip) text += ", " + shown_text(of_chip + ": " + driver.get<std::string>());
     return text + "\n  Times are estimates, and no GPU ran anything: " + model_range_text() +
            ".\n  Brackets hold 95 % intervals for scenes and places like these, without the error of the model.\n";
 }
@@ -243,7 +245,7 @@ std::string advice_answer(const Advice& advice, const AdviceQuestion& question) 
     if (!question.is_whole())
         return text + table_of_answers(answers, question.surface) + "\n" + what_it_rests_on(advice, question.chip) +
                "Add --chip and --ms for parameters and alternatives.\n";
-    for (const AdviceOfQuestion& answer : answers) text += one_answer(answer) + "\n";
+    for (const AdviceOfQuestion& answer : answers) text += one_answer(answer, advice.sources["points"]) + "\n";
     return text + what_it_rests_on(advice, question.chip) +
            "Add --json - to print the parameters as a study's config takes them. " + page_of_advice +
            " says how to make the table again.\n";
@@ -258,7 +260,7 @@ json advised_points(const Advice& advice, const AdviceQuestion& question) {
     for (const auto& [technique, of_technique] : points)
         for (const auto& [point, row] : of_technique) {
             json& entry = entries.emplace_back(json{{"technique", technique}});
-            const json parameters = json::parse(row->parameters);
+            const json& parameters = advice.sources["points"][technique][point];
             if (of_technique.size() == 1 && !parameters.empty()) entry["parameters"] = parameters;
             // A study distinguishes points of a technique by what is swept.
             if (of_technique.size() > 1)

@@ -32,10 +32,19 @@ std::vector<std::string> sizes_of_shots(const json& manifest) {
     return {sizes.begin(), sizes.end()};
 }
 
+/// When the last of a study's cells was made.
+std::string end_of_study(const json& manifest) {
+    std::string last;
+    for (const json& maker : manifest.value("provenance", json::array()))
+        last = std::max(last, maker.value("finished", ""));
+    return last;
+}
+
 json source_of_advice(const json& manifest) {
     return {{"title", manifest.value("title", "")},
             {"config", manifest.value("study", json::object()).value("config", "")},
             {"commit", commits_of(manifest)},
+            {"finished", end_of_study(manifest)},
             {"sizes", sizes_of_shots(manifest)}};
 }
 
@@ -65,6 +74,18 @@ StudyResults of_group(const StudyResults& study, const std::string& group) {
     return own;
 }
 
+/// Adds the parameters of the study's points that differ from the defaults.
+void add_parameters(json& points, const json& manifest) {
+    for (const json& v : manifest.at("techniques")) {
+        const std::string technique = v.at("technique").get<std::string>(), point = v.at("point").get<std::string>();
+        const json parameters = v.value("entry", v).value("parameters", json::object());
+        json& known = points[technique][point];
+        if (!known.is_null() && known != parameters)
+            fail(technique, " ", point, " has other parameters in another study; run all studies with the same points");
+        known = parameters;
+    }
+}
+
 /// The rows of one chip, kind of place, movement and surface.
 struct AdviceOfKind {
     const json& manifest;
@@ -74,20 +95,19 @@ struct AdviceOfKind {
 
     AdviceRow row_of(const PointName& name) const {
         AdviceRow row = kind;
-        row.technique = name.first, row.point = name.second, row.parameters = "{}";
+        row.technique = name.first, row.point = name.second;
         row.label = point_text(name, point_labels(manifest));
-        for (const json& v : manifest.at("techniques"))
-            if (v.value("technique", "") == name.first && v.value("point", "") == name.second)
-                row.parameters = v.value("entry", v).value("parameters", json::object()).dump();
         // A point's name begins with its preset.
         const auto entry = std::ranges::find(technique_table(), name.first, &TechniqueEntry::name);
         if (const std::string word = name.second.substr(0, name.second.find(' '));
             entry != technique_table().end() && std::ranges::count(entry->presets, word, &Preset::name))
             row.preset = word;
-        for (const FrontRow& f : found.front)
-            if (PointName(f.technique, f.point) == name)
-                row.us = kept_digits(f.cost), row.us_low = kept_digits(f.cost_low),
-                row.us_high = kept_digits(f.cost_high);
+        for (const FrontRow& f : found.front) {
+            if (PointName(f.technique, f.point) != name) continue;
+            row.us = kept_digits(f.cost);
+            // Without an interval over places, both ends are the mean.
+            if (f.cost_low != f.cost_high) row.us_low = kept_digits(f.cost_low), row.us_high = kept_digits(f.cost_high);
+        }
         return row;
     }
 
@@ -95,7 +115,7 @@ struct AdviceOfKind {
         row.rank = across.rank, row.ratio = kept_digits(across.ratio);
         row.low = kept_digits(across.low), row.high = kept_digits(across.high);
         row.chance_first = kept_digits(across.chance_first), row.chance_near = kept_digits(across.chance_near);
-        row.standing = across.standing, row.scenes = across.scenes;
+        row.standing = across.standing, row.scenes = across.scenes, row.of_scenes = across.of_scenes;
         rows.push_back(std::move(row));
     }
 
@@ -184,7 +204,7 @@ void add_kind(Advice& advice, const StudyResults& own, const std::string& group,
                         .kind = {.chip = chip, .place = place, .movement = movement, .surface = surface.name}};
         of.kind.places = places;
         for (const double ms : advised_budgets) of.add_budget(ms);
-        of.add_points();
+        if (&surface == advised_surfaces) of.add_points();
         std::ranges::move(of.rows, std::back_inserter(advice.rows));
     }
 }
@@ -193,16 +213,18 @@ void add_kind(Advice& advice, const StudyResults& own, const std::string& group,
 
 Advice make_advice(std::vector<StudyResults> errors, const StudyResults& costs) {
     Advice advice{.rows = {}, .sources = {{"errors", json::array()}, {"costs", source_of_advice(costs.manifest)}}};
-    json& compilers = advice.sources["compilers"] = json::object();
+    json compilers = json::object();
     for (const EstimateRow& e : costs.estimates) compilers[e.chip] = e.driver;
     if (compilers.empty())
         fail("the study of costs has no estimates; its config needs \"costs\": true and \"gpu_compilers\"");
+    advice.sources["compilers"] = compilers;
     std::set<std::string> known;
     for (StudyResults& study : errors) {
         advice.sources["errors"].push_back(source_of_advice(study.manifest));
+        add_parameters(advice.sources["points"], study.manifest);
         const std::set<std::string> groups = groups_of_shots(study.manifest);
         for (const std::string& group : groups)
-            if (kind_named(group), !known.insert(group).second)
+            if (!known.insert(group).second)
                 fail("two studies have shots of the group '", group, "'; leave one of them out");
         std::map<std::string, std::vector<CostsOfKind>> costs_of;
         for (const auto& [chip, driver] : compilers.items()) costs_of[chip] = take_costs_from(costs, chip, study);
@@ -214,5 +236,6 @@ Advice make_advice(std::vector<StudyResults> errors, const StudyResults& costs) 
     if (advice.rows.empty())
         fail("the studies have no errors of ", advised_target, " ", advised_metric, " over reflective pixels; ",
              "their configs need these among \"targets\", \"metrics\" and \"masks\"");
+    advice.sources["rows"] = advice.rows.size();
     return advice;
 }

@@ -4,6 +4,9 @@
 #include "tests/error_message.h"
 #include "tests/experiments/cli/command_line_fixture.h"
 
+#include <regex>
+#include <set>
+
 namespace {
 
 using nlohmann::json;
@@ -107,12 +110,12 @@ TEST_F(KeptAdvice, NamesTheWinnerWithinABudget) {
     const std::string answer = advice_answer(advice, asked);
     for (const char* part :
          {"navi21, 1 ms, rooms, at rest, all reflective surfaces\n  Use good,",
-          R"(defaults: {"march":"cells, refined","rays":1})", "times the error without reflections, over 5 scenes",
+          R"(defaults: {"march":"cells, refined","rays":1})", "times the error without reflections, over 5 of 5 scenes",
           "Estimated time: 0.815 [", "mean over 4 places",
-          "within the margin of the studies): near 0.258 [0.252, 0.263], probability 0.0",
-          "Certainly worse: bad 0.759 [", "Does not fit, by its cheapest point: dear takes 9 [9, 9] ms",
+          "within the margin of the studies): near 0.258 [0.253, 0.263], probability 0.0",
+          "Certainly worse: bad 0.759 [", "Does not fit, by its cheapest point: dear takes 9 ms",
           "Errors: made_up.json (320x180, commit abc1234)",
-          "Times: made_up.json (1920x1080, commit abc1234), Mesa 22.3.6", "0.22 to 12.8 times such estimates"})
+          "Times: made_up.json (1920x1080, commit abc1234), navi21: Mesa 22.3.6", "0.22 to 12.8 times such estimates"})
         EXPECT_TRUE(says(answer, part)) << part << "\n" << answer;
 }
 
@@ -124,6 +127,7 @@ TEST_F(KeptAdvice, TheTableReadsBackAsItWasMade) {
     std::set<std::string> surfaces;
     for (const AdviceRow& row : read.rows) surfaces.insert(row.surface);
     EXPECT_EQ(surfaces, (std::set<std::string>{"all", "mirrors"})) << "the masks that the study has";
+    EXPECT_EQ(read.sources["compilers"]["navi21"], "Mesa 22.3.6");
 }
 
 TEST_F(KeptAdvice, WritesPointsAsAStudyTakesThem) {
@@ -133,7 +137,8 @@ TEST_F(KeptAdvice, WritesPointsAsAStudyTakesThem) {
     EXPECT_EQ(advised_points(advice, {}).size(), 2u) << "good and near, each once";
     Advice two = advice;
     for (AdviceRow& row : two.rows)
-        if (row.technique == "near") row.technique = "good", row.point = "rays=2", row.parameters = R"({"rays": 2})";
+        if (row.technique == "near") row.technique = "good", row.point = "rays=2";
+    two.sources["points"]["good"]["rays=2"] = {{"rays", 2}};
     EXPECT_EQ(advised_points(two, {}),
               json::parse(R"([{"technique": "good", "sweep": {"march": ["cells, refined"], "rays": [1]}},
                                                        {"technique": "good", "sweep": {"rays": [2]}}])"));
@@ -186,10 +191,16 @@ TEST_F(KeptAdvice, NothingHelpsIfAllErrMore) {
 
 TEST_F(KeptAdvice, StudiesThatDoNotServeAreRefused) {
     const auto message_of = [](const MadeAdvice& made) { return error_message([&] { made.made(); }); };
-    MadeAdvice nameless, twice, no_times, other_metric, no_none;
+    MadeAdvice nameless, twice, no_times, other_metric, no_none, other_rays;
     nameless.errors.manifest["shots"][0]["group"] = "rooms";
     EXPECT_TRUE(says(message_of(nameless), "'rooms' names no place and movement"));
     EXPECT_TRUE(says(error_message([&] { make_advice({twice.errors, twice.errors}, twice.costs); }), "two studies"));
+    for (json& shot : other_rays.errors.manifest["shots"]) shot["group"] = "rooms, in motion";
+    other_rays.errors.manifest["techniques"][1]["entry"]["parameters"]["rays"] = 2;
+    EXPECT_TRUE(says(error_message([&] {
+                         make_advice({twice.errors, other_rays.errors}, twice.costs);
+                     }),
+                     "good default has other parameters in another study"));
     no_times.costs.estimates.clear();
     EXPECT_TRUE(says(message_of(no_times), "gpu_compilers"));
     for (MetricSummary& e : other_metric.errors.summary) e.metric = "mse";
@@ -210,10 +221,13 @@ TEST_F(KeptAdvice, ADamagedTableSaysHowToMakeIt) {
         return message();
     };
     EXPECT_TRUE(says(message_of(""), "is empty"));
-    EXPECT_TRUE(says(message_of(whole.substr(0, whole.find('\n') + 1)), "has no rows; experiments/docs/advise.md"));
+    EXPECT_TRUE(says(message_of(whole.substr(0, whole.find('\n') + 1)), " has 0 rows, and "));
     EXPECT_TRUE(says(message_of(whole.substr(0, whole.size() / 2)), "experiments/docs/advise.md"));
     EXPECT_TRUE(says(message_of("chip,ms\nnavi21,1\n"), "has no column 'place'"));
     kept(made);
+    write_text(folder / "advice.json",
+               std::regex_replace(read_text(folder / "advice.json"), std::regex("\"dear\""), "\"d\""));
+    EXPECT_TRUE(says(message(), "advice.json has no parameters of dear default"));
     fs::remove(folder / "advice.json");
     EXPECT_TRUE(says(message(), "advice.json is missing"));
     write_text(folder / "advice.json", "{}");
