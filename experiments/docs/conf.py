@@ -16,6 +16,7 @@ GROUPS = {
     "Guides": {
         "experiments/docs/quickstart": "Quickstart",
         "experiments/docs/compare": "Compare techniques in your scene",
+        "experiments/docs/advise": "Which technique should I use?",
         "experiments/docs/tune": "Find the best parameters",
         "experiments/docs/write_a_technique": "Write a technique",
         "experiments/docs/judge": "Judge your engine's frames",

@@ -1,11 +1,11 @@
 """Tables within Markdown files: between `<!-- table STUDY NAME -->` and `<!-- end of table -->`, made from the committed
 summary of the study. `<!-- table STUDY NAME {"rows": [...], "columns": [...], "caption": "..."} -->` shows an excerpt: the
-named rows and columns in that order (all, where a key is left out).
+named rows and columns in that order (all, where a key is left out). `<!-- advice CHIP SURFACE -->` shows what advice.csv has of a chip and surface.
 
 Numbers and names in prose are made in the same way: `<!--=NAME-->0.18<!--/-->`, where `PAGE.numbers.json` beside the page gives each NAME its
 expression (`<!--=PAGE.md#NAME-->`: that of another page): cell(), cells(), shown(), most(), first(), shots(), rank_correlation(), halving(), share_of_variance(),
 over_scenes() and p_holm() of kept tables (Numbers), ratios(), number(value), fixed(value, places),
-span(values, places), min, max, sum, len, zip and abs. `<!--=made PAGE.md-->` stands for the day and the commits of the studies whose tables PAGE has,
+advised() of advice.csv, span(values, places), min, max, sum, len, zip and abs. `<!--=made PAGE.md-->` stands for the day and the commits of the studies whose tables PAGE has,
 as two cells of a table."""
 
 import functools
@@ -18,7 +18,7 @@ from ssrlab.json_files import parse_json, read_json
 from ssrlab.mistakes import ResultsError
 from ssrlab.text_files import path_inside, read_text
 from ssrlab.figures.numbers import in_prose
-from ssrlab.tables import formats, summary_file
+from ssrlab.tables import advice, formats, summary_file
 from ssrlab.tables.agreement import kendall_tau
 from ssrlab.tables.halving import halving_share
 from ssrlab.tables.variance_shares import share_of_total
@@ -26,6 +26,7 @@ from ssrlab.tables.markdown import markdown
 
 BLOCK = re.compile(r"(?P<head><!-- table (?P<study>\S+) (?P<name>\S+)(?: (?P<excerpt>\{[^\n]*\}))? -->\n)(?P<text>.*?)(?P<end><!-- end of table -->)", re.DOTALL)
 
+ADVICE = re.compile(r"(?P<head><!-- advice (?P<chip>\S+) (?P<surface>\S+) -->\n)(?P<text>.*?)(?P<end><!-- end of table -->)", re.DOTALL)
 
 NUMBER = re.compile(r"(?P<head><!--=\s*(?P<name>[^\n]*?)\s*-->)(?P<text>[^\n]*?)(?P<end><!--/-->)")
 
@@ -35,6 +36,7 @@ class Numbers:
 
     def __init__(self, summaries, file):
         self.file = file
+        self._summaries = summaries
         self._read = functools.cache(lambda study: summary_file.read(path_inside(summaries, study + ".csv")))
 
     def _table(self, study, table):
@@ -157,9 +159,13 @@ class Numbers:
         share, *ends = (v if v is None else f"{100 * v:.0f}" for v in share_of_total([(about["assets"][shot], values[shot, part]) for shot in shots], totals))
         return share if None in ends else f"{share} [{', '.join(ends)}]"
 
+    def advised(self, what, *question, **options):
+        """The "label", "ratio", "chance" or "ms" of a rank of advice.csv, as advice.Advice.text() has them."""
+        return advice.Advice(self._summaries).text(what, *question, **options)
+
     def text(self, expression):
         names = {"cell": self.cell, "cells": self.cells, "shown": self.shown, "most": self.most, "first": self.first, "shots": self.shots, "rank_correlation": self.rank_correlation, "halving": self.halving, "over_scenes": self.over_scenes, "p_holm": self.p_holm, "share_of_variance": self.share_of_variance}
-        names |= {"ratios": self.ratios, "number": in_prose, "fixed": lambda value, places: f"{value:.{places}f}"}
+        names |= {"advised": self.advised, "ratios": self.ratios, "number": in_prose, "fixed": lambda value, places: f"{value:.{places}f}"}
         names["span"] = lambda values, places=2: f"{min(values):.{places}f} to {max(values):.{places}f}"
         names |= {"min": min, "max": max, "sum": sum, "len": len, "zip": zip, "abs": abs}
         try:
@@ -205,10 +211,13 @@ def when_made(page, summaries):
     """The day on which the last of the studies ended whose tables a page has, and the commits that made them: "2026-11-23 | `5af6c5ddfb`"."""
     studies = dict.fromkeys(block["study"] for block in BLOCK.finditer(read_text(page)))
     origins = [summary_file.read(path_inside(summaries, study + ".csv", page))[0] for study in studies]
-    if not origins:
+    ends, commits = [origin["finished"] for origin in origins], [commit for origin in origins for commit in origin["commit"].split(" and ")]
+    if ADVICE.search(read_text(page)):
+        end, of_advice = advice.Advice(summaries).made()
+        ends, commits = [*ends, end], [*commits, *of_advice]
+    if not ends:
         raise ResultsError(f"{page}: it has no tables, so that no day is known")
-    commits = dict.fromkeys(commit for origin in origins for commit in origin["commit"].split(" and "))
-    return f"{max(origin['finished'] for origin in origins)[:10]} | {', '.join(f'`{commit[:10]}`' for commit in commits)}"
+    return f"{max(ends)[:10]} | {', '.join(f'`{commit[:10]}`' for commit in dict.fromkeys(commits))}"
 
 
 def filled(text, summaries, file):
@@ -224,6 +233,9 @@ def filled(text, summaries, file):
             table, cells = _excerpt(table, cells, block["excerpt"], f"{file}: table {block['name']}")
         return block["head"] + markdown(table, cells, summary_file.made_from(origin, table, cells)) + block["end"]
 
+    def advised(block):
+        return block["head"] + advice.table(advice.Advice(summaries), block["chip"], block["surface"]) + block["end"]
+
     def said(number):
         if number["name"].startswith("made "):
             page = path_inside(os.path.dirname(file), number["name"].removeprefix("made "), file)
@@ -235,7 +247,7 @@ def filled(text, summaries, file):
             raise ResultsError(f"{file}: no number '{name}'; {numbers_file(of)} has: {', '.join(expressions) or 'none'}")
         return number["head"] + Numbers(summaries, of).text(expressions[name]) + number["end"]
 
-    new = NUMBER.sub(said, BLOCK.sub(made, text))
+    new = NUMBER.sub(said, ADVICE.sub(advised, BLOCK.sub(made, text)))
     unused = sorted(set(expressions_of(file)) - {n["name"] for n in NUMBER.finditer(text)})
     if unused:
         raise ResultsError(f"{numbers_file(file)}: the page says '{unused[0]}' nowhere; delete its expression")
