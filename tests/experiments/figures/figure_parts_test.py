@@ -11,6 +11,7 @@ from matplotlib.text import Text
 from ssrlab.figures import crops, style
 from ssrlab.figures.lines import draw_lines
 from ssrlab.figures.placed_labels import place_labels
+from ssrlab.figures.summary_picture import Mark, Panel, Picture, draw, front_of
 from ssrlab.results import Measured
 from ssrlab.tables.cell import Cell
 from ssrlab.tables.latex import latex
@@ -29,6 +30,15 @@ def test_crop_boxes():
         second[0] <= 3 and second[0] + second[2] >= 6 and second[1] <= 2 and second[1] + second[3] >= 6,
         f"the second worst is not in {second}",
     )
+
+
+def test_fronts():
+    """The points that no cheaper one beats are joined, in the order of their times."""
+    marks = [Mark("t", "black", "o", Cell("", "", "", error, 0.9 * error, 1.1 * error), x=Cell("", "", "", time)) for time, error in ((4, 0.2), (1, 0.5), (2, 0.6), (3, 0.3))]
+    check([m.x.value for m in front_of(marks)] == [1, 3, 4], "2 ms err more than 1 ms")
+    figure = draw(Picture([Panel("rooms", [("t", marks)], 1.0)], "ms", kind="fronts", steps=(0.5, 1)), style.WIDTHS["slide"])
+    joined = next(line for line in figure.axes[0].lines if line.get_label() == "t")
+    check(list(joined.get_ydata()) == [0.5, 0.3, 0.2], "the front")
 
 
 def test_file_names():
@@ -108,6 +118,7 @@ def test_long_tables():
 
 
 test_crop_boxes()
+test_fronts()
 test_file_names()
 test_wrapped()
 test_values_not_above_zero()

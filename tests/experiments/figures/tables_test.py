@@ -658,6 +658,33 @@ def test_documents(temporary):
     check("cannot read" in tables("--check", "7", "--root", root).stderr, "a study without a summary")
 
 
+ADVICE_COLUMNS = "chip,ms,place,movement,surface,technique,point,label,preset,rank,ratio,low,high,chance_first,chance_near,standing,scenes,of_scenes,us,us_low,us_high,places,reason"
+
+
+def test_advice(temporary):
+    """The kept table of `ssrlab advise` in documents: as a table, and as numbers in prose."""
+    root = os.path.join(temporary, "advice_tree")
+    studies = os.path.join(root, "experiments", "studies")
+    kind = "chip,1,rooms,at rest,all"
+    rows = [f"{kind},good,a,good a,,1,0.4,0.3,0.5,0.98,1,best,8,8,810,790,830,4,", f"{kind},bad,b,bad b,,2,0.9,0.8,1,0.02,0.1,behind,8,8,500,,,4,", f"{kind},dear,c,dear c,,,,,,,,,0,0,9000,,,4,above the budget"]
+    study = {"title": "t", "config": "c.json", "commit": "a" * 40, "finished": "2026-01-02T03:04:05Z", "sizes": ["320x180"]}
+    sources = {"errors": [study], "costs": study | {"commit": "b" * 40}, "compilers": {"chip": "Mesa"}, "points": {}, "rows": 3}
+    os.makedirs(os.path.join(studies, "summaries"))
+    write(os.path.join(studies, "advice.csv"), "\n".join([ADVICE_COLUMNS, *rows, ""]))
+    write(os.path.join(studies, "advice.json"), json.dumps(sources))
+    document = os.path.join(root, "page.md")
+    write(document, "<!-- advice chip all -->\n<!-- end of table -->\n<!--=made page.md--><!--/--> <!--=r--><!--/-->")
+    write(os.path.join(root, "page.numbers.json"), json.dumps({"r": "advised('ratio', 'chip', 1, 'rooms, at rest', rank=2)"}))
+    check(tables("--fill", "--root", root).returncode == 0, "--fill")
+    filled = read(document)
+    check("| chip | 1 ms | rooms, at rest | **good a** | 0.40 [0.30, 0.50] | 0.98 | 0.81 [0.79, 0.83] | bad b: 0.90 [0.80, 1.00], certainly worse |" in filled, filled)
+    check(f"<!--=made page.md-->2026-01-02 | `{'a' * 10}`, `{'b' * 10}`<!--/--> <!--=r-->0.90 [0.80, 1.00]<!--/-->" in filled, filled)
+    check(tables("--check", "7", "--root", root).returncode == 0, "nothing is stale")
+    write(os.path.join(studies, "advice.csv"), "\n".join([ADVICE_COLUMNS, *rows[:2], ""]))
+    cut = tables("--check", "7", "--root", root)
+    check(cut.returncode == 2 and "has 2 rows, not 3" in cut.stderr, cut.stderr)
+
+
 def test_kept_numbers(temporary):
     """What is kept reads back as it was, but for six digits; too much of it is refused, and so is what no commit holds."""
     folder, root = os.path.join(temporary, "results"), os.path.join(temporary, "tree")
@@ -718,6 +745,7 @@ def main():
         test_folders_of_strangers(temporary)
         test_documents(temporary)
         test_kept_numbers(temporary)
+        test_advice(temporary)
 
 
 main()

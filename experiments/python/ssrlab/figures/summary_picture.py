@@ -1,10 +1,12 @@
-"""Pictures of a few numbers from summaries: marks with intervals in rows, bars of shares that add up, or lines."""
+"""Pictures of a few numbers from summaries: marks with intervals in rows, bars of shares that add up, lines, or fronts of two numbers."""
 
 import hashlib
 import json
+import math
 from dataclasses import dataclass, field
 
 import matplotlib.pyplot as plt
+from matplotlib.ticker import NullLocator
 
 from ssrlab.figures import numbers, style
 from ssrlab.tables.cell import Cell
@@ -19,6 +21,7 @@ class Mark:
     mark: str
     cell: Cell
     is_hollow: bool = False
+    x: Cell = None  # of "fronts"
 
 
 @dataclass
@@ -38,14 +41,15 @@ class Picture:
     is_log: bool = True
     has_range: bool = False  # thin lines: the range over shots
     columns: int = 3
-    kind: str = "dots"  # "bars": shares that add up; "lines": over the numbers that are its rows' labels
+    kind: str = "dots"  # "bars": shares that add up; "lines": over the numbers that are its rows' labels; "fronts": over x, rows joined along their fronts
     note: str = ""
+    steps: tuple = ()  # values of x that "fronts" mark by vertical lines
     extra: dict = field(default_factory=dict)  # axis limits
 
 
 def shown_numbers(picture):
     """The hash of all numbers that a picture shows, however it is drawn."""
-    told = [[p.title, p.line, [[label, [[m.series, m.color, m.mark, m.cell.value, m.cell.low, m.cell.high, m.cell.least, m.cell.most] for m in marks]] for label, marks in p.rows]] for p in picture.panels]
+    told = [[p.title, p.line, [[label, [[m.series, m.color, m.mark, m.cell.value, m.cell.low, m.cell.high, m.cell.least, m.cell.most, *([m.x.value, m.x.low, m.x.high] if m.x else [])] for m in marks]] for label, marks in p.rows]] for p in picture.panels]
     return hashlib.sha256(json.dumps([told, picture.xlabel, picture.note, picture.kind]).encode()).hexdigest()
 
 
@@ -115,14 +119,51 @@ def draw_lines(axes, panel, picture, has_labels):
     style.log_axis(axes.yaxis)
 
 
-DRAW = {"dots": draw_dots, "bars": draw_bars, "lines": draw_lines}
+def front_of(marks):
+    """Those that no other mark beats in both numbers, by ascending x."""
+    front = []
+    for mark in sorted(marks, key=lambda m: (m.x.value, m.cell.value)):
+        if not front or mark.cell.value < front[-1].cell.value:
+            front.append(mark)
+    return front
+
+
+def with_gaps(segments):
+    """The xs and ys of segments as one line, which makes a smaller file than one line for each."""
+    places = [place for start, end in segments for place in (start, end, (math.nan, math.nan))]
+    return [x for x, _ in places], [y for _, y in places]
+
+
+def whiskers(marks):
+    """The intervals of both numbers of all marks."""
+    upright = [((m.x.value, m.cell.low), (m.x.value, m.cell.high)) for m in marks if m.cell.low is not None]
+    return with_gaps(upright + [((m.x.low, m.cell.value), (m.x.high, m.cell.value)) for m in marks if m.x.low is not None])
+
+
+def draw_fronts(axes, panel, picture, has_labels):
+    for x in picture.steps:
+        axes.axvline(x, color=GREY, linestyle=":", linewidth=1.2)
+    if panel.line is not None:
+        axes.axhline(panel.line, color=GREY, linestyle="--", linewidth=1)
+    for label, marks in panel.rows:
+        color, front = marks[0].color, front_of(marks)
+        others = [m for m in marks if m not in front]
+        axes.plot(*whiskers(front), color=color, linewidth=0.8, alpha=0.5)
+        axes.plot(*with_gaps([((0.99 * m.x.value, m.cell.value), (1.01 * m.x.value, m.cell.value)) for m in others]), color=color, linewidth=3, alpha=0.5)
+        axes.plot([m.x.value for m in front], [m.cell.value for m in front], marks[0].mark, linestyle="-", color=color, label=label)
+    style.log_axis(axes.xaxis)
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.grid(visible=False)
+
+
+DRAW = {"fronts": draw_fronts, "dots": draw_dots, "bars": draw_bars, "lines": draw_lines}
 
 
 def draw(picture, width):
     """The figure of a picture, this many centimetres wide."""
     rows = max(len(p.rows) for p in picture.panels)
     most = max(len(marks) for p in picture.panels for _, marks in p.rows)
-    height = 3.6 if picture.kind == "lines" else 1.1 + rows * (0.42 if picture.kind == "bars" or most <= 2 else 0.3 + 0.06 * most)
+    height = 4.6 if picture.kind == "fronts" else 3.6 if picture.kind == "lines" else 1.1 + rows * (0.42 if picture.kind == "bars" or most <= 2 else 0.3 + 0.06 * most)
     columns = min(picture.columns, len(picture.panels))
     lines = -(-len(picture.panels) // columns)
     size = (width * style.CENTIMETRE, height * lines * style.scale() * style.CENTIMETRE)

@@ -88,11 +88,12 @@ def table(advice, chip, surface):
     rows = advice.of(chip, surface)
     budgets = sorted({number(r, "ms") for r in rows if r["ms"]})
     kinds = sorted({kind_of(r) for r in rows})
-    lines = [["chip", "within", "kind of picture", "least error", "FLIP / `none`", "probability to be best", "ms, estimated", "second"], ["---"] * 8]
+    lines = [["chip", "within", "kind of picture", "least error", "FLIP / `none`", "probability to be best", "ms, estimated", "second"]]
     lines += [_line(chip, ms, kind, advice.ranked(chip, ms, kind, surface)) for ms in budgets for kind in kinds]
     compiler = advice.sources["compilers"].get(chip, "")
     footer = (
         f"`ssrlab advise --chip {chip}`: errors of {', '.join(map(_study, advice.sources['errors']))}; times of {_study(advice.sources['costs'])}, "
         f"estimated with {markdown_text(compiler)}. In brackets 95 % intervals over scenes and places like these; bold: certainly best; {NO_VALUE}: no value."
     )
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines) + f"\n\n{footer}\n"
+    head, *body = ("| " + " | ".join(line) + " |" for line in lines)
+    return "\n".join([head, "|" + "---|" * 8, *body]) + f"\n\n{footer}\n"

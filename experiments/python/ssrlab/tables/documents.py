@@ -25,8 +25,8 @@ from ssrlab.tables.variance_shares import share_of_total
 from ssrlab.tables.markdown import markdown
 
 BLOCK = re.compile(r"(?P<head><!-- table (?P<study>\S+) (?P<name>\S+)(?: (?P<excerpt>\{[^\n]*\}))? -->\n)(?P<text>.*?)(?P<end><!-- end of table -->)", re.DOTALL)
-
 ADVICE = re.compile(r"(?P<head><!-- advice (?P<chip>\S+) (?P<surface>\S+) -->\n)(?P<text>.*?)(?P<end><!-- end of table -->)", re.DOTALL)
+
 
 NUMBER = re.compile(r"(?P<head><!--=\s*(?P<name>[^\n]*?)\s*-->)(?P<text>[^\n]*?)(?P<end><!--/-->)")
 
