@@ -34,6 +34,7 @@ void make_table(const AdviseOptions& options) {
 
 static void advise_command(const AdviseOptions& options) {
     if (options.makes_table()) return make_table(options);
+    if (options.is_moving && options.is_at_rest) fail("--motion and --rest exclude each other; leave one of them out");
     AdviceQuestion question = options.question;
     question.movement = options.is_moving ? "in motion" : options.is_at_rest ? "at rest" : "";
     const Advice advice = read_advice(options.table);
@@ -50,17 +51,15 @@ static void advise_command(const AdviseOptions& options) {
 void add_advise(Commands& line) {
     AdviseOptions& advise = line.keep<AdviseOptions>();
     CLI::App& command = line.add(
-        "advise",
-        "Name the technique and parameters of least error within a time on a GPU, from a table of studies. For "
-        "example: ssrlab advise --chip navi21 --ms 1 --place room --motion");
+        "advise", "Name the technique and parameters of least error within a time on a GPU, from a table of studies");
+    command.footer("For example: ssrlab advise --chip navi21 --ms 1 --place room --motion");
     option(command, "--chip NAME", advise.question.chip, "Chip, such as navi21; default: all of the table, in short");
     option(command, "--ms MS", advise.question.ms,
            "Time that reflections may take at 1920x1080; default: all of the table, in short")
         ->check(positive());
     option(command, "--place NAME", advise.question.place, "room or street; default: both");
-    CLI::Option* const moving = command.add_flag("--motion", advise.is_moving,
-                                                 "The camera or things move; default: both at rest and in motion");
-    command.add_flag("--rest", advise.is_at_rest, "Nothing moves")->excludes(moving);
+    command.add_flag("--motion", advise.is_moving, "The camera or things move; default: both at rest and in motion");
+    command.add_flag("--rest", advise.is_at_rest, "Nothing moves; not together with --motion");
     option(command, "--surface NAME", advise.question.surface,
            "Surfaces whose error counts; all: everything that reflects")
         ->check(CLI::IsMember({"all", "mirrors", "glossy", "rough"}))
