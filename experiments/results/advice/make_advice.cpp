@@ -18,7 +18,7 @@ using nlohmann::json;
 
 constexpr const char* advised_metric = "flip";
 constexpr const char* advised_target = "specular";
-constexpr const char* no_reflections = "none";
+constexpr const char* advice_baseline = "none";
 
 /// With as many digits as an interval supports, so that the kept file stays small.
 std::optional<double> kept_digits(const std::optional<double>& value) {
@@ -146,7 +146,7 @@ struct AdviceOfKind {
     void add_absent(const std::set<std::string>& named) {
         std::map<std::string, const FrontRow*> cheapest;
         for (const FrontRow& f : found.front) {
-            if (named.contains(f.technique) || f.technique == no_reflections) continue;
+            if (named.contains(f.technique) || f.technique == advice_baseline) continue;
             const FrontRow*& least = cheapest[f.technique];
             if (!least || (f.cost && (!least->cost || *f.cost < *least->cost))) least = &f;
         }
@@ -193,7 +193,7 @@ void add_kind(Advice& advice, const StudyResults& own, const std::string& group,
                                           .margin = primary_of(own.manifest).margin};
         const Tradeoff found =
             tradeoff_of(own, {.error = error, .cost = chip, .baseline = "", .costs = costs, .left_out = {}});
-        if (found.baseline.first != no_reflections)
+        if (found.baseline.first != advice_baseline)
             fail("the study has no technique `none`, by whose error all others are divided; add it to its config");
         std::set<std::string> sizes;
         for (const FrontRow& f : found.front) sizes.insert(f.machine);
