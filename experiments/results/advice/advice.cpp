@@ -27,7 +27,7 @@ void check_advice(const std::filesystem::path& csv, const Advice& advice) {
     if (const size_t rows = advice.sources["rows"].get<size_t>(); rows != advice.rows.size() || rows == 0)
         fail(csv.string(), " has ", advice.rows.size(), " rows, and ", sources_beside(csv).string(), " says ", rows);
     for (const AdviceRow& row : advice.rows) {
-        if (row.reason.empty() && !row.ratio)
+        if ((row.reason.empty() || row.rank) && !row.ratio)
             fail(csv.string(), ": a row of ", row.technique, " has neither a ratio nor a reason");
         const nlohmann::json points = advice.sources["points"].value(row.technique, nlohmann::json::object());
         if (!points.contains(row.point))
