@@ -171,7 +171,6 @@ class Reader:
         self.write_study("my_figures.json", studies_of(page)[0])
         self.write_study("my_rooms.json", studies_of(DOCS / "compare.md")[0])
         self.write_study("my_rooms_gpu.json", next(text for text in studies_of(DOCS / "compare.md") if "my_rooms.json" in text))
-        self.write_study("rooms_gpu.json", studies_of(ROOT / "experiments/studies/questions/rooms_at_gpu_time.md")[0], 3)
         self.write_study("search.json", studies_of(DOCS / "tune.md")[0])
         self.save_technique("mirror_rays")
         self.must_run("ssrlab run experiments/studies/configs/quickstart.json --out results/quickstart --cache cache")

@@ -97,6 +97,7 @@ class Markdown(unittest.TestCase):
             "questions/pictures/flight_helmet.png": "questions/pictures/third_party.crops.json",
             "questions/pictures/room_10103.png": "questions/pictures/composed.crops.json",
             "questions/pictures/room_10105.png": "questions/pictures/composed.crops.json",
+            "questions/pictures/room_30102.png": "questions/pictures/rooms_at_gpu_time.crops.json",
             "questions/pictures/metal_corner.png": "questions/pictures/engines.crops.json",
         }
         for name, source in made_from.items():

@@ -1,4 +1,4 @@
-"""A picture for each page of answers (experiments/studies/questions/pictures/NAME.svg), from the kept summaries (experiments/studies/summaries).
+"""A picture for each page of answers (experiments/studies/questions/pictures/NAME.svg), from the kept summaries (experiments/studies/summaries) and from advice.csv.
 
 usage: python3 experiments/python question_pictures [--out DIR] [NAME ...]
 
@@ -16,9 +16,11 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
+from ssrlab.csv_files import number
 from ssrlab.figures import style
 from ssrlab.figures.summary_picture import GREY, Mark, Panel, Picture, draw, shown_numbers
 from ssrlab.tables import shot_names, summary_file
+from ssrlab.tables.advice import Advice, kind_of
 from ssrlab.tables.cell import Cell
 from ssrlab.tables.documents import Numbers
 from ssrlab.mistakes import exit_code
@@ -350,29 +352,6 @@ def composed():
     return Picture(panels, "error, mean over third-party scenes, 95 % intervals", columns=2)
 
 
-ANSWER = {
-    "composed_ssr, default": "composed_ssr (ours)",
-    "frostbite_sssr, best_1x": "Frostbite, best_1x",
-    "mcguire_dda, any_scale": "linear tracing",
-    "amd_sssr, best": "AMD SSSR, best",
-    "diligent_ssr, best_2x": "DiligentFX, best_2x",
-    "amd_sssr, repeatable": "AMD SSSR, as published",
-}
-
-
-def answer():
-    """The README's: each technique at the preset of least error, and the most used one as published."""
-
-    def panel(title, study):
-        cells = grid(study, "techniques")
-        ours = lambda point: "ours" if point.startswith("composed_ssr") else "others"  # noqa: E731
-        mark = lambda point: Mark(ours(point), style.COLORS[ours(point) == "ours"], "s" if ours(point) == "ours" else "o", cells[point, "flip"])  # noqa: E731
-        return Panel(title, [(label, [mark(point)]) for point, label in ANSWER.items()], 1.0)
-
-    panels = [panel("16 rooms and streets, moving camera", "composed_motion"), panel("13 third-party shots at rest", "composed")]
-    return Picture(panels, "visible error (FLIP) over the error without reflections, 95 % intervals", columns=2)
-
-
 ENGINES = {"three_ssrpass": "three.js SSRPass", "three_ssrnode": "three.js SSRNode", "babylon_ssr": "Babylon.js", "blender_eevee": "Blender EEVEE", "godot3": "Godot", "screen_space_reflections": "npm screen-space-reflections"}
 
 
@@ -409,9 +388,32 @@ def normals():
     return Picture(panels, "MSE of the reflection (intervals are smaller than the marks); hollow: normals as floats", columns=3)
 
 
+OURS = ("black", "*")  # composed_ssr
+
+
+def rooms_at_gpu_time():
+    advice = Advice(str(SUMMARIES))
+    points = [r for r in advice.of("navi21") if not r["ms"] and r["us"] and r["technique"] != "none"]
+    budgets = sorted({number(r, "ms") for r in advice.of("navi21") if r["ms"]})
+
+    def mark(row):
+        color, shape = OURS if row["technique"] == "composed_ssr" else look(row["technique"])
+        time = [None if v is None else v / 1000 for v in (number(row, c) for c in ("us", "us_low", "us_high"))]
+        return Mark(row["technique"], color, shape, Cell("", row["point"], "", *(number(row, c) for c in ("ratio", "low", "high"))), x=Cell("", row["point"], "", *time))
+
+    panels = []
+    for kind in sorted({kind_of(r) for r in points}):
+        of_kind = [r for r in points if kind_of(r) == kind]
+        rows = [(t, [mark(r) for r in of_kind if r["technique"] == t]) for t in [*TECHNIQUES, "composed_ssr"]]
+        panels.append(Panel(kind, [(t, marks) for t, marks in rows if marks], 1.0))
+    return Picture(
+        panels, "estimated ms at 1920x1080 on a Radeon RX 6800 XT; FLIP over that of no reflections, 95 % intervals", columns=2, kind="fronts", steps=tuple(budgets), note="small dots: a cheaper point of the technique errs less"
+    )
+
+
 PUBLISHED_PRESETS = ("default", "sdk_1_5", "current", "frostbite_2015", "blog", "high")
 
-PICTURES = {p.__name__: p for p in (techniques, budgets, rooms, metrics, causes, limit, third_party, traced_environment, corrections, estimators, march, thickness, temporal, half_histories, fragments, resolution, compilers, gpu_times, exact_rays, denoisers, composed, answer, engines, misses, normals)}
+PICTURES = {p.__name__: p for p in (techniques, budgets, rooms, metrics, causes, limit, third_party, traced_environment, corrections, estimators, march, thickness, temporal, half_histories, fragments, resolution, compilers, gpu_times, exact_rays, denoisers, composed, engines, misses, normals, rooms_at_gpu_time)}
 
 
 def save(name, folder):
@@ -423,7 +425,8 @@ def save(name, folder):
     figure.savefig(drawn, format="svg", metadata={"Date": None, "Creator": made_by, "Source": shown_numbers(picture)})
     plt.close(figure)
     text = drawn.getvalue().replace("'DejaVu Sans'", "'DejaVu Sans', Verdana, sans-serif")  # Verdana is as wide
-    file.write_text("\n".join(line.rstrip() for line in text.splitlines()) + "\n", encoding="utf-8")
+    cut = str.strip if picture.kind == "fronts" else str.rstrip  # without indents where there are many marks
+    file.write_text("\n".join(map(cut, text.splitlines())) + "\n", encoding="utf-8")
     print(f"{file}: {file.stat().st_size} bytes")
 
 
