@@ -51,7 +51,7 @@ QUICK = {
     "watch": {"--size": SIZE, "--samples": [32], "--seeds": [1]},
 }
 PLACEHOLDERS = {"CONFIG.json": "my_study.json", "DIR": "results/shared", "CACHE": "cache", "NAME": "reader"}
-SEVERAL_POINTS = ("quickstart", "quality", "comparison", "rooms", "rooms_power", "rooms_gpu_search", "paper")  # configs whose results another line reads
+SEVERAL_POINTS = ("quickstart", "quality", "comparison", "rooms", "rooms_power", "rooms_gpu", "rooms_gpu_in_motion", "rooms_gpu_costs", "paper")  # configs whose results another line reads
 
 
 def without_comments(text):
