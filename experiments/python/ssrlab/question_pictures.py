@@ -407,7 +407,7 @@ def rooms_at_gpu_time():
         rows = [(t, [mark(r) for r in of_kind if r["technique"] == t]) for t in [*TECHNIQUES, "composed_ssr"]]
         panels.append(Panel(kind, [(t, marks) for t, marks in rows if marks], 1.0))
     return Picture(
-        panels, "estimated ms at 1920x1080 on a Radeon RX 6800 XT; FLIP over that of no reflections, 95 % intervals", columns=2, kind="fronts", steps=tuple(budgets), note="small dots: a cheaper point of the technique errs less"
+        panels, "estimated ms at 1920x1080 on a Radeon RX 6800 XT; FLIP over that of no reflections, 95 % intervals", columns=2, kind="fronts", steps=tuple(budgets), note="short dashes: a cheaper point of the technique errs less"
     )
 
 
