@@ -76,7 +76,7 @@ struct AtCosts : AnswerContext {
         std::string text = title + first_sentence(rows) + "\n" + point_sentence(machine, rows, cost);
         Names partly, fitting, absent;
         for (const AcrossRow* row : rows) {
-            if (row->scenes < scenes)
+            if (!row->rank && row->scenes < scenes)
                 partly.push_back(message_text(markdown_text(row->label), " (", row->scenes, " of ", scenes,
                                               " scenes, where its error is ", measured(row->ratio, row->low, row->high),
                                               " times the error of ", base, ")"));
