@@ -111,7 +111,7 @@ std::optional<InstrumentedPipeline> CostCounter::before(const PassRun& run) {
     return counted;
 }
 
-void CostCounter::after(const PassRun& run, std::vector<std::byte> content) {
+void CostCounter::after(const PassRun& run, std::span<const std::byte> content) {
     std::array<uint64_t, most_shader_counters> counts;
     std::memcpy(counts.data(), content.data(), sizeof counts);
     const PassCost cost = cost_of(run, counters_, counts);

@@ -67,7 +67,7 @@ public:
     const GlslChange* glsl_change() const override { return &change_; }
     std::optional<InstrumentedPipeline> before(const PassRun& run) override;
     /// Fails with Error if the device's own count of invocations differs from the shader's.
-    void after(const PassRun& run, std::vector<std::byte> content) override;
+    void after(const PassRun& run, std::span<const std::byte> content) override;
     void cleared(const Image& image, glm::vec4 value) override;
     void cleared(const Buffer& buffer) override;
 

@@ -18,6 +18,18 @@ inline constexpr size_t params_offset = 2048, params_size = 4096, max_params_of_
 inline constexpr size_t uniforms_size = params_offset + max_params_of_frame * params_size;
 static_assert(sizeof(CameraData) <= params_offset);
 
+/// The buffer of instrumented pipelines, kept from pass to pass: traces take 128 MiB, and new memory takes longer than
+/// the passes.
+struct WatchedBuffer {
+    std::shared_ptr<BufferStorage> storage;
+    DeviceBuffer host;
+    size_t size = 0;  ///< bytes of both
+
+    void grow(Device::Impl& gpu, size_t bytes);
+    /// The first bytes, until the next call.
+    std::span<const std::byte> content(Device::Impl& gpu, size_t bytes) const;
+};
+
 struct PassList::Impl {
     Device& device;
     Device::Impl& gpu;
@@ -39,6 +51,7 @@ struct PassList::Impl {
     PassChanges changes;
     PassWatcher* watcher = nullptr;
     std::map<std::string, Pipeline> watched_pipelines;  ///< by the bytes of their recipes
+    WatchedBuffer watched;
     vk::raii::QueryPool device_counts{nullptr};         ///< of invocations, once a pass was watched that has them
 
     std::vector<PassTime> times;

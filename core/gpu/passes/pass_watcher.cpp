@@ -5,6 +5,22 @@
 
 void PassList::watch(PassWatcher* watcher) { impl_->watcher = watcher; }
 
+void WatchedBuffer::grow(Device::Impl& gpu, size_t bytes) {
+    if (bytes <= size) return;
+    storage = create_buffer(gpu, bytes);
+    host = DeviceBuffer(gpu, bytes, vk::BufferUsageFlagBits::eTransferDst, true);
+    size = bytes;
+}
+
+std::span<const std::byte> WatchedBuffer::content(Device::Impl& gpu, size_t bytes) const {
+    gpu.submit([&](auto& commands) {
+        full_barrier(commands);
+        commands.copyBuffer(*storage->buffer.buffer, *host.buffer, vk::BufferCopy{.size = bytes});
+        full_barrier(commands);
+    });
+    return {host.data, bytes};
+}
+
 bool PassList::Impl::run_watched(Pass& pass, ShaderChanges changes, const PipelineState& state,
                                  const std::vector<Image>& targets, const std::function<glm::uvec3()>& groups,
                                  const Recording& record) {
@@ -47,10 +63,14 @@ bool PassList::Impl::run_watched(Pass& pass, ShaderChanges changes, const Pipeli
         pipeline->second.interface = seen.interface;
         pipeline->second.interface.resources = other->recipe.resources;
     }
-    const Buffer buffer{other->buffer, other->bytes, create_buffer(gpu, other->bytes)};
     flush();
-    gpu.submit([&](auto& commands) { commands.fillBuffer(*buffer.storage->buffer.buffer, 0, VK_WHOLE_SIZE, 0); });
-    if (!other->begin.empty()) upload_bytes(gpu, buffer, other->begin);
+    watched.grow(gpu, other->bytes);
+    const Buffer buffer{other->buffer, other->bytes, watched.storage};
+    gpu.submit([&](auto& commands) {
+        commands.fillBuffer(*buffer.storage->buffer.buffer, 0, buffer.size, 0);
+        full_barrier(commands);
+    });
+    upload_bytes(gpu, buffer, other->begin);
     const bool has_invocations = gpu.has_statistics && pass.is_compute_;
     using Statistic = vk::QueryPipelineStatisticFlagBits;
     if (has_invocations && !*device_counts)
@@ -71,6 +91,6 @@ bool PassList::Impl::run_watched(Pass& pass, ShaderChanges changes, const Pipeli
             0, 1, sizeof(uint64_t), vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
         if (result == vk::Result::eSuccess) run.device_invocations = count;
     }
-    watcher->after(run, download_bytes(gpu, buffer));
+    watcher->after(run, watched.content(gpu, buffer.size));
     return true;
 }

@@ -1,6 +1,8 @@
 #pragma once
 #include "core/gpu/passes/pass_list.h"
 
+#include <span>
+
 /// One run of a pass, with all that another API needs to run it again. What it points to lives until the watcher
 /// returns.
 struct PassRun {
@@ -46,8 +48,8 @@ public:
     virtual const GlslChange* glsl_change() const { return nullptr; }
     /// Called before a pass runs. If it returns no pipeline, the pass runs unchanged and after() is not called.
     virtual std::optional<InstrumentedPipeline> before(const PassRun&) { return {}; }
-    /// `content`: what the pass left in the buffer.
-    virtual void after(const PassRun&, std::vector<std::byte> /*content*/) {}
+    /// `content`: what the pass left in the buffer; it lives until the watcher returns.
+    virtual void after(const PassRun&, std::span<const std::byte> /*content*/) {}
     virtual void cleared(const Image&, glm::vec4 /*value*/) {}
     virtual void cleared(const Buffer&) {}
     virtual void uploaded(const Image&) {}

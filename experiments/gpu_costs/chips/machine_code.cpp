@@ -227,14 +227,14 @@ std::vector<BlockRuns> runs_of(const MachineCode& code, const MarkedShader& mark
             ++copies[mark];
         }
 
-    FlowGraph pass_list(code.blocks.size());
+    FlowGraph graph(code.blocks.size());
     for (size_t b = 0; b < code.blocks.size(); ++b)
-        for (const unsigned next : code.blocks[b].successors) pass_list.add_edge(b, next);
-    const std::vector<unsigned> before = nearest_dominators(pass_list), after = nearest_postdominators(pass_list);
-    const std::vector<unsigned> depth = loop_depths(pass_list);
+        for (const unsigned next : code.blocks[b].successors) graph.add_edge(b, next);
+    const std::vector<unsigned> before = nearest_dominators(graph), after = nearest_postdominators(graph);
+    const std::vector<unsigned> depth = loop_depths(graph);
 
     std::vector<BlockRuns> runs(code.blocks.size());
-    for (const size_t b : pass_list.order()) {
+    for (const size_t b : graph.order()) {
         const std::vector<unsigned>& marks = code.blocks[b].marks;
         if (!marks.empty()) {
             const unsigned mark = *std::ranges::min_element(marks, {}, [&](unsigned m) { return copies[m]; });

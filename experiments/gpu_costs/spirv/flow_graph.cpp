@@ -33,10 +33,10 @@ std::vector<size_t> FlowGraph::order() const {
 }
 
 /// Cooper, Harvey & Kennedy 2001, "A Simple, Fast Dominance Algorithm", figure 3.
-std::vector<unsigned> nearest_dominators(const FlowGraph& pass_list) {
-    const unsigned none = unsigned(pass_list.size());
-    const std::vector<size_t> order = pass_list.order();
-    std::vector<unsigned> number(pass_list.size(), none);  ///< in that order
+std::vector<unsigned> nearest_dominators(const FlowGraph& graph) {
+    const unsigned none = unsigned(graph.size());
+    const std::vector<size_t> order = graph.order();
+    std::vector<unsigned> number(graph.size(), none);  ///< in that order
     for (unsigned i = 0; i < order.size(); ++i) number[order[i]] = i;
     std::vector<unsigned> nearest(order.size(), none);  ///< by these numbers
     if (!order.empty()) nearest[0] = 0;
@@ -44,7 +44,7 @@ std::vector<unsigned> nearest_dominators(const FlowGraph& pass_list) {
         changes = false;
         for (unsigned b = 1; b < order.size(); ++b) {
             unsigned common = none;
-            for (const unsigned block : pass_list.previous(order[b])) {
+            for (const unsigned block : graph.previous(order[b])) {
                 unsigned p = number[block];
                 if (p == none || nearest[p] == none) continue;
                 for (; common != none && p != common;)
@@ -57,33 +57,33 @@ std::vector<unsigned> nearest_dominators(const FlowGraph& pass_list) {
             if (common != nearest[b]) nearest[b] = common, changes = true;
         }
     }
-    std::vector<unsigned> result(pass_list.size(), none);
+    std::vector<unsigned> result(graph.size(), none);
     for (unsigned b = 1; b < order.size(); ++b) result[order[b]] = unsigned(order[nearest[b]]);
     return result;
 }
 
-std::vector<unsigned> nearest_postdominators(const FlowGraph& pass_list) {
-    FlowGraph backwards(pass_list.size() + 1);  // the first is the end of all
-    for (size_t b = 0; b < pass_list.size(); ++b) {
-        if (pass_list.next(b).empty()) backwards.add_edge(0, b + 1);
-        for (const unsigned next : pass_list.next(b)) backwards.add_edge(next + 1, b + 1);
+std::vector<unsigned> nearest_postdominators(const FlowGraph& graph) {
+    FlowGraph backwards(graph.size() + 1);  // the first is the end of all
+    for (size_t b = 0; b < graph.size(); ++b) {
+        if (graph.next(b).empty()) backwards.add_edge(0, b + 1);
+        for (const unsigned next : graph.next(b)) backwards.add_edge(next + 1, b + 1);
     }
     const std::vector<unsigned> nearest = nearest_dominators(backwards);
-    std::vector<unsigned> result(pass_list.size(), unsigned(pass_list.size()));
-    for (size_t b = 0; b < pass_list.size(); ++b)
+    std::vector<unsigned> result(graph.size(), unsigned(graph.size()));
+    for (size_t b = 0; b < graph.size(); ++b)
         if (const unsigned n = nearest[b + 1]; n > 0 && n < backwards.size()) result[b] = n - 1;
     return result;
 }
 
-std::vector<unsigned> loop_depths(const FlowGraph& pass_list) {
-    const std::vector<unsigned> nearest = nearest_dominators(pass_list);
+std::vector<unsigned> loop_depths(const FlowGraph& graph) {
+    const std::vector<unsigned> nearest = nearest_dominators(graph);
     const auto dominates = [&](size_t before, size_t block) {
-        while (block < pass_list.size() && block != before) block = nearest[block];
+        while (block < graph.size() && block != before) block = nearest[block];
         return block == before;
     };
     std::map<size_t, std::set<size_t>> loops;  ///< by the block that they begin with
-    for (const size_t end : pass_list.order())
-        for (const unsigned begin : pass_list.next(end)) {
+    for (const size_t end : graph.order())
+        for (const unsigned begin : graph.next(end)) {
             if (!dominates(begin, end)) continue;
             std::set<size_t>& loop = loops[begin];
             loop.insert(begin);
@@ -92,10 +92,10 @@ std::vector<unsigned> loop_depths(const FlowGraph& pass_list) {
                 const size_t block = found.back();
                 found.pop_back();
                 if (loop.insert(block).second)
-                    found.insert(found.end(), pass_list.previous(block).begin(), pass_list.previous(block).end());
+                    found.insert(found.end(), graph.previous(block).begin(), graph.previous(block).end());
             }
         }
-    std::vector<unsigned> depths(pass_list.size(), 0);
+    std::vector<unsigned> depths(graph.size(), 0);
     for (const auto& [begin, loop] : loops)
         for (const size_t block : loop) ++depths[block];
     return depths;

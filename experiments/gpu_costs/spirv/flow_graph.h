@@ -20,8 +20,8 @@ private:
 };
 
 /// For each block the nearest other block that all paths from the start pass; size(): none.
-std::vector<unsigned> nearest_dominators(const FlowGraph& pass_list);
+std::vector<unsigned> nearest_dominators(const FlowGraph& graph);
 /// For each block the nearest other block that all paths to an end pass; size(): none.
-std::vector<unsigned> nearest_postdominators(const FlowGraph& pass_list);
+std::vector<unsigned> nearest_postdominators(const FlowGraph& graph);
 /// For each block the number of loops that contain it. A loop is everything on a path from a block back to itself.
-std::vector<unsigned> loop_depths(const FlowGraph& pass_list);
+std::vector<unsigned> loop_depths(const FlowGraph& graph);

@@ -105,10 +105,10 @@ ShaderFlow flow_of(const PipelineRecipe& simplified) {
 }
 
 FlowGraph graph_of(const ShaderFlow& flow) {
-    FlowGraph pass_list(flow.blocks.size());
+    FlowGraph graph(flow.blocks.size());
     for (size_t b = 0; b < flow.blocks.size(); ++b)
-        for (const unsigned next : flow.blocks[b].successors) pass_list.add_edge(b, next);
-    return pass_list;
+        for (const unsigned next : flow.blocks[b].successors) graph.add_edge(b, next);
+    return graph;
 }
 
 unsigned add_storage_buffer(PipelineRecipe& recipe, const std::string& name) {

@@ -11,10 +11,14 @@ public:
     explicit PassTracer(Observer observer) : observer_(std::move(observer)) {}
 
     std::optional<InstrumentedPipeline> before(const PassRun& run) override;
-    void after(const PassRun& run, std::vector<std::byte> content) override;
+    void after(const PassRun& run, std::span<const std::byte> content) override;
 
 private:
     const Observer observer_;
     PassTrace trace_;                               ///< of the running pass
-    std::map<std::string, PipelineRecipe> traced_;  ///< by bytes of the simplified recipe
+    struct Traced {
+        PipelineRecipe recipe;
+        unsigned lane_words = 0;
+    };
+    std::map<std::string, Traced> traced_;  ///< by bytes of the simplified recipe
 };
