@@ -30,6 +30,7 @@ NOT_RUN = {  # by a part of the line
     "tests/run.sh": "runs this test",
     "mesa_25": "needs a package from the network",
     "gpu_newer.json": "needs this package, too",
+    "rooms_gpu_costs_newer": "needs this package, too",
     "three_ssrpass/tune.json": "renders in a browser",
     "tables results/comparison": "shows points that the small study leaves out",
     "tune my_search.json": "is a search of any name; that of search.json is run",

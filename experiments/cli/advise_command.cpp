@@ -12,8 +12,8 @@ struct AdviseOptions {
     AdviceQuestion question;
     bool is_moving = false, is_at_rest = false;
     std::filesystem::path table = SSRLAB_SOURCE_DIR "/experiments/studies/advice.csv", json;
-    std::vector<std::filesystem::path> studies;
-    std::filesystem::path costs_from, keep;
+    std::vector<std::filesystem::path> studies, costs_from;
+    std::filesystem::path keep;
 
     bool makes_table() const { return !studies.empty() || !costs_from.empty() || !keep.empty(); }
 };
@@ -22,10 +22,13 @@ void make_table(const AdviseOptions& options) {
     if (options.studies.empty() || options.costs_from.empty() || options.keep.empty())
         fail("a table needs --study, --costs-from and --keep together; leave them out to ask a question");
     if (options.keep.extension() != ".csv") fail("--keep ", options.keep.string(), " must end in .csv");
-    std::vector<StudyResults> errors;
-    for (const std::filesystem::path& folder : options.studies)
-        errors.push_back(read_study_results(folder, Runs::left_out));
-    const Advice advice = make_advice(std::move(errors), read_study_results(options.costs_from, Runs::left_out));
+    const auto read = [](const std::vector<std::filesystem::path>& folders) {
+        std::vector<StudyResults> studies;
+        for (const std::filesystem::path& folder : folders)
+            studies.push_back(read_study_results(folder, Runs::left_out));
+        return studies;
+    };
+    const Advice advice = make_advice(read(options.studies), read(options.costs_from));
     write_advice(options.keep, advice);
     std::cout << options.keep.string() << ": " << advice.rows.size() << " rows\n";
 }
@@ -70,7 +73,7 @@ void add_advise(Commands& line) {
     option(command, "--study DIR", advise.studies,
            "Makes a table: results folders of studies of errors, whose groups of shots are as \"rooms, at rest\"");
     option(command, "--costs-from DIR", advise.costs_from,
-           "Makes a table: results folder with estimated times of the same points");
+           "Makes a table: results folders with estimated times of the same points, each of its own chips");
     option(command, "--keep FILE.csv", advise.keep,
            "Makes a table: file to write, with a file of the same name in .json that says what it rests on");
     add_reading(command);

@@ -54,6 +54,43 @@ TEST(MachineCode, WorkIsThatOfItsInstructions) {
     EXPECT_THROW(machine_code_of("BB0:\n\ts_branch BB7\n", 64, rates), Error);
 }
 
+/// Where LLVM cannot print the code, Mesa lists it in its own way. RDNA 4 has one counter for each kind of load.
+TEST(MachineCode, MesasOwnListingSaysTheSame) {
+    const std::string assembly =
+        "BB0:\n\tv_lshrrev_b32_e32 v0, 10, v0\n\ts_load_dwordx8 s[8:15], s[2:3], 0x20\n"
+        "\tds_read_b128 v[4:7], v9\n\ts_waitcnt lgkmcnt(0)\n" +
+        mark(1) +
+        "\ts_cbranch_execz BB2\nBB1:\n\timage_load v2, v[0:1], s[8:15] dmask:0x1 dim:SQ_RSRC_IMG_2D unorm\n"
+        "\timage_sample_lz v3, v[0:1], s[8:15], s[20:23] dmask:0x2 dim:SQ_RSRC_IMG_2D\n\ts_waitcnt vmcnt(1)\n"
+        "\tv_mov_b32_e32 v5, v2\n\ts_waitcnt vmcnt(0)\nBB2:\n\ts_endpgm\n";
+    const std::string listing =
+        "Shader disassembly is not supported in the current configuration, falling back to print_program.\n\n"
+        "ACO shader stage: SW (CS), HW (COMPUTE_SHADER)\nBB0\n/* logical preds: / linear preds: / kind: branch, */\n"
+        "\t v1: %9:v[0] = v_lshrrev_b32 10, %658:v[0]\n\t s8: %32:s[8-15] = s_load_dwordx8 %31:s[2-3], 32\n"
+        "\t v4: %33:v[4-7] = ds_read_b128 %34:v[9]\n\ts_wait_kmcnt imm:0\n\tbuffer_store_dword %7:s[8-11], v1: undef, "
+        "0, "
+        "%8:v[2] offset:" +
+        std::to_string(first_mark_offset + 4) +
+        " glc\n\ts_cbranch_execz block:BB2\nBB1\n/* logical preds: BB0, / kind: uniform, */\n"
+        "\t v1: %682:v[2] = image_load %32:s[8-15],  s4: undef,  v1: undef, %7:v[0], %11:v[1] 2d unrm\n"
+        "\t v1: %683:v[3] = image_sample_lz %32:s[8-15], %35:s[20-23],  v1: undef, %7:v[0], %11:v[1] dmask:y 2d\n"
+        "\ts_wait_loadcnt imm:0\n\t v1: (precise)%690:v[5] = v_mov_b32 %682:v[2]\n\ts_wait_samplecnt imm:0\nBB2\n"
+        "/* logical preds: BB1, BB0, / kind: uniform, */\n\ts_endpgm\n";
+    const MachineCode a = machine_code_of(assembly, 64, rates), b = machine_code_of(listing, 64, rates);
+    ASSERT_EQ(a.blocks.size(), 3u);
+    EXPECT_TRUE(have_same_flow(a, b));
+    for (size_t i = 0; i < 3; ++i) {
+        const ChipWork &x = a.blocks[i].work, &y = b.blocks[i].work;
+        EXPECT_EQ(a.blocks[i].instructions, b.blocks[i].instructions);
+        EXPECT_EQ(a.blocks[i].marks, b.blocks[i].marks);
+        EXPECT_EQ(
+            std::tie(x.vector, x.scalar, x.shared, x.loads, x.samples, x.stores, x.buffers, x.exports, x.latency),
+            std::tie(y.vector, y.scalar, y.shared, y.loads, y.samples, y.stores, y.buffers, y.exports, y.latency));
+    }
+    EXPECT_EQ(b.blocks[0].marks, std::vector<unsigned>{1});
+    EXPECT_GT(b.blocks[1].work.latency, rates.memory_latency);
+}
+
 TEST(MachineCode, PaddingOfLoopsIsNoInstruction) {
     const MachineCode code = machine_code_of(
         "BB0:\n\tv_mov_b32 v0, v1\n\ts_inst_prefetch 0x3\n\ts_nop 0\n\ts_nop 0\nBB1:\n\tv_mov_b32 v0, v2\n"

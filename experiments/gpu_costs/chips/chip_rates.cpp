@@ -37,13 +37,15 @@ const std::map<std::string, ChipRates>& all_rates() {
         std::map<std::string, ChipRates> rates = {
             {"navi21", of_product(rdna, "Radeon RX 6800 XT", 72, 2.25, 512, 1024, 128)},
             {"gfx1100", of_product(rdna, "Radeon RX 7900 XTX", 96, 2.5, 960, 1536, 192)},
+            {"gfx1201", of_product(rdna, "Radeon RX 9070 XT", 64, 2.97, 640, 1024, 128)},
             {"vega10", of_product(gcn, "Radeon RX Vega 64", 64, 1.546, 483.8, 1024, 64)},
             {"polaris10", of_product(gcn, "Radeon RX 480", 36, 1.266, 256, 512, 32)},
         };
-        ChipRates &navi21 = rates.at("navi21"), &gfx1100 = rates.at("gfx1100");
+        ChipRates &navi21 = rates.at("navi21"), &gfx1100 = rates.at("gfx1100"), &gfx1201 = rates.at("gfx1201");
         navi21.last_megabytes = 128, navi21.last_gigabytes = 2000;
         gfx1100.last_megabytes = 96, gfx1100.last_gigabytes = 5300;
-        gfx1100.slow_double = 32;
+        gfx1201.last_megabytes = 64, gfx1201.last_gigabytes = 2000;
+        gfx1100.slow_double = gfx1201.slow_double = 32;
         return rates;
     }();
     return known;

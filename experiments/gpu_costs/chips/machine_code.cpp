@@ -29,10 +29,12 @@ struct Line {
     std::string_view name, rest;
 };
 
-/// A line of assembly without the bytes of its code; nothing of labels and comments.
+/// A line of assembly without the bytes of its code; nothing of labels and comments. In Mesa's own listing
+/// (`v1: %6:v[1] = v_and_b32 7, %658:v[0]`), what stands left of the instruction is left out.
 std::optional<Line> line_of(std::string_view text) {
     if (!text.starts_with("\t") || text.starts_with("\t(")) return {};
     text = text.substr(1, text.find(';') - 1);
+    if (const size_t defined = text.find(" = "); defined != text.npos) text.remove_prefix(defined + 3);
     const size_t end = text.find_first_of(" \t\n");
     return Line{text.substr(0, end), end == text.npos ? "" : text.substr(end + 1)};
 }
@@ -42,7 +44,7 @@ enum class Unit { vector, scalar, shared, load, sample, store, buffer, exported,
 Unit unit_of(std::string_view name) {
     if (name.starts_with("v_")) return Unit::vector;
     if (is_one_of(name, {"s_cbranch", "s_branch"})) return Unit::branch;
-    if (is_one_of(name, {"s_waitcnt", "s_nop", "s_endpgm", "s_clause", "s_inst_prefetch", "s_delay_alu", "s_barrier",
+    if (is_one_of(name, {"s_wait", "s_nop", "s_endpgm", "s_clause", "s_inst_prefetch", "s_delay_alu", "s_barrier",
                          "s_sendmsg", "s_code_end", "s_setprio", "s_sleep", "s_ttrace"}))
         return Unit::none;
     if (name.starts_with("s_")) return Unit::scalar;
@@ -113,7 +115,7 @@ ChipWork work_of(const Line& line, Unit unit, unsigned lanes, const ChipRates& r
 /// A store of a mark: to a constant place of a buffer.
 std::optional<unsigned> mark_of(const Line& line) {
     if (!is_one_of(line.name, {"buffer_store_dword", "buffer_store_b32"})) return {};
-    if (line.rest.find(", off, ") == line.rest.npos) return {};
+    if (line.rest.find(", off, ") == line.rest.npos && line.rest.find("v1: undef") == line.rest.npos) return {};
     const std::optional<unsigned> offset = number_behind(line.rest, "offset:");
     if (!offset || *offset < first_mark_offset) return {};
     return (*offset - first_mark_offset) / 4;
@@ -130,16 +132,24 @@ public:
         const bool is_load = unit == Unit::load || unit == Unit::sample ||
                              (unit == Unit::buffer && line.name.find("_load") != line.name.npos);
         if (is_load || (rates_.waits_for_stores && (unit == Unit::store || unit == Unit::buffer)))
-            vector_loads_.push_back(is_load ? now_ + rates_.memory_latency : now_);
-        if (is_one_of(line.name, {"s_load", "s_buffer_load"})) scalar_loads_.push_back(now_ + rates_.scalar_latency);
-        if (unit == Unit::shared) scalar_loads_.push_back(now_ + rates_.shared_latency);
-        if (!line.name.starts_with("s_waitcnt")) return;
-        if (const auto most = number_behind(line.rest, "vmcnt(")) wait(vector_loads_, *most);
-        if (const auto most = number_behind(line.rest, "lgkmcnt(")) wait(scalar_loads_, *most);
+            count({"vmcnt", unit == Unit::sample ? "samplecnt" : "loadcnt"},
+                  is_load ? now_ + rates_.memory_latency : now_);
+        if (is_one_of(line.name, {"s_load", "s_buffer_load"}))
+            count({"lgkmcnt", "kmcnt"}, now_ + rates_.scalar_latency);
+        if (unit == Unit::shared) count({"lgkmcnt", "dscnt"}, now_ + rates_.shared_latency);
+        if (!line.name.starts_with("s_wait")) return;
+        for (auto& [counter, loads] : loads_) {
+            const bool is_named = line.name.find(counter) != line.name.npos;  // s_wait_loadcnt imm:0, of RDNA 4
+            if (const auto most = number_behind(line.rest, is_named ? "imm:" : counter + "(")) wait(loads, *most);
+        }
     }
     double now() const { return now_; }
 
 private:
+    void count(std::initializer_list<const char*> counters, double there) {
+        for (const char* counter : counters) loads_[counter].push_back(there);
+    }
+
     /// Until there are `most` of them, which come in order.
     void wait(std::deque<double>& loads, size_t most) {
         for (; loads.size() > most; loads.pop_front()) now_ = std::max(now_, loads.front());
@@ -147,7 +157,8 @@ private:
 
     const ChipRates& rates_;
     double now_ = 0;
-    std::deque<double> vector_loads_, scalar_loads_;  ///< when they will have come
+    /// When they will have come, by the counter that waits for them. RDNA 4 has more counters than its predecessors.
+    std::map<std::string, std::deque<double>> loads_;
 };
 
 /// The lines of each block, by its label. "": before the first label.
@@ -203,7 +214,9 @@ MachineCode machine_code_of(const std::string& assembly, unsigned lanes, const C
                                                                                          : block.instructions);
             clock.step(line, unit, work.vector);
             if (unit == Unit::branch) {
-                const auto target = places.find(line.rest.substr(0, line.rest.find_first_of(" \t")));
+                std::string_view label = line.rest.substr(0, line.rest.find_first_of(" \t"));
+                if (label.starts_with("block:")) label.remove_prefix(label.find(':') + 1);  // in Mesa's listing
+                const auto target = places.find(label);
                 if (target == places.end()) fail("machine code jumps to a place that it lacks: ", line.rest);
                 block.successors.push_back(target->second);
             }

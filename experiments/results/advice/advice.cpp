@@ -14,8 +14,8 @@ std::filesystem::path sources_beside(std::filesystem::path csv) { return csv.rep
 const nlohmann::json& types_of_sources() {
     static const nlohmann::json types = nlohmann::json::parse(R"({
         "errors": [{"title": "text", "config": "text", "commit": "text", "finished": "text", "sizes": ["text"]}],
-        "costs": {"title": "text", "config": "text", "commit": "text", "finished": "text", "sizes": ["text"]},
-        "compilers": {"*": "text"},
+        "costs": [{"title": "text", "config": "text", "commit": "text", "finished": "text", "sizes": ["text"],
+                   "compilers": {"*": "text"}}],
         "points": {"*": {"*": "object"}},
         "rows": "size"
     })");

@@ -41,16 +41,16 @@ inline constexpr const char* above_budget = "above the budget";
 /// The table, and what it rests on.
 struct Advice {
     std::vector<AdviceRow> rows;
-    /// {"errors": [study], "costs": study, "compilers": {chip: driver}, "points": {technique: {point: parameters}},
-    /// "rows": their number}. Parameters are all that differ from the technique's defaults.
+    /// {"errors": [study], "costs": [study with "compilers": {chip: driver}], "points": {technique: {point:
+    /// parameters}}, "rows": their number}. Parameters are all that differ from the technique's defaults.
     nlohmann::json sources;
 };
 
-/// Makes the table from studies of errors and a study of costs. All choices and verdicts are those of tradeoff_of(),
-/// asked for each chip, kind of place, movement and surface alone. A study's groups of shots name place and movement:
-/// "rooms, at rest". Rows at any cost are of all reflective surfaces alone, so that the file stays small. Fails with
-/// Error where a study lacks what is needed.
-Advice make_advice(std::vector<StudyResults> errors, const StudyResults& costs);
+/// Makes the table from studies of errors and studies of costs, each of its own chips. All choices and verdicts are
+/// those of tradeoff_of(), asked for each chip, kind of place, movement and surface alone. A study's groups of shots
+/// name place and movement: "rooms, at rest". Rows at any cost are of all reflective surfaces alone, so that the file
+/// stays small. Fails with Error where a study lacks what is needed.
+Advice make_advice(std::vector<StudyResults> errors, const std::vector<StudyResults>& costs);
 
 /// Writes the rows, and beside them the sources: advice.csv and advice.json.
 void write_advice(const std::filesystem::path& csv, const Advice& advice);

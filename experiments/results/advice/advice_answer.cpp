@@ -108,7 +108,8 @@ double budget_for(const AdviceRows& rows, double asked) {
 
 std::vector<AdviceOfQuestion> answers_of(const Advice& advice, const AdviceQuestion& question) {
     const AdviceRows rows = rows_asked_for(advice, question);
-    const std::optional<double> budget = question.ms ? std::optional(budget_for(rows, *question.ms)) : std::nullopt;
+    std::optional<double> budget;
+    if (question.ms) budget = budget_for(rows, *question.ms);
     using Key = std::tuple<std::string, std::string, std::string, double>;
     std::vector<std::pair<Key, AdviceOfQuestion>> answers;
     for (const AdviceRow* row : rows) {
@@ -186,10 +187,14 @@ std::string study_text(const json& study) {
 std::string what_it_rests_on(const Advice& advice, const std::string& chip) {
     std::string text = "This rests on:\n";
     for (const json& study : advice.sources["errors"]) text += "  Errors: " + study_text(study) + "\n";
-    text += "  Times: " + study_text(advice.sources["costs"]);
-    for (const auto& [of_chip, driver] : advice.sources["compilers"].items())
-        if (chip.empty() || chip == of_chip) text += ", " + shown_text(of_chip + ": " + driver.get<std::string>());
-    return text + "\n  Times are estimates, and no GPU ran anything: " + model_range_text() +
+    for (const json& study : advice.sources["costs"]) {
+        std::string compilers;
+        for (const auto& [of_chip, driver] : study["compilers"].items())
+            if (chip.empty() || chip == of_chip)
+                compilers += ", " + shown_text(of_chip + ": " + driver.get<std::string>());
+        if (!compilers.empty()) text += "  Times: " + study_text(study) + compilers + "\n";
+    }
+    return text + "  Times are estimates, and no GPU ran anything: " + model_range_text() +
            ".\n  Brackets hold 95 % intervals for scenes and places like these, without the error of the model.\n";
 }
 

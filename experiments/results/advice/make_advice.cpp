@@ -211,13 +211,21 @@ void add_kind(Advice& advice, const StudyResults& own, const std::string& group,
 
 }  // namespace
 
-Advice make_advice(std::vector<StudyResults> errors, const StudyResults& costs) {
-    Advice advice{.rows = {}, .sources = {{"errors", json::array()}, {"costs", source_of_advice(costs.manifest)}}};
-    json compilers = json::object();
-    for (const EstimateRow& e : costs.estimates) compilers[e.chip] = e.driver;
-    if (compilers.empty())
-        fail("the study of costs has no estimates; its config needs \"costs\": true and \"gpu_compilers\"");
-    advice.sources["compilers"] = compilers;
+Advice make_advice(std::vector<StudyResults> errors, const std::vector<StudyResults>& costs) {
+    Advice advice{.rows = {}, .sources = {{"errors", json::array()}, {"costs", json::array()}}};
+    std::map<std::string, const StudyResults*> of_chip;
+    for (const StudyResults& study : costs) {
+        json compilers = json::object();
+        for (const EstimateRow& e : study.estimates) compilers[e.chip] = e.driver;
+        if (compilers.empty())
+            fail("a study of costs has no estimates; its config needs \"costs\": true and \"gpu_compilers\"");
+        for (const auto& [chip, driver] : compilers.items())
+            if (!of_chip.emplace(chip, &study).second)
+                fail("two studies of costs have times of ", chip, "; leave one of them out");
+        json source = source_of_advice(study.manifest);
+        source["compilers"] = compilers;
+        advice.sources["costs"].push_back(source);
+    }
     std::set<std::string> known;
     for (StudyResults& study : errors) {
         advice.sources["errors"].push_back(source_of_advice(study.manifest));
@@ -227,7 +235,7 @@ Advice make_advice(std::vector<StudyResults> errors, const StudyResults& costs) 
             if (!known.insert(group).second)
                 fail("two studies have shots of the group '", group, "'; leave one of them out");
         std::map<std::string, std::vector<CostsOfKind>> costs_of;
-        for (const auto& [chip, driver] : compilers.items()) costs_of[chip] = take_costs_from(costs, chip, study);
+        for (const auto& [chip, times] : of_chip) costs_of[chip] = take_costs_from(*times, chip, study);
         for (const std::string& group : groups) {
             const StudyResults own = of_group(study, group);
             for (const auto& [chip, kinds] : costs_of) add_kind(advice, own, group, chip, places_behind(kinds, group));

@@ -13,7 +13,7 @@ from ssrlab.tables.markdown import COMMIT
 NAME = "advice.csv"  # beside the folder of summaries
 CERTAIN, WORSE = "best", "behind"  # standings, experiments/results/verdicts/standings.h
 _STUDY = {"title": str, "config": str, "commit": str, "finished": str, "sizes": [str]}
-_SOURCES = {"errors": [_STUDY], "costs": _STUDY, "compilers": {"*": str}, "points": {"*": {"*": dict}}, "rows": int}
+_SOURCES = {"errors": [_STUDY], "costs": [{**_STUDY, "compilers": {"*": str}}], "points": {"*": {"*": dict}}, "rows": int}
 
 
 class Advice:
@@ -47,7 +47,7 @@ class Advice:
 
     def made(self):
         """The day on which the last study ended, and the commits of all: as when_made() of documents.py has them."""
-        studies = [*self.sources["errors"], self.sources["costs"]]
+        studies = [*self.sources["errors"], *self.sources["costs"]]
         return max(s["finished"] for s in studies), [commit for s in studies for commit in s["commit"].split(" and ")]
 
 
@@ -90,10 +90,10 @@ def table(advice, chip, surface):
     kinds = sorted({kind_of(r) for r in rows})
     lines = [["chip", "within", "kind of picture", "least error", "FLIP / `none`", "probability to be best", "ms, estimated", "second"]]
     lines += [_line(chip, ms, kind, advice.ranked(chip, ms, kind, surface)) for ms in budgets for kind in kinds]
-    compiler = advice.sources["compilers"].get(chip, "")
+    costs = next(study for study in advice.sources["costs"] if chip in study["compilers"])
     footer = (
-        f"`ssrlab advise --chip {chip}`: errors of {', '.join(map(_study, advice.sources['errors']))}; times of {_study(advice.sources['costs'])}, "
-        f"estimated with {markdown_text(compiler)}. In brackets 95 % intervals over scenes and places like these; bold: certainly best; {NO_VALUE}: no value."
+        f"`ssrlab advise --chip {chip}`: errors of {', '.join(map(_study, advice.sources['errors']))}; times of {_study(costs)}, "
+        f"estimated with {markdown_text(costs['compilers'][chip])}. In brackets 95 % intervals over scenes and places like these; bold: certainly best; {NO_VALUE}: no value."
     )
     head, *body = ("| " + " | ".join(line) + " |" for line in lines)
     return "\n".join([head, "|" + "---|" * 8, *body]) + f"\n\n{footer}\n"

@@ -70,7 +70,7 @@ struct MadeAdvice {
         row.chip = "navi21", row.driver = "Mesa 22.3.6", row.microseconds = us;
         costs.estimates.push_back(row);
     }
-    Advice made() const { return make_advice({errors}, costs); }
+    Advice made() const { return make_advice({errors}, {costs}); }
 };
 
 struct KeptAdvice : CommandLine {
@@ -127,7 +127,7 @@ TEST_F(KeptAdvice, TheTableReadsBackAsItWasMade) {
     std::set<std::string> surfaces;
     for (const AdviceRow& row : read.rows) surfaces.insert(row.surface);
     EXPECT_EQ(surfaces, (std::set<std::string>{"all", "mirrors"})) << "the masks that the study has";
-    EXPECT_EQ(read.sources["compilers"]["navi21"], "Mesa 22.3.6");
+    EXPECT_EQ(read.sources["costs"][0]["compilers"]["navi21"], "Mesa 22.3.6");
 }
 
 TEST_F(KeptAdvice, WritesPointsAsAStudyTakesThem) {
@@ -194,13 +194,17 @@ TEST_F(KeptAdvice, StudiesThatDoNotServeAreRefused) {
     MadeAdvice nameless, twice, no_times, other_metric, no_none, other_rays;
     nameless.errors.manifest["shots"][0]["group"] = "rooms";
     EXPECT_TRUE(says(message_of(nameless), "'rooms' names no place and movement"));
-    EXPECT_TRUE(says(error_message([&] { make_advice({twice.errors, twice.errors}, twice.costs); }), "two studies"));
+    EXPECT_TRUE(says(error_message([&] { make_advice({twice.errors, twice.errors}, {twice.costs}); }), "two studies"));
     for (json& shot : other_rays.errors.manifest["shots"]) shot["group"] = "rooms, in motion";
     other_rays.errors.manifest["techniques"][1]["entry"]["parameters"]["rays"] = 2;
     EXPECT_TRUE(says(error_message([&] {
-                         make_advice({twice.errors, other_rays.errors}, twice.costs);
+                         make_advice({twice.errors, other_rays.errors}, {twice.costs});
                      }),
                      "good default has other parameters in another study"));
+    EXPECT_TRUE(says(error_message([&] {
+                         make_advice({twice.errors}, {twice.costs, twice.costs});
+                     }),
+                     "two studies of costs have times of navi21"));
     no_times.costs.estimates.clear();
     EXPECT_TRUE(says(message_of(no_times), "gpu_compilers"));
     for (MetricSummary& e : other_metric.errors.summary) e.metric = "mse";
@@ -208,6 +212,25 @@ TEST_F(KeptAdvice, StudiesThatDoNotServeAreRefused) {
     std::erase_if(no_none.errors.manifest["techniques"].get_ref<json::array_t&>(),
                   [](const json& v) { return v["technique"] == "none"; });
     EXPECT_TRUE(says(message_of(no_none), "no technique `none`"));
+}
+
+TEST_F(KeptAdvice, ChipsCanComeFromStudiesOfTheirOwn) {
+    MadeAdvice two;
+    StudyResults other = two.costs;
+    for (EstimateRow& e : other.estimates) e.chip = "gfx1201", e.driver = "Mesa 25.0.7", *e.microseconds *= 2;
+    const Advice advice = kept(make_advice({two.errors}, {two.costs, other}));
+    const auto cheapest = [&](const std::string& chip) {
+        double least = 1e9;
+        for (const AdviceRow& row : advice.rows)
+            if (row.chip == chip && row.us) least = std::min(least, *row.us);
+        return least;
+    };
+    EXPECT_DOUBLE_EQ(cheapest("gfx1201"), 2 * cheapest("navi21"));
+    AdviceQuestion question = asked;
+    question.chip = "gfx1201", question.ms = 4;
+    const std::string answer = advice_answer(advice, question);
+    EXPECT_TRUE(says(answer, "gfx1201: Mesa 25.0.7"));
+    EXPECT_FALSE(says(answer, "Mesa 22.3.6"));
 }
 
 TEST_F(KeptAdvice, ADamagedTableSaysHowToMakeIt) {
