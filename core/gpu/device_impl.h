@@ -51,6 +51,7 @@ struct Device::Impl {
     vk::raii::CommandBuffer commands{nullptr};
     vk::raii::Fence fence{nullptr};
     std::shared_ptr<class PipelineCache> pipelines;  ///< see PipelineCache::of()
+    std::shared_ptr<struct WatchedBuffer> watched;   ///< once a pass was watched
 
     /// Submits what a pass_list has recorded. Other pass_lists call it before they start, so that work keeps its order.
     std::function<void()> flush_recording;

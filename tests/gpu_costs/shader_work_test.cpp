@@ -31,7 +31,11 @@ struct ShaderWorkTest : testing::Test {
     ChipWork work(const std::string& chip, const std::string& lines, int turns, int per_lane = 0) {
         PassList pass_list(device(), {64, 1});
         std::optional<PassTrace> trace;
-        PassTracer tracer([&](const PassTrace& t) { trace = t; });
+        std::vector<std::byte> content;
+        PassTracer tracer([&](const PassTrace& t) {
+            trace = t;
+            content.assign(t.content.begin(), t.content.end());
+        });
         pass_list.watch(&tracer);
         pass_list.begin_frame(camera, no_parameters, {});
         const Image source = pass_list.image_of("source", Format::rgba32f, {64, 64});
@@ -54,7 +58,7 @@ struct ShaderWorkTest : testing::Test {
         const ShaderWork of_blocks = shader_work(marks, original, compiled[0].shaders.back(),
                                                  compiled[1].shaders.back(), chip, *chip_rates(chip));
         EXPECT_EQ(of_blocks.lanes, 64u);
-        const WaveCounts counts = replay(flow, lanes_of(trace->layout, trace->content, 0), of_blocks.lanes);
+        const WaveCounts counts = replay(flow, lanes_of(trace->layout, content, 0), of_blocks.lanes);
         ChipWork sum;
         for (size_t b = 0; b < counts.waves.size(); ++b) sum.add(of_blocks.blocks[b].work, double(counts.waves[b]));
         return sum;

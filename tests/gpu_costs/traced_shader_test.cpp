@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <functional>
 #include <set>
 
@@ -19,12 +20,16 @@ struct TracedShader : testing::TestWithParam<Clock> {
     ParameterSet no_parameters;
     CameraData camera{};
     std::vector<PassTrace> traces;
+    std::deque<std::vector<std::byte>> contents;  ///< of the traces
 
     void TearDown() override { EXPECT_EQ(device().validation_messages(), std::vector<std::string>()); }
 
     HostImage run(PassList& pass_list, bool is_traced) {
         pass_list.begin_frame(camera, no_parameters, {});
-        PassTracer tracer([this](const PassTrace& trace) { traces.push_back(trace); });
+        PassTracer tracer([this](const PassTrace& trace) {
+            contents.emplace_back(trace.content.begin(), trace.content.end());
+            traces.emplace_back(trace).content = contents.back();
+        });
         pass_list.watch(is_traced ? &tracer : nullptr);
         const Image source = pass_list.image_of("source", Format::rgba32f, {4, 4}),
                     target = pass_list.image("target", Format::rgba32f);

@@ -18,8 +18,8 @@ inline constexpr size_t params_offset = 2048, params_size = 4096, max_params_of_
 inline constexpr size_t uniforms_size = params_offset + max_params_of_frame * params_size;
 static_assert(sizeof(CameraData) <= params_offset);
 
-/// The buffer of instrumented pipelines, kept from pass to pass: traces take 128 MiB, and new memory takes longer than
-/// the passes.
+/// The buffer of instrumented pipelines, kept as long as the device: traces take 128 MiB, and new memory takes longer
+/// than the passes.
 struct WatchedBuffer {
     std::shared_ptr<BufferStorage> storage;
     DeviceBuffer host;
@@ -51,7 +51,6 @@ struct PassList::Impl {
     PassChanges changes;
     PassWatcher* watcher = nullptr;
     std::map<std::string, Pipeline> watched_pipelines;  ///< by the bytes of their recipes
-    WatchedBuffer watched;
     vk::raii::QueryPool device_counts{nullptr};         ///< of invocations, once a pass was watched that has them
 
     std::vector<PassTime> times;

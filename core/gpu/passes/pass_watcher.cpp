@@ -64,8 +64,9 @@ bool PassList::Impl::run_watched(Pass& pass, ShaderChanges changes, const Pipeli
         pipeline->second.interface.resources = other->recipe.resources;
     }
     flush();
-    watched.grow(gpu, other->bytes);
-    const Buffer buffer{other->buffer, other->bytes, watched.storage};
+    if (!gpu.watched) gpu.watched = std::make_shared<WatchedBuffer>();
+    gpu.watched->grow(gpu, other->bytes);
+    const Buffer buffer{other->buffer, other->bytes, gpu.watched->storage};
     gpu.submit([&](auto& commands) {
         commands.fillBuffer(*buffer.storage->buffer.buffer, 0, buffer.size, 0);
         full_barrier(commands);
@@ -91,6 +92,6 @@ bool PassList::Impl::run_watched(Pass& pass, ShaderChanges changes, const Pipeli
             0, 1, sizeof(uint64_t), vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
         if (result == vk::Result::eSuccess) run.device_invocations = count;
     }
-    watcher->after(run, watched.content(gpu, buffer.size));
+    watcher->after(run, gpu.watched->content(gpu, buffer.size));
     return true;
 }

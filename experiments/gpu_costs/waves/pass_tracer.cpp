@@ -43,6 +43,6 @@ std::optional<InstrumentedPipeline> PassTracer::before(const PassRun& run) {
 }
 
 void PassTracer::after(const PassRun&, std::span<const std::byte> content) {
-    trace_.content.assign(content.begin(), content.end());
+    trace_.content = content;
     observer_(trace_);
 }

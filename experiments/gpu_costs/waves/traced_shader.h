@@ -29,7 +29,7 @@ struct PassTrace {
     std::string stage;
     PipelineRecipe original, recipe;  ///< the pass's own, and simplified() of it
     TraceLayout layout;
-    std::vector<std::byte> content;  ///< content of the buffer
+    std::span<const std::byte> content;  ///< of the buffer; it lives until the observer returns
 };
 
 /// The traces of the lanes of the chosen group at `place`.

@@ -39,7 +39,7 @@ struct AdviceOfQuestion {
 std::string kind_text(const AdviceRow& row) { return row.place + ", " + row.movement; }
 std::string name_text(const AdviceRow& row) { return shown_text(row.label); }
 std::string ratio_text(const AdviceRow& row) { return measured(row.ratio, row.low, row.high); }
-std::string chance_text(const AdviceRow& row) { return row.chance_first ? fixed_text(*row.chance_first, 2) : "-"; }
+std::string chance_text(const AdviceRow& row) { return row.chance_first ? probability_text(*row.chance_first) : "-"; }
 std::string budget_text(double ms) { return number_text(ms) + " ms"; }
 
 std::optional<double> in_ms(const std::optional<double>& us) { return us ? std::optional(*us / 1000) : std::nullopt; }

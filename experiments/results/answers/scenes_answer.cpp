@@ -63,8 +63,6 @@ private:
     std::vector<std::pair<std::string, Names>> found_;
 };
 
-std::string probability(double p) { return p < 0.005 ? "below 0.01" : p > 0.995 ? "above 0.99" : fixed_text(p, 2); }
-
 /// "A 0.68, B 0.28": probabilities; the largest is named in any case.
 std::string chances_text(std::vector<const OverScenesRow*> rows, std::optional<double> OverScenesRow::*chance,
                          const std::map<PointName, std::string>& names) {
@@ -72,7 +70,7 @@ std::string chances_text(std::vector<const OverScenesRow*> rows, std::optional<d
     Names parts;
     for (const OverScenesRow* r : rows)
         if (r->*chance && (parts.empty() || (parts.size() < most_named && *(r->*chance) >= worth_naming)))
-            parts.push_back(names.at({r->technique, r->point}) + " " + probability(*(r->*chance)));
+            parts.push_back(names.at({r->technique, r->point}) + " " + probability_text(*(r->*chance)));
     return joined(parts);
 }
 

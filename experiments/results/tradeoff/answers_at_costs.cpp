@@ -156,7 +156,7 @@ struct AtCosts : AnswerContext {
     /// Rows of across.csv as a table; `last`: the head of its last column, `of_last`: what stands there.
     std::string ranking(const std::string& what, const Rows& rows, const std::string& last,
                         const Names& of_last) const {
-        const auto chance = [](const Number& share) { return share ? fixed_text(*share, 2) : ""; };
+        const auto chance = [](const Number& share) { return share ? probability_text(*share) : ""; };
         std::vector<Names> cells;
         for (size_t i = 0; i < rows.size(); ++i) {
             const AcrossRow& row = *rows[i];
@@ -218,7 +218,7 @@ struct AtCosts : AnswerContext {
         Names named;
         for (size_t i = 0; i < rows.size(); ++i)
             if (i == 0 || (i < 3 && *(rows[i]->*chance) >= 0.02))
-                named.push_back(markdown_text(rows[i]->label) + " " + fixed_text(*(rows[i]->*chance), 2));
+                named.push_back(markdown_text(rows[i]->label) + " " + probability_text(*(rows[i]->*chance)));
         return listed(named, most_listed);
     }
 

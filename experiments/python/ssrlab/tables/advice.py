@@ -60,7 +60,11 @@ def ratio(row):
 
 
 def chance(row):
-    return f"{number(row, 'chance_first'):.2f}" if row["chance_first"] else NO_VALUE
+    """As probability_text() of core/number_text.h."""
+    if not row["chance_first"]:
+        return NO_VALUE
+    p = number(row, "chance_first")
+    return "below 0.01" if p < 0.005 else "above 0.99" if p > 0.995 else f"{p:.2f}"
 
 
 def milliseconds(row):
