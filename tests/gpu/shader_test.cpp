@@ -45,6 +45,26 @@ TEST(Shader, AFileThatIncludesItselfIsNamedWithThePlace) {
         << "twice is none";
 }
 
+/// Each file includes the next one twice: 2^27 copies of the last.
+TEST(Shader, IncludesThatMultiplyAreRefusedBeforeTheyTakeTheMemory) {
+    ShaderIncludes doubling = {{"no_such_part.glsl", "#include \"f0\"\n"}}, nested = doubling, large = doubling;
+    for (int i = 0; i < 27; ++i) {
+        const std::string next = "#include \"f" + std::to_string(i + 1) + "\"\n";
+        doubling["f" + std::to_string(i)] = next + next;
+    }
+    doubling["f27"] = "// the end\n";
+    for (int i = 0; i < 200; ++i) nested["f" + std::to_string(i)] = "#include \"f" + std::to_string(i + 1) + "\"\n";
+    large["f0"] = "#include \"big\"\n#include \"big\"\n#include \"big\"\n";
+    large["big"] = std::string(7 << 20, '\n');
+    const auto error = [](const ShaderIncludes& includes) {
+        return error_message([&] { compile("missing_include.comp", "", "", includes); });
+    };
+    EXPECT_NE(error(doubling).find("more than 16 MiB or 2000 files"), std::string::npos) << error(doubling);
+    EXPECT_NE(error(nested).find("f98:1 includes f99 within more than 100 other files"), std::string::npos)
+        << error(nested);
+    EXPECT_NE(error(large).find("f0:3 includes big"), std::string::npos) << error(large);
+}
+
 TEST(Shader, WebGl2RefusesWhatItDoesNotHave) {
     EXPECT_EQ(error_of("plain_webgl2.frag", ShaderLanguage::webgl2), "no error");
     EXPECT_EQ(error_of("image_store.frag"), "no error");

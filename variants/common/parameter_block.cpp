@@ -5,6 +5,7 @@
 #include "core/near_miss.h"
 #include "core/path_inside.h"
 #include "variants/common/names.h"
+#include "variants/common/plain_texts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -131,6 +132,7 @@ std::vector<DeclaredParameter> ParameterReader::included(JsonObject include, con
     if (++depth_ > 8) fail(where, ": the blocks of parameters include each other");
     (is_of_folder ? of_folder : of_ssrlab).push_back(is_of_folder ? name : "variants/" + present_path(name));
     const JsonDocument document = read_json_document(file);
+    require_plain_texts(document);
     JsonObject root(document, file.string());
     std::vector<DeclaredParameter> block = read(root, variable_name(include, "prefix", prefix));
     root.finish();

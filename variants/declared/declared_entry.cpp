@@ -7,6 +7,7 @@
 #include "core/path_inside.h"
 #include "variants/common/names.h"
 #include "variants/common/parameter_block.h"
+#include "variants/common/plain_texts.h"
 #include "variants/denoisers/denoisers.h"
 #include "variants/passes/check_frames.h"
 #include "variants/passes/read_passes.h"
@@ -89,9 +90,14 @@ void refuse_repetition(const std::vector<DeclaredParameter>& declared, const Dec
     }
 }
 
+constexpr size_t most_parameters = 500;  // each takes the compilers time; ssrlab's own techniques have up to 60
+
 /// `parameters`, `tracers` and `denoiser` of a technique.json.
 void read_parameters(JsonObject& root, ParameterReader& reader, Declaration& declaration) {
     const std::vector<DeclaredParameter> declared = reader.read(root);
+    if (declared.size() > most_parameters)
+        fail(root.at("parameters"), ": there are ", declared.size(), " parameters, and a technique takes at most ",
+             most_parameters);
     for (const DeclaredParameter& one : declared) declaration.parameters.push_back(one.parameter);
     declaration.parameters_before_tracers = declared.size();
     if (root.has("tracers")) read_tracers(root.object("tracers"), declaration);
@@ -166,6 +172,7 @@ DeclaredEntry read_technique(const fs::path& named, bool checks_frames) {
         fail("there is no technique in the folder ", named.string(),
              ": it has no technique.json; `ssrlab new FOLDER --from TECHNIQUE` writes one");
     JsonDocument document = read_json_document(file);
+    require_plain_texts(document);
     take_former_names(document, FormerNames::of_technique);
     const nlohmann::json as_written = document.value;
     write_out_short_forms(document.value);

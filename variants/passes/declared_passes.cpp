@@ -44,7 +44,35 @@ DeclaredPasses::DeclaredPasses(const Declaration& declaration, const ParameterSe
       buffers_(std::move(given_buffers)) {
     known_.set("device.is_gpu", around.pass_list.uses_gpu_forms());
     known_.derive(declaration.conditions);
+    set_memory_aside();
     make_images();
+}
+
+size_t DeclaredPasses::bytes_of(const DeclaredBuffer& buffer) const {
+    const glm::uvec2 extent = buffer.share.of(around_.pass_list.extent());
+    const size_t times = buffer.times.empty() ? 1 : known_.by_name().at(buffer.times).get<size_t>();
+    return buffer.bytes + size_t(extent.x) * extent.y * times * buffer.bytes_per_pixel;
+}
+
+/// A declaration may be a stranger's, and ask for more than the machine has.
+void DeclaredPasses::set_memory_aside() {
+    const glm::uvec2 screen = around_.pass_list.extent();
+    double bytes = 0;
+    for (const DeclaredImage* image : in_use(declaration_.images, &DeclaredImage::name, known_)) {
+        if (images_.contains(image->name) || !image->same_as.empty()) continue;
+        const glm::uvec2 extent = image->share.of(screen);
+        const bool has_mips = !image->has_history && !image->is_kept;
+        const Image asked{.name = image->name,
+                          .format = image->format,
+                          .extent = extent,
+                          .mips = has_mips ? image->mips_of(extent) : 1,
+                          .storage = {}};
+        bytes += double(::bytes_of(asked)) * (image->has_history ? 2 : 1);
+    }
+    for (const DeclaredBuffer* buffer : in_use(declaration_.buffers, &DeclaredBuffer::name, known_))
+        if (!buffers_.contains(buffer->name)) bytes += double(bytes_of(*buffer));
+    memory_.add(bytes, message_text("technique '", declaration_.name, "': its images and buffers at ", screen.x, "x",
+                                    screen.y));
 }
 
 void DeclaredPasses::make_images() {
@@ -63,11 +91,8 @@ void DeclaredPasses::make_images() {
         }
     }
     for (const DeclaredBuffer* buffer : in_use(declaration_.buffers, &DeclaredBuffer::name, known_)) {
-        if (buffers_.contains(buffer->name)) continue;
-        const glm::uvec2 extent = buffer->share.of(pass_list.extent());
-        const size_t times = buffer->times.empty() ? 1 : known_.by_name().at(buffer->times).get<size_t>();
-        buffers_[buffer->name] = pass_list.buffer(
-            buffer->name, buffer->bytes + size_t(extent.x) * extent.y * times * buffer->bytes_per_pixel);
+        if (!buffers_.contains(buffer->name))
+            buffers_[buffer->name] = pass_list.buffer(buffer->name, bytes_of(*buffer));
     }
 }
 

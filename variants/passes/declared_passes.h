@@ -1,4 +1,5 @@
 #pragma once
+#include "core/reading_limits.h"
 #include "variants/common/technique.h"
 #include "variants/passes/declaration.h"
 #include "variants/passes/provided_images.h"
@@ -36,6 +37,8 @@ public:
     void set_pyramids(Tracers::Images pyramids) { pyramids_ = std::move(pyramids); }
 
 private:
+    size_t bytes_of(const DeclaredBuffer& buffer) const;
+    void set_memory_aside();
     void make_images();
     void clear(const DeclaredPass& pass);
     void clear_what_is_written(const DeclaredPass& pass);
@@ -48,6 +51,7 @@ private:
     const ParameterSet& params_;
     KnownValues known_;
     Around around_;
+    MemoryShare memory_;  ///< of images and buffers
     std::map<std::string, Image> images_;
     std::map<std::string, Buffer> buffers_;
     std::map<std::string, const DeclaredImage*> declared_;  ///< the images in use

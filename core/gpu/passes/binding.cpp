@@ -1,3 +1,4 @@
+#include "core/gpu/format.h"
 #include "core/gpu/passes/pass_list_impl.h"
 #include "core/gpu/resources.h"
 
@@ -9,6 +10,18 @@ vk::SamplerAddressMode address_mode(Wrap wrap) {
     using enum vk::SamplerAddressMode;
     constexpr vk::SamplerAddressMode modes[] = {eClampToEdge, eRepeat, eMirroredRepeat};  // in the order of Wrap
     return modes[size_t(wrap)];
+}
+
+/// All images have two dimensions. A shader that takes them for something else reads and writes beside them.
+void check_type(const std::string& shader, const ShaderInterface::Resource& resource, const Image& image) {
+    using Kind = ShaderInterface::Kind;
+    if (resource.kind != Kind::sampler && resource.kind != Kind::image)
+        fail(shader, " declares the block '", resource.name, "', and the pass has an image of this name");
+    const bool is_integer = facts_of(image.format).coding == TexelCoding::uint_32;
+    const std::string type =
+        std::string(is_integer ? "u" : "") + (resource.kind == Kind::sampler ? "sampler2D" : "image2D");
+    if (resource.type != type)
+        fail(shader, " declares '", resource.name, "' as ", resource.type, ", and the image of the pass is a ", type);
 }
 
 }  // namespace
@@ -77,10 +90,18 @@ void PassList::Impl::check(const Pass& pass, const ShaderInterface& interface) {
     for (const Buffer& buffer : pass.buffers_)
         if (!is_used(buffer.name))
             fail("pass ", pass.label_, " uses buffer '", buffer.name, "', which ", pass.shader_, " does not use");
-    for (const auto& push : pass.pushes_)
-        if (!interface.push_offsets.contains(push.name))
+    for (const auto& push : pass.pushes_) {
+        const auto bytes = interface.push_sizes.find(push.name);
+        if (bytes == interface.push_sizes.end())
             fail("pass ", pass.label_, " sets '", push.name, "', which is no member of the push_constant block of ",
                  pass.shader_);
+        if (bytes->second != push.size)
+            fail("pass ", pass.label_, " sets '", push.name, "' of ", push.size, " bytes, and ", pass.shader_,
+                 " declares ", bytes->second, " bytes");
+    }
+    for (const ShaderInterface::Resource& r : interface.resources)
+        if (Sampling sampling; const Image* const image = find_image(pass, nullptr, r.name, sampling))
+            check_type(pass.shader_, r, *image);
 }
 
 /// Not every device can do everything with every format. `what`: that it is asked to do, as in "filter it".

@@ -4,6 +4,8 @@
 #include "core/gpu/pipelines/shader_cache.h"
 #include "core/gpu/pipelines/shader_error.h"
 #include "core/gpu/pipelines/shader_files.h"
+#include "core/gpu/pipelines/shader_rules.h"
+#include "core/list_text.h"
 #include "core/parameters.h"
 
 #include <SPIRV/GlslangToSpv.h>
@@ -34,6 +36,9 @@ const char* const webgl2_preamble =
     "precision highp usampler2D;\n"
     "#define push_constant std140\n";
 
+// ssrlab's own shaders need 9 files inside each other and 200 kB.
+constexpr size_t most_nested_files = 100, most_files = 2000, most_source_bytes = 16 << 20;
+
 struct SourceFile {
     std::string name;
     size_t includer = 0;    ///< index of the file that includes it
@@ -41,11 +46,21 @@ struct SourceFile {
     std::string text = {};  ///< once it was read
 };
 
-/// Whether `files[file]` is that of `name`, or is included by it.
-bool is_within(const std::string& name, size_t file, const std::vector<SourceFile>& files) {
-    for (; files[file].line > 0; file = files[file].includer)
-        if (files[file].name == name) return true;
-    return files[file].name == name;
+/// Refuses what `place` includes if the shader would not end: a file within itself, and files that include others more
+/// often than a compiler can take.
+void check_include(const SourceFile& included, const std::string& place, const std::vector<SourceFile>& files) {
+    size_t nested = 1;
+    for (size_t file = included.includer;; file = files[file].includer, ++nested) {
+        if (files[file].name == included.name) fail(included.name, " includes itself, at ", place);
+        if (files[file].line == 0) break;
+    }
+    if (nested > most_nested_files)
+        fail(place, " includes ", included.name, " within more than ", most_nested_files, " other files");
+    size_t bytes = included.text.size();
+    for (const SourceFile& file : files) bytes += file.text.size();
+    if (bytes > most_source_bytes || files.size() >= most_files)
+        fail(place, " includes ", included.name, ", and the shader then has more than ", most_source_bytes >> 20,
+             " MiB or ", most_files, " files; does a file include another one many times?");
 }
 
 /// Replaces #include "x" by the text of x. Files guard themselves against double inclusion. Each file has a number, its
@@ -67,8 +82,9 @@ std::string expand_includes(const std::string& text, size_t file, const ShaderIn
         const auto [name, content] = decided != includes.end()
                                          ? ShaderFile{asked, decided->second}
                                          : read_shader(asked, files[file].name, ", which " + place + " includes");
-        if (is_within(name, file, files)) fail(name, " includes itself, at ", place);
-        files.push_back({name, file, number, content});
+        const SourceFile included_file{name, file, number, content};
+        check_include(included_file, place, files);
+        files.push_back(included_file);
         const size_t included = files.size() - 1;
         out << "#line 1 " << included << '\n'
             << expand_includes(content, included, includes, files) << "#line " << number + 1 << ' ' << file << '\n';
@@ -144,12 +160,53 @@ std::string with_file_names(const std::string& log, const std::vector<SourceFile
     return out.str();
 }
 
+/// "FILE:LINE: #extension ..." of each extension that the files turn on, one in a line.
+std::string extension_lines(const std::vector<SourceFile>& files) {
+    std::string lines;
+    for (const SourceFile& file : files) {
+        std::istringstream in(file.text);
+        int number = 0;
+        for (std::string line; std::getline(in, line);) {
+            ++number;
+            const size_t hash = line.find_first_not_of(" \t");
+            if (hash == line.npos || line[hash] != '#' || line.find("extension") == line.npos) continue;
+            lines += file.name + ":" + std::to_string(number) + ": " + line.substr(hash) + "\n";
+        }
+    }
+    return lines;
+}
+
 /// glslang does not reflect specialization constants; each is decorated once in the SPIR-V: OpDecorate id SpecId
 /// literal.
 void find_constants(const std::vector<unsigned>& spirv, std::set<unsigned>& ids) {
     const size_t header = 5;
     for (size_t i = header; i < spirv.size(); i += spirv[i] >> 16)
         if ((spirv[i] & 0xffff) == spv::OpDecorate && spirv[i + 2] == spv::DecorationSpecId) ids.insert(spirv[i + 3]);
+}
+
+std::string type_name(const glslang::TType& type) {
+    return std::string(type.getSampler().getString()) + (type.isArray() ? "[]" : "");
+}
+
+/// PassList binds one descriptor set, with one resource at each binding.
+void check_bindings(const glslang::TProgram& program, const std::string& file) {
+    std::map<unsigned, std::string> known;
+    const auto check = [&](const glslang::TObjectReflection& r) {
+        const glslang::TQualifier& qualifier = r.getType()->getQualifier();
+        if (qualifier.isPushConstant()) return;
+        if (qualifier.hasSet() && qualifier.layoutSet != 0)
+            throw ShaderError(file + ": '" + r.name + "' has a descriptor set of its own; leave out its set = " +
+                              std::to_string(qualifier.layoutSet) + "\n");
+        const auto [other, is_new] = known.try_emplace(unsigned(r.getBinding()), r.name);
+        if (!is_new)
+            throw ShaderError(file + ": '" + other->second + "' and '" + r.name + "' have the same binding " +
+                              std::to_string(r.getBinding()) + "; leave out their bindings, and each gets its own\n");
+    };
+    for (int i = 0; i < program.getNumUniformBlocks(); ++i) check(program.getUniformBlock(i));
+    for (int i = 0; i < program.getNumBufferBlocks(); ++i) check(program.getBufferBlock(i));
+    for (int i = 0; i < program.getNumUniformVariables(); ++i)
+        if (const auto& u = program.getUniform(i); u.index < 0 && u.getType()->getBasicType() == glslang::EbtSampler)
+            check(u);
 }
 
 /// Adds the resources of one linked stage.
@@ -169,12 +226,15 @@ void reflect(const glslang::TProgram& program, bool is_vertex, ShaderInterface& 
         const auto& u = program.getUniform(i);
         if (u.index >= 0) {
             if (u.index < program.getNumUniformBlocks() &&
-                program.getUniformBlock(u.index).getType()->getQualifier().isPushConstant())
-                found.push_offsets[u.name.substr(u.name.rfind('.') + 1)] = unsigned(u.offset);
+                program.getUniformBlock(u.index).getType()->getQualifier().isPushConstant()) {
+                const std::string name = u.name.substr(u.name.rfind('.') + 1);
+                found.push_offsets[name] = unsigned(u.offset);
+                found.push_sizes[name] = 4 * unsigned(u.getType()->computeNumComponents());
+            }
         } else if (u.getType()->getBasicType() == glslang::EbtSampler) {
             found.resources.push_back({u.name, unsigned(u.getBinding()),
-                                       u.getType()->getSampler().isCombined() ? Kind::sampler : Kind::image,
-                                       is_vertex});
+                                       u.getType()->getSampler().isCombined() ? Kind::sampler : Kind::image, is_vertex,
+                                       type_name(*u.getType())});
             if (u.getType()->getQualifier().hasFormat()) found.formatted_images.insert(u.name);
         }
     }
@@ -306,6 +366,8 @@ Shader compile(const std::string& file, const std::string& vertex_file, const st
         if (webgl2) break;
         program.buildReflection(EShReflectionAllBlockVariables | EShReflectionIntermediateIO |
                                 EShReflectionSeparateBuffers);
+        const std::string& own_file = is_vertex ? vertex_file : file;
+        check_bindings(program, own_file);
         reflect(program, is_vertex, result.interface);
         auto& spirv = result.spirv.emplace_back();
         glslang::GlslangToSpv(*program.getIntermediate(stage), spirv);
@@ -313,6 +375,9 @@ Shader compile(const std::string& file, const std::string& vertex_file, const st
         optimizer.RegisterPass(
             spvtools::CreateEliminateDeadConstantPass());  // those of the prelude that this shader ignores
         optimizer.Run(spirv.data(), spirv.size(), &spirv);
+        if (const std::vector<std::string> foreign = foreign_capabilities(spirv); !foreign.empty())
+            throw ShaderError(own_file + " uses what ssrlab's devices are not created with: " + joined(foreign, ", ") +
+                              "\n" + extension_lines(files));
         find_constants(spirv, result.interface.constants);
     }
     ShaderCache::keep(key, result);

@@ -15,9 +15,9 @@
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ShaderInterface::Resource, name, binding, kind, is_vertex)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ShaderInterface, resources, formatted_images, push_offsets, push_size, outputs,
-                                   constants, local_size)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ShaderInterface::Resource, name, binding, kind, is_vertex, type)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ShaderInterface, resources, formatted_images, push_offsets, push_sizes, push_size,
+                                   outputs, constants, local_size)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Shader, spirv, interface)
 
 namespace {

@@ -1,6 +1,7 @@
 // What a technique's folder may not say: each mistake is a sentence with its place.
 #include "core/gpu/pipelines/shader_error.h"
 #include "tests/error_message.h"
+#include "tests/reading_limits.h"
 #include "tests/variants/declared/technique_folder.h"
 #include "tests/variants/held_camera.h"
 
@@ -183,7 +184,6 @@ TEST_F(DeclaredRefusals, Passes) {
 }
 
 TEST_F(DeclaredRefusals, WhatIsMissingUnderSomeCondition) {
-    expect_part(error_with_pass({{"when", {{"mode", "b"}}}}), "no pass writes the result 'radiance'");
     expect_part(error_with_pass({{"when", {{"mode", "a"}}}}),
                 "no pass writes the result 'radiance', where mode is 'b'");
     expect_part(error_with_pass({{"when", {{"limit", {{"above", 0.3}}}}}}), "where limit is 0.29");
@@ -204,6 +204,25 @@ TEST_F(DeclaredRefusals, Includes) {
     fs::remove(technique.folder / "a.glsl");
     fs::create_symlink("/etc/passwd", technique.folder / "a.glsl");
     expect_part(error_with_shader("#include \"a.glsl\"\n"), "is a symbolic link");
+}
+
+TEST_F(DeclaredRefusals, SoManyParametersThatNoCompilerEnds) {
+    Json many = sound["parameters"];
+    for (int i = 0; i < 20000; ++i)
+        many.push_back({{"name", "p" + std::to_string(i)},
+                        {"type", "float"},
+                        {"range", {0, 1}},
+                        {"default", 0.5},
+                        {"meaning", "m"}});
+    expect_part(error_with({{"parameters", many}}), "there are 20002 parameters, and a technique takes at most 500");
+}
+
+/// Many commands print them.
+TEST_F(DeclaredRefusals, TextsThatATerminalObeys) {
+    expect_part(error_with({{"title", "A \x1b[31mtest"}}),
+                "technique.json:47:2: the text 'A \\x1b[31mtest' has a character that a terminal obeys");
+    expect_part(error_with({{"description", "a\nerror: forged"}}), "'a\\nerror: forged'");
+    expect_part(error_with({{"par\u202e", 1}}), "'par\\u202e'");
 }
 
 TEST_F(DeclaredRefusals, Names) {
@@ -247,6 +266,26 @@ TEST_F(DeclaredShaders, AnEditCounts) {
     EXPECT_EQ(render(*make_technique("shaded"), wall).radiance.values[0], 0.25f) << "what was read is what runs";
     technique.add();
     EXPECT_EQ(render(*make_technique("shaded"), wall).radiance.values[0], 0.5f);
+}
+
+/// Refused before anything is taken.
+TEST_F(DeclaredShaders, ImagesAndBuffersStayWithinTheMemoryThatIsAllowed) {
+    const auto error_with = [&](const Json& patch) {
+        Json changed = sound;
+        changed.merge_patch(patch);
+        technique.write("technique.json", changed.dump(1));
+        return error_of_shader(shader);
+    };
+    const LimitsOf limits({.memory = 100 << 20});
+    EXPECT_EQ(error_with(Json::object()), "no error");
+    const Json big = {{"name", "big"}, {"format", "rgba32f"}, {"size", {4096, 4096}}};
+    expect_part(
+        error_with({{"images", {sound["images"][0], big}}, {"passes", {{{"clear", "big"}}, sound["passes"][0]}}}),
+        "technique 'shaded': its images and buffers at 8x8");
+    const Json list = {{"name", "list"}, {"bytes", 1 << 28}};
+    Json pass = sound["passes"][0];
+    pass["buffers"] = {"list"};
+    expect_part(error_with({{"buffers", {list}}, {"passes", {pass}}}), "--max-memory");
 }
 
 TEST_F(DeclaredShaders, MistakesNameFileLineAndTheLineItself) {
