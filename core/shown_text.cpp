@@ -59,3 +59,21 @@ std::string shown_text(std::string_view text) {
     }
     return shown;
 }
+
+std::string shown_lines(std::string_view text) {
+    std::string shown;
+    for (size_t end = text.find('\n'); end != text.npos; end = text.find('\n')) {
+        shown += shown_text(text.substr(0, end)) + "\n";
+        text.remove_prefix(end + 1);
+    }
+    return shown + shown_text(text);
+}
+
+bool is_utf8(std::string_view text) {
+    while (!text.empty()) {
+        const size_t bytes = first_letter(text).bytes;
+        if (bytes == 0) return false;
+        text.remove_prefix(bytes);
+    }
+    return true;
+}

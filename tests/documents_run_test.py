@@ -33,6 +33,7 @@ NOT_RUN = {  # by a part of the line
     "rooms_gpu_costs_newer": "needs this package, too",
     "three_ssrpass/tune.json": "renders in a browser",
     "tables results/comparison": "shows points that the small study leaves out",
+    "tune my_engine.json": "runs a program that the reader has",
     "tune my_search.json": "is a search of any name; that of search.json is run",
     "noise_picture": "renders references for a minute",
 }

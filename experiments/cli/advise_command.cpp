@@ -1,6 +1,7 @@
 // ssrlab advise: which technique to use, from a table of studies, and making this table.
 #include "core/error.h"
 #include "core/files.h"
+#include "core/shown_text.h"
 #include "experiments/cli/commands.h"
 #include "experiments/results/advice/advice_answer.h"
 
@@ -30,7 +31,7 @@ void make_table(const AdviseOptions& options) {
     };
     const Advice advice = make_advice(read(options.studies), read(options.costs_from));
     write_advice(options.keep, advice);
-    std::cout << options.keep.string() << ": " << advice.rows.size() << " rows\n";
+    std::cout << shown_text(options.keep.string()) << ": " << advice.rows.size() << " rows\n";
 }
 
 }  // namespace

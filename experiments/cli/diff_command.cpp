@@ -53,8 +53,8 @@ void print_changes(const std::vector<NumberChange>& all, bool shows_all) {
 void print_alone(const std::filesystem::path& folder, const std::vector<std::array<std::string, 3>>& points) {
     if (points.empty()) return;
     const auto& [shot, technique, point] = points.front();
-    std::cout << "\nIn " << folder.string() << " alone, and not compared: " << points.size() << " points of shots, as "
-              << shown_text(shot + " " + technique + " " + point) << '\n';
+    std::cout << "\nIn " << shown_text(folder.string()) << " alone, and not compared: " << points.size()
+              << " points of shots, as " << shown_text(shot + " " + technique + " " + point) << '\n';
 }
 
 void print_times(const StudyDiff& diff, const DiffOptions& options) {
@@ -96,7 +96,7 @@ int diff_command(const DiffOptions& options) {
     }
     if (!options.page.empty()) {
         write_diff_page(options.page, diff, {options.before, before.manifest}, {options.after, after.manifest});
-        std::cout << "\nPage: " << options.page.string() << '\n';
+        std::cout << "\nPage: " << shown_text(options.page.string()) << '\n';
     }
     return changed > 0 || (options.judges_times && count_of(diff.times, change::changed) > 0) ? 1 : 0;
 }

@@ -57,10 +57,11 @@ static void gbuffer_command(const GBufferCommandOptions& options, const CommonOp
         HostGBuffer host = download_gbuffer(rasterizer.pass_list(), gbuffer, rasterizer.camera(), format);
         host.exposure_ev = shot.camera.exposure_ev;
         save_gbuffer(folder, host);
-        std::printf("%s\n%s\n", (folder / "gbuffer.exr").c_str(), (folder / "camera.json").c_str());
+        std::printf("%s\n%s\n", shown_text((folder / "gbuffer.exr").string()).c_str(),
+                    shown_text((folder / "camera.json").string()).c_str());
     }
     save_environment(out, shot.scene.environment);
-    std::printf("%s\n", (out / "environment.json").c_str());
+    std::printf("%s\n", shown_text((out / "environment.json").string()).c_str());
 }
 
 void add_gbuffer(Commands& line) {

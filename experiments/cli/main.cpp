@@ -9,15 +9,26 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <new>
 #include <string_view>
 
 namespace {
 
+/// Results hold paths and names as JSON, which is UTF-8. A study would end before its tables.
+void refuse_other_texts(const std::vector<std::string>& words) {
+    for (const std::string& word : words)
+        if (!is_utf8(word)) fail("'", word, "' is not UTF-8, the only encoding of ssrlab's files; rename the path");
+    std::error_code none;
+    if (const std::string here = std::filesystem::current_path(none).string(); !is_utf8(here))
+        fail("the path of this folder, ", here, ", is not UTF-8, the only encoding of ssrlab's files; rename it");
+}
+
 /// CLI11 reports its own mistakes; they exit with 2 as all mistakes of the user do.
 int parse_and_run(int argc, char** argv) {
     std::vector<std::string> words;
     for (int i = 1; i < argc; ++i) words.push_back(present_word(argv[i], words));
+    refuse_other_texts(words);
     CLI::App app{
         "ssrlab compares screen-space reflection techniques with path-traced truth.\n"
         "Exit codes: 0 done, 2 an error in the request, 3 a fault of this machine, 130 stopped by Ctrl-C."};
@@ -59,7 +70,7 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "error: %s\n", shown_text(e.what()).c_str());
         return 3;
     } catch (const ShaderError& e) {
-        std::fprintf(stderr, "error: %s\n", e.what());
+        std::fprintf(stderr, "error: %s\n", shown_lines(e.what()).c_str());
         return 2;
     } catch (const Error& e) {
         std::fprintf(stderr, "error: %s\n", shown_text(e.what()).c_str());

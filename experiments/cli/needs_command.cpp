@@ -49,7 +49,8 @@ void print_left_out(const std::vector<LeftOutBy>& all) {
         if (!who.contains(line)) lines.push_back(line);
         who[line] += (who[line].empty() ? "" : ", ") + name;
     }
-    for (const std::string& line : lines) std::printf("  %s\n      by %s\n", line.c_str(), who[line].c_str());
+    for (const std::string& line : lines)
+        std::printf("  %s\n      by %s\n", shown_text(line).c_str(), shown_text(who[line]).c_str());
     if (lines.empty()) std::printf("  nothing\n");
 }
 

@@ -123,8 +123,8 @@ static void plan_command(const PlanOptions& options, const CommonOptions& common
     }
     if (!options.json.empty()) write_text(options.json, json_of(work).dump(1) + "\n");
     if (options.has_list) return print_list(work);
-    std::printf("%s: %s, %s\n\n", options.config.string().c_str(), counted(config.shots.size(), "shot").c_str(),
-                counted(config.techniques.size(), "point").c_str());
+    std::printf("%s: %s, %s\n\n", shown_text(options.config.string()).c_str(),
+                counted(config.shots.size(), "shot").c_str(), counted(config.techniques.size(), "point").c_str());
     print_kinds(work);
     for (const std::string& warning : ranking_warnings(config, plan))
         std::printf("\nwarning: %s\n", shown_text(warning).c_str());

@@ -1,4 +1,5 @@
 // ssrlab report: the page of a results folder.
+#include "core/shown_text.h"
 #include "experiments/cli/commands.h"
 #include "experiments/report/report.h"
 
@@ -6,7 +7,8 @@
 
 static void report_command(const std::filesystem::path& folder, bool links_images) {
     write_report(folder, links_images);
-    std::printf("Report: %s\n", std::filesystem::absolute(folder / "report.html").lexically_normal().c_str());
+    std::printf("Report: %s\n",
+                shown_text(std::filesystem::absolute(folder / "report.html").lexically_normal().string()).c_str());
 }
 
 void add_report(Commands& line) {

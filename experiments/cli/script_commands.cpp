@@ -3,7 +3,9 @@
 #include "core/child_process.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/list_text.h"
 #include "core/path_inside.h"
+#include "core/shown_text.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/config_of_study.h"
 #include "experiments/gpu_costs/chips/chip_compiler.h"
@@ -32,6 +34,7 @@ struct TradeoffOptions {
 
 struct TuneOptions {
     std::filesystem::path config, out;
+    bool allows_program = false;
 };
 
 /// Runs a module of experiments/python/ssrlab: 0 done, 2 a mistake of the user, else a fault of the machine (3).
@@ -92,7 +95,7 @@ static int tradeoff_command(const TradeoffOptions& options) {
     write_rows(out / "fits.csv", between.fits);
     write_rows(out / "limits.csv", between.limits);
     write_text(out / "answers.md", tradeoff_answers(tables, error, found, between, costs, factors));
-    std::cout << (out / "answers.md").string() << "\n";
+    std::cout << shown_text((out / "answers.md").string()) << "\n";
     return 0;
 }
 
@@ -115,6 +118,10 @@ static int tune_command(const TuneOptions& options, const std::vector<std::strin
         fail(options.config.string(), ": 'tune' has no 'axes'; it can only be extended");
     const std::filesystem::path out = options.out.empty() ? default_results(options.config) : options.out;
     const json rules = tuning_of(config);
+    if (rules.contains("program") && !options.allows_program)
+        fail(options.config.string(), ": the search runs the program '",
+             joined(rules["program"].get<std::vector<std::string>>(), " "),
+             "', which may do anything that you may. If you trust the config, add --allow-program");
     if (rules["is_estimated"]) find_chip(rules["time"]);  // or says why it cannot be asked
     json points = json::array();
     for (const PointConfig& v : config.techniques)
@@ -198,6 +205,7 @@ void add_tune(Commands& line) {
            "Study with the key \"tune\", which `experiments/docs/tune.md` explains")
         ->required();
     option(command, "--out DIR", tune.out, "Results folder; default: results/<name of the config>");
+    command.add_flag("--allow-program", tune.allows_program, "Run the program that the key \"program\" names");
     add_device(command, line.common), add_scene_path(command, line.common), add_cache(command, line.common);
     add_reading(command);
     command.callback([&] { line.status = tune_command(tune, run_options(command, line.common)); });

@@ -124,7 +124,7 @@ void write_assembly(const fs::path& folder, const std::vector<CompiledRow>& rows
         std::ranges::replace(name, '/', '.');
         write_text(path_inside(folder, name), texts[next++]);
     }
-    std::printf("Assembly: %s\n", folder.string().c_str());
+    std::printf("Assembly: %s\n", shown_text(folder.string()).c_str());
 }
 
 }  // namespace
@@ -148,9 +148,10 @@ static void shaders_command(const ShadersOptions& options, const CommonOptions& 
         other_pipelines = pipelines_of(device, shot, *other, options.leaves_out);
     }
 
-    ChipCompilation how{.cache = common.cache.empty() ? default_cache_folder() : common.cache,
-                        .has_assembly = false,
-                        .notice = [](const std::string& text) { std::fprintf(stderr, "warning: %s\n", text.c_str()); }};
+    ChipCompilation how{
+        .cache = common.cache.empty() ? default_cache_folder() : common.cache,
+        .has_assembly = false,
+        .notice = [](const std::string& text) { std::fprintf(stderr, "warning: %s\n", shown_text(text).c_str()); }};
     std::vector<CompiledRow> all;
     for (const Chip& chip : chips) {
         if (other)

@@ -140,7 +140,7 @@ static int precision_command(const StabilityOptions& options, const CommonOption
                                    .cache = common.cache.empty() ? default_cache_folder() : common.cache};
     const std::vector<PrecisionRow> rows = run_precision(device, selection, folders, done);
     print_table(rows);
-    std::printf("\nTable: %s\n", csv.string().c_str());
+    std::printf("\nTable: %s\n", shown_text(csv.string()).c_str());
     return 0;
 }
 
@@ -179,7 +179,7 @@ static int stability_command(const StabilityOptions& options, const CommonOption
     std::printf("\n%s\n%s\n", failures_text(stage_failures(tables)).c_str(),
                 shown_text(stability_lead(tables)).c_str());
     write_report(options.out);
-    std::printf("\nReport: %s\n", (options.out / "report.html").string().c_str());
+    std::printf("\nReport: %s\n", shown_text((options.out / "report.html").string()).c_str());
     if (options.figure.empty()) return 0;
     return stability_figure(options.out / "stability.csv", options.figure);
 }

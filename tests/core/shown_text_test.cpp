@@ -20,4 +20,6 @@ TEST(ShownText, BytesThatAreNoUtf8) {
 TEST(ShownText, OthersStay) {
     const std::string text = "amd_sssr \xc3\xa9 \xe2\x86\x92 \xf0\x9f\x98\x80 \\n $(a)";
     EXPECT_EQ(shown_text(text), text);
+    EXPECT_TRUE(is_utf8(text));
+    EXPECT_FALSE(is_utf8("caf\xe9"));
 }

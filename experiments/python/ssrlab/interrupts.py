@@ -1,6 +1,7 @@
 """Handles Ctrl-C and requests to end (SIGTERM) alike: both are one KeyboardInterrupt, which also ends the programs that the script runs."""
 
 import contextlib
+import os
 import signal
 import subprocess
 import threading
@@ -41,12 +42,18 @@ def taken_once():
                 signal.signal(number, handler)
 
 
+def _signal_all(process, number):
+    """Sends a signal to a program and all that it started, which are in a session of their own."""
+    with contextlib.suppress(ProcessLookupError):
+        os.killpg(process.pid, number)
+
+
 def run(words, **streams):
     """Runs a program, the first of `words`, with its arguments, and returns its exit code. `streams`: as subprocess.Popen() takes them. If
-    the script is stopped, the program is asked to end, and killed if it does not."""
+    the script is stopped, the program and all that it started are asked to end, and killed if they do not."""
     _State.is_starting = True
     try:
-        process = subprocess.Popen(words, **streams)
+        process = subprocess.Popen(words, start_new_session=True, **streams)
     finally:
         _State.is_starting = False
     with process:
@@ -55,9 +62,8 @@ def run(words, **streams):
                 raise KeyboardInterrupt
             return process.wait()
         except BaseException:
-            process.terminate()
-            try:
+            _signal_all(process, signal.SIGTERM)
+            with contextlib.suppress(subprocess.TimeoutExpired):
                 process.wait(SECONDS_TO_END)
-            except subprocess.TimeoutExpired:
-                process.kill()
+            _signal_all(process, signal.SIGKILL)  # what the program started may outlive it
             raise

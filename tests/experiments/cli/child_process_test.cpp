@@ -42,11 +42,11 @@ TEST(ChildProcess, EndsOneThatHangs) {
     fs::remove(file);
 }
 
-/// Whoever stops `ssrlab tune` stops its script and the study that the script runs: by a signal to the command alone,
-/// or by Ctrl-C, which all three get. It is said once.
+/// Whoever stops `ssrlab tune` stops its script, the program that the script runs and all that this one started: by a
+/// signal to the command alone, or by Ctrl-C. It is said once.
 TEST(ChildProcess, EndsWithThisProcessAndEndsWhatAScriptStarted) {
     const fs::path folder = fs::temp_directory_path() / "stopped";
-    const std::string study = "echo $$ $PPID > '" + (folder / "processes").string() + "'; exec sleep 60",
+    const std::string study = "sleep 60 & echo $! $$ $PPID > '" + (folder / "processes").string() + "'; exec sleep 60",
                       script = "import sys\nsys.path.insert(0, '" SSRLAB_SOURCE_DIR
                                "/experiments/python')\nfrom ssrlab import interrupts\n"
                                "from ssrlab.mistakes import exit_code\n"
@@ -65,12 +65,13 @@ TEST(ChildProcess, EndsWithThisProcessAndEndsWhatAScriptStarted) {
                 _exit(99);
             }
         }
-        std::string study_process, script_process;
+        std::string engine_process, study_process, script_process;
         for (unsigned i = 0; i < 20000 && script_process.empty(); ++i, usleep(1000))
-            std::ifstream(folder / "processes") >> study_process >> script_process;
+            std::ifstream(folder / "processes") >> engine_process >> study_process >> script_process;
         ASSERT_FALSE(script_process.empty()) << read_text(folder / "said");
         EXPECT_EQ(kill(is_of_all ? -process : process, signal), 0);
         waitpid(process, nullptr, 0);
+        EXPECT_TRUE(ends_soon(engine_process));
         EXPECT_TRUE(ends_soon(study_process));
         EXPECT_TRUE(ends_soon(script_process));
         EXPECT_EQ(read_text(folder / "said"), "error: stopped before the results were written\n");

@@ -56,6 +56,26 @@ TEST_F(CommandLine, NamesMistakesInConfigs) {
     expect_mistake("tune study.json", "it can only be extended");
 }
 
+TEST_F(CommandLine, PathsThatAreNoUtf8AreRefusedBeforeAnyWork) {
+    config("{" + good_shot + R"(, "techniques": [{"technique": "none"}]})");
+    fs::rename(folder / "study.json", folder / "caf\xe9.json");
+    for (const char* command : {"run", "plan", "tune", "judge", "merge", "tradeoff", "report"})
+        expect_mistake(command + std::string(" caf\xe9.json"), "'caf\\xe9.json' is not UTF-8");
+    expect_mistake("run study.json --out o\xff", "'o\\xff' is not UTF-8");
+}
+
+/// A config is data. Its program runs only where the reader says so, also if another file names it.
+TEST_F(CommandLine, RunsNoProgramOfAConfigUnasked) {
+    const fs::path made = folder / "made";
+    write_text(folder / "base.json", R"({"tune": {"program": ["/bin/sh", "-c", "touch )" + made.string() +
+                                         R"("], "axes": {"rays": [1, 2]}, "most_runs": 9}})");
+    config("{\"extends\": \"base.json\", " + good_shot +
+           R"(, "techniques": [{"technique": "none", "baseline": true}]})");
+    expect_mistake("tune study.json", "the search runs the program '/bin/sh -c touch");
+    expect_mistake("tune study.json", "add --allow-program");
+    EXPECT_FALSE(fs::exists(made));
+}
+
 TEST_F(CommandLine, NamesMistakesOfUnpackedMesas) {
     for (const char* command : {"shaders mcguire_dda --chip navi21", "list chips"}) {
         expect_mistake(command + std::string(" --mesa nowhere"), "'nowhere', does not exist");
