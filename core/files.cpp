@@ -59,7 +59,9 @@ std::string read_text(const std::filesystem::path& file) {
     check_regular_file(file);
     const uintmax_t size = std::filesystem::file_size(file);
     MemoryShare().add(double(size), file.string() + ": " + std::to_string(size) + " bytes");
+    errno = 0;
     std::ifstream in(file, std::ios::binary);
+    if (!in) fail_machine("cannot open ", file.string(), ": ", errno ? std::strerror(errno) : "unknown reason");
     std::string text(size, '\0');  // in one piece: character by character it took 7 % of the CPU of StudyTest
     in.read(text.data(), std::streamsize(size));
     text.resize(size_t(in.gcount()));  // another process may have cut it

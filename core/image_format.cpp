@@ -1,8 +1,11 @@
 #include "core/image_format.h"
 
+#include "core/error.h"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -177,7 +180,9 @@ std::string why_unreadable(std::span<const uint8_t> bytes, const std::string& fi
 }
 
 std::vector<uint8_t> first_bytes(const std::filesystem::path& file) {
+    errno = 0;
     std::ifstream in(file, std::ios::binary);
+    if (!in) fail_machine("cannot open ", file.string(), ": ", errno ? std::strerror(errno) : "unknown reason");
     std::vector<uint8_t> bytes(looked_at);
     in.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(bytes.size()));
     bytes.resize(size_t(std::max<std::streamsize>(in.gcount(), 0)));

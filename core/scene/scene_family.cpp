@@ -9,6 +9,8 @@
 #include <unistd.h>
 #include <algorithm>
 #include <charconv>
+#include <mutex>
+#include <set>
 
 namespace fs = std::filesystem;
 
@@ -36,6 +38,44 @@ unsigned number_of(const std::string& name) {
         fail("no scene is called '", shortened(name), "': after the colon stands a whole number from 0 to ",
              largest_scene_number, ", as in '", name.substr(0, name.find(':')), ":17'");
     return number;
+}
+
+constexpr const char* hash_file = "content.hash";
+
+/// Of the names and bytes of all files of a scene's folder.
+std::string hash_of_scene(const fs::path& folder) {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (!entry.is_directory() && entry.path().filename() != hash_file) files.push_back(entry.path());
+    std::ranges::sort(files);
+    ContentHash hash;
+    for (const fs::path& file : files) hash.add(file.lexically_relative(folder).string()), hash.add(read_text(file));
+    return hash.hex();
+}
+
+/// Whether the folder has the scene as it was made: not cut, and no byte changed.
+bool is_whole(const fs::path& scene) {
+    try {
+        return fs::exists(scene / "scene.json") && read_text(scene / hash_file) == hash_of_scene(scene);
+    } catch (const Error&) {  // a file is missing, or no regular file
+        return false;
+    } catch (const fs::filesystem_error&) {
+        return false;
+    }
+}
+
+/// is_whole(), which hashes a scene once in a process.
+bool is_known_as_whole(const fs::path& scene) {
+    static std::set<fs::path> known;
+    static std::mutex mutex;
+    {
+        const std::lock_guard lock(mutex);
+        if (known.contains(scene) && fs::exists(scene / "scene.json")) return true;
+    }
+    if (!is_whole(scene)) return false;
+    const std::lock_guard lock(mutex);
+    known.insert(scene);
+    return true;
 }
 
 }  // namespace
@@ -68,7 +108,7 @@ fs::path scene_file_of_family(const std::string& name) {
     const std::string family = name.substr(0, name.find(':'));
     static const std::string hash = hash_of_generator();
     const fs::path folder = default_cache_folder() / "scenes" / hash, scene = family + "_" + std::to_string(number);
-    if (fs::exists(folder / scene / "scene.json")) return folder / scene / "scene.json";
+    if (is_known_as_whole(folder / scene)) return folder / scene / "scene.json";
 
     // Made under another name, and renamed when it is whole: who is interrupted leaves nothing that is taken for a
     // scene.
@@ -78,9 +118,14 @@ fs::path scene_file_of_family(const std::string& name) {
     if (error) fail_machine("cannot create the cache folder ", beside.string(), ": ", error.message());
     const int code = run_program({SSRLAB_PYTHON, "-B", (scenes_folder / "generate.py").string(), "--out",
                                   beside.string(), family + ":" + std::to_string(number)});
-    if (code == 0 && fs::exists(beside / scene / "scene.json")) fs::rename(beside / scene, folder / scene, error);
-    const bool is_there = fs::exists(folder / scene / "scene.json");  // by us, or by another process in the meantime
     std::error_code ignored;
+    if (code == 0 && fs::exists(beside / scene / "scene.json")) {
+        write_text(beside / scene / hash_file, hash_of_scene(beside / scene));
+        // Another process may have made it in the meantime. What is damaged gives way.
+        if (!is_whole(folder / scene)) fs::rename(folder / scene, beside / "damaged", ignored);
+        fs::rename(beside / scene, folder / scene, error);
+    }
+    const bool is_there = is_whole(folder / scene);
     fs::remove_all(beside, ignored);
     if (!is_there)
         fail_machine("cannot make the scene '", name, "' in ", folder.string(), ": ",

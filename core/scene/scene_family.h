@@ -22,6 +22,7 @@ std::vector<std::string> scenes_in_a_row(const std::string& name, unsigned first
 
 /// The scene.json of a scene of a family. The first use makes it, by `scenes/generate.py`, in the folder `scenes` of
 /// the cache (default_cache_folder()), below the hash of the generator's sources: after a change of these no old scene
-/// is found. It appears whole or not at all. Fails with Error if the name is no scene's, and with MachineError if the
-/// folder cannot be written or the generator does not end well.
+/// is found. It appears whole or not at all, with a hash of its files; one that was cut or changed since is made again.
+/// Fails with Error if the name is no scene's, and with MachineError if the folder cannot be written or the generator
+/// does not end well.
 std::filesystem::path scene_file_of_family(const std::string& name);

@@ -8,6 +8,7 @@
 #include "tests/exr_writer.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <cstring>
 
@@ -201,6 +202,32 @@ TEST_F(Reading, OnlyRegularFilesAreRead) {
             EXPECT_NE(error_message([&] { read(file); }).find("cannot read " + file.string() + ": " + kind),
                       std::string::npos)
                 << error_message([&] { read(file); });
+}
+
+/// A process may open so many files. The file is then not empty, and nobody's mistake.
+TEST_F(Reading, AFileThatCannotBeOpenedIsAFaultOfTheMachine) {
+    const fs::path file = folder / "image.exr", png = folder / "image.png";
+    write_exr(file, HostImage({4, 4}, 3, 0.5f));
+    write_png(png, HostImage({4, 4}, 3, 0.5f));
+    const auto readers = {+[](const fs::path& f, const fs::path&) { read_text(f); },
+                          +[](const fs::path& f, const fs::path&) { read_exr(f); },
+                          +[](const fs::path&, const fs::path& p) { read_png_codes(p); }};
+    rlimit before{};
+    getrlimit(RLIMIT_NOFILE, &before);
+    for (const auto& read : readers) {
+        const rlimit none{0, before.rlim_max};
+        setrlimit(RLIMIT_NOFILE, &none);
+        std::string said = "it was read";
+        bool is_machine = false;
+        try {
+            read(file, png);
+        } catch (const Error& error) {
+            said = error.what(), is_machine = dynamic_cast<const MachineError*>(&error) != nullptr;
+        }
+        setrlimit(RLIMIT_NOFILE, &before);
+        EXPECT_TRUE(is_machine) << said;
+        EXPECT_NE(said.find("Too many open files"), std::string::npos) << said;
+    }
 }
 
 TEST_F(Reading, NamesStayBelowTheFolderOfTheirFile) {

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 #include <csignal>
 #include <cstdlib>
@@ -50,6 +51,38 @@ TEST_F(SceneFamilies, AreMadeOnceAndLoadByTheirName) {
     std::vector<std::string> names = made();
     std::ranges::sort(names);
     EXPECT_EQ(names, (std::vector<std::string>{"room_1", "room_2.partial-1"})) << "its own folder is renamed";
+}
+
+/// A disk that was full, a copy that was cut, a byte that flipped. Each process looks once; a child process is a new
+/// one.
+TEST_F(SceneFamilies, AreMadeAgainWhereTheyAreDamaged) {
+    const fs::path file = scene_file_of_family("room:3"), folder = file.parent_path();
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder))
+        if (entry.is_regular_file()) files.push_back(entry.path());
+    ASSERT_GE(files.size(), 3u);
+    const auto is_healed = [&] {
+        const pid_t child = fork();
+        if (child == 0) _exit(scene_file_of_family("room:3") == file ? 0 : 1);
+        int status = -1;
+        waitpid(child, &status, 0);
+        return status == 0;
+    };
+    for (const fs::path& damaged : files) {
+        SCOPED_TRACE(damaged);
+        const std::string whole = read_text(damaged);
+        std::string changed = whole;
+        changed[changed.size() / 2] ^= 1;
+        for (const std::string& content : {whole.substr(0, whole.size() / 2), changed}) {
+            write_text(damaged, content);
+            EXPECT_TRUE(is_healed());
+            EXPECT_EQ(read_text(damaged), whole);
+        }
+    }
+    fs::remove(files.front());
+    EXPECT_TRUE(is_healed());
+    EXPECT_TRUE(fs::exists(files.front()));
+    EXPECT_EQ(made(), std::vector<std::string>{"room_3"});
 }
 
 TEST_F(SceneFamilies, RefuseNamesThatAreNoNumber) {

@@ -33,7 +33,9 @@ std::filesystem::path CellStore::file(const std::string& name) const {
 std::optional<Cell> CellStore::parse(const std::string& name) const {
     std::error_code error;
     const std::filesystem::path file = this->file(name);
-    if (!std::filesystem::exists(file, error)) return {};
+    const bool is_there = std::filesystem::exists(file, error);
+    if (error) fail_machine("cannot read ", file.string(), ": ", error.message());
+    if (!is_there) return {};
     nlohmann::json json;
     try {
         json = read_json(file);
