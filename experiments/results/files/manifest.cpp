@@ -27,12 +27,27 @@ nlohmann::json metric_descriptions() {
     return all;
 }
 
+namespace {
+
+/// The member where it is; null where `object` is no object or lacks it. json::value() would copy it: a manifest has
+/// hundreds of shots, each of which is asked for once for every row.
+const nlohmann::json& member(const nlohmann::json& object, const char* key) {
+    static const nlohmann::json none;
+    const auto found = object.find(key);
+    return found == object.end() ? none : *found;
+}
+
+bool is_text(const nlohmann::json& value, const std::string& text) {
+    return value.is_string() && value.get_ref<const std::string&>() == text;
+}
+
+}  // namespace
+
 const nlohmann::json& shot_entry(const nlohmann::json& manifest, const std::string& shot) {
     static const nlohmann::json none = nlohmann::json::object();
-    const auto shots = manifest.find("shots");
-    if (shots == manifest.end()) return none;
-    const auto entry = std::ranges::find_if(*shots, [&](const auto& s) { return s.value("shot", "") == shot; });
-    return entry == shots->end() ? none : *entry;
+    for (const nlohmann::json& entry : member(manifest, "shots"))
+        if (is_text(member(entry, "shot"), shot)) return entry;
+    return none;
 }
 
 std::string asset_of(const nlohmann::json& manifest, const std::string& shot) {
@@ -44,7 +59,7 @@ std::string asset_of(const nlohmann::json& manifest, const std::string& shot) {
 std::vector<Rung> truth_ladder(const nlohmann::json& manifest, const std::string& shot,
                                const PrimaryComparisons& error) {
     std::vector<Rung> rungs;
-    for (const nlohmann::json& rung : shot_entry(manifest, shot).value("truth_ladder", nlohmann::json::array())) {
+    for (const nlohmann::json& rung : member(shot_entry(manifest, shot), "truth_ladder")) {
         const auto number = [&](const char* key) {
             const nlohmann::json value = rung.value(key, nlohmann::json());
             return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
@@ -58,11 +73,10 @@ std::vector<Rung> truth_ladder(const nlohmann::json& manifest, const std::string
 }
 
 bool is_clock_proven(const nlohmann::json& manifest, const std::string& shot) {
-    const nlohmann::json clock = manifest.value("clock", nlohmann::json::object());
     bool is_proven = false;
-    for (const nlohmann::json& proof : clock.value("proofs", nlohmann::json::array()))
-        if (std::ranges::count(proof.value("shots", nlohmann::json::array()), nlohmann::json(shot)) > 0)
-            is_proven = proof.value("verdict", "") == "passed";
+    for (const nlohmann::json& proof : member(member(manifest, "clock"), "proofs"))
+        if (std::ranges::any_of(member(proof, "shots"), [&](const auto& timed) { return is_text(timed, shot); }))
+            is_proven = is_text(member(proof, "verdict"), "passed");
     return is_proven;
 }
 
@@ -89,7 +103,6 @@ std::optional<double> aa_floor(const nlohmann::json& manifest, const std::string
 }
 
 size_t aa_pair_count(const nlohmann::json& manifest, const std::string& shot) {
-    const nlohmann::json none = nlohmann::json::object();
-    const nlohmann::json pairs = manifest.value("clock", none).value("aa_pairs", nlohmann::json::array());
-    return size_t(std::ranges::count_if(pairs, [&](const nlohmann::json& p) { return p.value("shot", "") == shot; }));
+    return size_t(std::ranges::count_if(member(member(manifest, "clock"), "aa_pairs"),
+                                        [&](const nlohmann::json& p) { return is_text(member(p, "shot"), shot); }));
 }
