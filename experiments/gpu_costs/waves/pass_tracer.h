@@ -15,7 +15,7 @@ public:
 
 private:
     const Observer observer_;
-    PassTrace trace_;                               ///< of the running pass
+    PassTrace trace_;  ///< of the running pass
     struct Traced {
         PipelineRecipe recipe;
         unsigned lane_words = 0;

@@ -668,7 +668,7 @@ def test_advice(temporary):
     kind = "chip,1,rooms,at rest,all"
     rows = [f"{kind},good,a,good a,,1,0.4,0.3,0.5,0.98,1,best,8,8,810,790,830,4,", f"{kind},bad,b,bad b,,2,0.9,0.8,1,0.02,0.1,behind,8,8,500,,,4,", f"{kind},dear,c,dear c,,,,,,,,,0,0,9000,,,4,above the budget"]
     study = {"title": "t", "config": "c.json", "commit": "a" * 40, "finished": "2026-01-02T03:04:05Z", "sizes": ["320x180"]}
-    sources = {"errors": [study], "costs": study | {"commit": "b" * 40}, "compilers": {"chip": "Mesa"}, "points": {}, "rows": 3}
+    sources = {"errors": [study], "costs": [study | {"commit": "b" * 40, "compilers": {"chip": "Mesa"}}], "points": {}, "rows": 3}
     os.makedirs(os.path.join(studies, "summaries"))
     write(os.path.join(studies, "advice.csv"), "\n".join([ADVICE_COLUMNS, *rows, ""]))
     write(os.path.join(studies, "advice.json"), json.dumps(sources))
