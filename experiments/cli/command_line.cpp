@@ -48,7 +48,9 @@ void add_reading(CLI::App& command) {
     command
         .add_option_function<uint64_t>(
             "--max-memory", [](const uint64_t& bytes) { reading_limits().memory = bytes; },
-            "Memory that reading a file may take, for example 8GB. A file that announces more is refused. Default: "
+            "Memory that reading a file, or a technique's images and buffers, may take, for example 8GB. What "
+            "announces "
+            "more is refused. Default: "
             "SSRLAB_MAX_MEMORY, else half of this machine's memory")
         ->transform(CLI::AsSizeValue(true).description(""))
         ->transform(CLI::Validator(  // the last one comes first: CLI11 would take -1 for 2^64 - 1

@@ -16,7 +16,7 @@
 namespace {
 
 /// Results hold paths and names as JSON, which is UTF-8. A study would end before its tables.
-void refuse_other_texts(const std::vector<std::string>& words) {
+void refuse_other_encodings(const std::vector<std::string>& words) {
     for (const std::string& word : words)
         if (!is_utf8(word)) fail("'", word, "' is not UTF-8, the only encoding of ssrlab's files; rename the path");
     std::error_code none;
@@ -28,7 +28,7 @@ void refuse_other_texts(const std::vector<std::string>& words) {
 int parse_and_run(int argc, char** argv) {
     std::vector<std::string> words;
     for (int i = 1; i < argc; ++i) words.push_back(present_word(argv[i], words));
-    refuse_other_texts(words);
+    refuse_other_encodings(words);
     CLI::App app{
         "ssrlab compares screen-space reflection techniques with path-traced truth.\n"
         "Exit codes: 0 done, 2 an error in the request, 3 a fault of this machine, 130 stopped by Ctrl-C."};

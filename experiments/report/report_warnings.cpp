@@ -3,6 +3,7 @@
 #include "core/list_text.h"
 #include "core/number_text.h"
 #include "experiments/results/answers/answer_text.h"
+#include "experiments/results/files/manifest.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,14 +14,6 @@ namespace {
 
 using nlohmann::json;
 using Names = std::vector<std::string>;
-
-/// The member, or null where `object` is no object or lacks it: a manifest of another version is still worth a report.
-const json& member(const json& object, const char* key) {
-    static const json none;
-    if (!object.is_object()) return none;
-    const auto found = object.find(key);
-    return found == object.end() ? none : *found;
-}
 
 double number(const json& value, double fallback) { return value.is_number() ? value.get<double>() : fallback; }
 std::string text(const json& value) { return value.is_string() ? value.get<std::string>() : "?"; }

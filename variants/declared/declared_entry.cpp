@@ -90,7 +90,8 @@ void refuse_repetition(const std::vector<DeclaredParameter>& declared, const Dec
     }
 }
 
-constexpr size_t most_parameters = 500;  // each takes the compilers time; ssrlab's own techniques have up to 60
+constexpr size_t most_parameters =
+    500;  // each takes the compilers time; ssrlab's own have up to 327, tracers' included
 
 /// `parameters`, `tracers` and `denoiser` of a technique.json.
 void read_parameters(JsonObject& root, ParameterReader& reader, Declaration& declaration) {

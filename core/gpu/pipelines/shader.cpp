@@ -36,7 +36,7 @@ const char* const webgl2_preamble =
     "precision highp usampler2D;\n"
     "#define push_constant std140\n";
 
-// ssrlab's own shaders need 9 files inside each other and 200 kB.
+// The largest of ssrlab's own shaders has 79 files, 10 within each other, of 122 kB.
 constexpr size_t most_nested_files = 100, most_files = 2000, most_source_bytes = 16 << 20;
 
 struct SourceFile {

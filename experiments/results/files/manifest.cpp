@@ -27,15 +27,13 @@ nlohmann::json metric_descriptions() {
     return all;
 }
 
-namespace {
-
-/// The member where it is; null where `object` is no object or lacks it. json::value() would copy it: a manifest has
-/// hundreds of shots, each of which is asked for once for every row.
 const nlohmann::json& member(const nlohmann::json& object, const char* key) {
     static const nlohmann::json none;
     const auto found = object.find(key);
     return found == object.end() ? none : *found;
 }
+
+namespace {
 
 bool is_text(const nlohmann::json& value, const std::string& text) {
     return value.is_string() && value.get_ref<const std::string&>() == text;

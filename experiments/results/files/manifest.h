@@ -8,6 +8,10 @@
 
 // Readers of manifest.json (experiments/docs/results_folder.md).
 
+/// The member where it is; null where `object` is no object or lacks it. json::value() would copy it: a manifest has
+/// hundreds of shots, and readers ask for each once for every row.
+const nlohmann::json& member(const nlohmann::json& object, const char* key);
+
 /// The shot's entry in `shots`; an empty object if it has none.
 const nlohmann::json& shot_entry(const nlohmann::json& manifest, const std::string& shot);
 
