@@ -17,7 +17,7 @@ install_packages "${build_packages[@]}" clang-19 libclang-rt-19-dev  # Debian's 
 build fuzz fuzz_core fuzz_experiments
 cd build/fuzz
 mkdir -p findings
-[ $# -gt 0 ] || set -- scene gltf glb texture exr png radiance camera environment config technique cases cell manifest inspect results
+[ $# -gt 0 ] || set -- scene gltf glb texture exr png radiance spirv camera environment config technique cases cell manifest inspect results
 status=0
 for target in "$@"; do
     program=fuzz_core

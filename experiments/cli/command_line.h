@@ -1,4 +1,6 @@
 #pragma once
+#include "experiments/study/ended_point.h"
+
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
@@ -20,6 +22,7 @@ struct Commands {
     CLI::App& app;
     int status = 0;  ///< exit code, set by the command that ran
     CommonOptions common;
+    std::vector<EndedPoint> ended;  ///< points that ended this command before
 
     CLI::App& add(const std::string& name, const std::string& about) { return *app.add_subcommand(name, about); }
 

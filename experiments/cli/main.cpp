@@ -5,11 +5,13 @@
 #include "core/shown_text.h"
 #include "experiments/bridges/inspect/inspect_hint.h"
 #include "experiments/cli/commands.h"
+#include "experiments/cli/supervised.h"
 #include "experiments/results/cells/host_info.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <new>
 #include <string_view>
 
@@ -25,7 +27,7 @@ void refuse_other_encodings(const std::vector<std::string>& words) {
 }
 
 /// CLI11 reports its own mistakes; they exit with 2 as all mistakes of the user do.
-int parse_and_run(int argc, char** argv) {
+int parse_and_run(int argc, char** argv, const std::vector<EndedPoint>& ended) {
     std::vector<std::string> words;
     for (int i = 1; i < argc; ++i) words.push_back(present_word(argv[i], words));
     refuse_other_encodings(words);
@@ -38,6 +40,7 @@ int parse_and_run(int argc, char** argv) {
         "--version", [] { return build_info().dump(); },
         "Print version, commit and the hash of all code, as manifest.json has them");
     Commands line(app);
+    line.ended = ended;
     for (const auto add : {add_run,     add_plan,           add_merge,   add_report,   add_figures, add_diff,
                            add_judge,   add_scene_for,      add_tables,  add_tradeoff, add_advise,  add_tune,
                            add_compare, add_reference,      add_gbuffer, add_capture,  add_inspect, add_needs,
@@ -61,11 +64,10 @@ void say_how_to_inspect(int argc, char** argv, const Error& error) {
     if (!hint.empty()) std::fprintf(stderr, "note: %s\n", shown_text(hint).c_str());
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+/// What `work` returns; of what it throws, says it and returns its exit code.
+int exit_code_of(int argc, char** argv, const std::function<int()>& work) {
     try {
-        return parse_and_run(argc, argv);
+        return work();
     } catch (const MachineError& e) {
         std::fprintf(stderr, "error: %s\n", shown_text(e.what()).c_str());
         return 3;
@@ -83,4 +85,15 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "error: %s\n", shown_text(e.what()).c_str());
         return 3;
     }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const std::string_view command = argc > 1 ? argv[1] : "";
+    const auto parse = [&](const std::vector<EndedPoint>& ended) {
+        return exit_code_of(argc, argv, [&] { return parse_and_run(argc, argv, ended); });
+    };
+    if (command == "watch") return parse({});  // renders by `ssrlab run` alone
+    return exit_code_of(argc, argv, [&] { return supervised(parse, command == "run"); });
 }

@@ -20,7 +20,8 @@ struct RunOptions {
 
 }  // namespace
 
-static void run_study_command(const RunOptions& options, const CommonOptions& common) {
+static void run_study_command(const RunOptions& options, const CommonOptions& common,
+                              const std::vector<EndedPoint>& ended) {
     run_study(config_of_study(options.config),
               {.out = options.out.empty() ? default_results(options.config) : options.out,
                .device = common.device,
@@ -33,7 +34,8 @@ static void run_study_command(const RunOptions& options, const CommonOptions& co
                .takes_times_again = options.takes_times_again,
                .report_after = options.report_after,
                .write_report = options.has_no_report ? nullptr : write_page,
-               .cells = options.cells});
+               .cells = options.cells,
+               .ended = ended});
 }
 
 void add_run(Commands& line) {
@@ -69,5 +71,5 @@ void add_run(Commands& line) {
         ->delimiter(',');
     add_device(command, line.common), add_scene_path(command, line.common), add_cache(command, line.common);
     add_reading(command);
-    command.callback([&] { run_study_command(run, line.common); });
+    command.callback([&] { run_study_command(run, line.common, line.ended); });
 }

@@ -149,12 +149,14 @@ private:
         return find_finished_run(settings.out, key_of_run(study_));
     }
 
-    /// Not with times of another machine, of which every run says so, nor where every run asks a compiler again.
+    /// Not with times of another machine, of which every run says so, nor where every run asks a compiler again or
+    /// tries a point again that was left out.
     void keep_finished(const std::vector<std::string>& lines) const {
-        const bool has_more_to_say = std::ranges::any_of(study_.finished, [&](const Cell& cell) {
-            return (!cell.timing.is_null() && cell.provenance.at("host") != study_.maker.at("host")) ||
-                   !refusal_in(cell.compiled).empty() || !refusal_in(cell.estimates).empty();
-        });
+        const bool has_more_to_say =
+            !study_.settings.ended.empty() || std::ranges::any_of(study_.finished, [&](const Cell& cell) {
+                return (!cell.timing.is_null() && cell.provenance.at("host") != study_.maker.at("host")) ||
+                       !refusal_in(cell.compiled).empty() || !refusal_in(cell.estimates).empty();
+            });
         if (!has_more_to_say) keep_finished_run(study_.settings.out, key_of_run(study_), lines);
     }
 
@@ -202,6 +204,24 @@ private:
     std::array<struct sigaction, signals.size()> before_{};
 };
 
+Config without_ended(Config config, const std::vector<EndedPoint>& ended) {
+    for (const EndedPoint& point : ended)
+        for (PointConfig& found : config.techniques) {
+            if (found.technique != point.technique || found.point != point.point) continue;
+            if (found.is_baseline)
+                fail_machine(found.technique, " ", found.point, ", with which all points are compared: ", point.how);
+            found.how_it_ended = point.how;
+        }
+    return config;
+}
+
+std::string listed(const std::vector<EndedPoint>& ended) {
+    std::string text;
+    for (const EndedPoint& point : ended)
+        text += (text.empty() ? "" : ", and of ") + point.technique + " " + point.point + " (" + point.how + ")";
+    return text;
+}
+
 /// As a POSIX shell takes it for one word.
 std::string quoted(const std::string& text) {
     const auto is_plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("_-./:=,@%+", c); };
@@ -234,9 +254,10 @@ std::string command_line(const std::string& command, const Config& config, const
     return line;
 }
 
-void run_study(const Config& config, const RunSettings& settings) {
+void run_study(const Config& asked, const RunSettings& settings) {
     const ExplainedInterrupt explained;
     const CellSelection selection(settings.cells);
+    const Config config = without_ended(asked, settings.ended);
     StudySession study(config, settings);
     const auto say = [&](const std::string& text) { study.progress.say(text); };
     const SpentTime::Span span(study.spent, "else");
@@ -249,4 +270,7 @@ void run_study(const Config& config, const RunSettings& settings) {
             say("warning: compiled.csv gets no numbers of " + compiler.chip.name + ": " + compiler.refusal);
     const FolderOwner owner(settings.out, config, settings.keep_all, settings.replaces, say);
     Runner(study, selection).run();
+    if (!settings.ended.empty())
+        fail_machine("the study has no results of ", listed(settings.ended),
+                     "; the same command tries again, once the shader or the driver is mended");
 }

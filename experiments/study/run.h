@@ -1,5 +1,6 @@
 #pragma once
 #include "experiments/study/config/config.h"
+#include "experiments/study/ended_point.h"
 
 #include <filesystem>
 #include <functional>
@@ -22,11 +23,13 @@ struct RunSettings {
     /// Makes the page of a results folder and returns its first answers; null: tables only.
     std::function<StudyAnswers(const std::filesystem::path& results)> write_report = {};
     std::vector<std::string> cells;  ///< terms of CellSelection; empty: all cells
+    std::vector<EndedPoint> ended;   ///< points that are left out, which the end of the run says
 };
 
 /// Runs a study and fills the results folder (experiments/docs/results_folder.md). Tables and report can be read while
 /// it runs. They are written ten seconds after the start, then as often as a small share of the time allows, and at the
 /// end. A run of a part of the cells writes the cells alone: merge_study() makes the tables once all cells are there.
+/// Fails with MachineError at the end if points were left out, and at once if the baseline is one of them.
 void run_study(const Config& config, const RunSettings& settings);
 
 /// A shell command for this study that works in any folder: `command` is run, merge or plan. It has absolute paths of

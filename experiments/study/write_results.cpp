@@ -29,6 +29,8 @@ nlohmann::json manifest_of(const StudySession& study, bool is_complete) {
             complete_shot_entry(entry, references->second->shot);
         }
     if (!study.plan.skipped.empty()) manifest["skipped"] = study.plan.skipped;
+    for (const EndedPoint& point : study.settings.ended)
+        manifest["warnings"].push_back(point.technique + " " + point.point + " was left out: " + point.how);
     for (const Cell& cell : study.finished) {
         for (const nlohmann::json& entry : cell.images) manifest["images"].push_back(entry);
         for (const std::string& note : cell.notes) manifest["notes"].push_back(note);
@@ -83,7 +85,8 @@ StudyAnswers write_results(StudySession& study, bool is_complete, const nlohmann
     {
         const SpentTime::Span span(study.spent, "tables");
         manifest = manifest_of(study, is_complete);
-        if (is_complete) handle_stale_files(study, manifest, before);
+        // Files of a point that is left out now are not old.
+        if (is_complete && study.settings.ended.empty()) handle_stale_files(study, manifest, before);
         write_text(file, manifest.dump(1) + "\n");
         StudyResults results{rows_of(study.finished), manifest};
         evaluate(results, compared_points(study.config.techniques), study.config.primary);

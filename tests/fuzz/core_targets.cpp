@@ -1,10 +1,11 @@
-// The readers of images, scenes and captures.
+// The readers of images, scenes, captures and compiled shaders.
 #include "core/error.h"
 #include "core/exr/exr.h"
 #include "core/exr/exr_picture.h"
 #include "core/files.h"
 #include "core/gbuffer/camera_file.h"
 #include "core/gbuffer/gbuffer_file.h"
+#include "core/gpu/pipelines/shader_rules.h"
 #include "core/png.h"
 #include "core/radiance_hdr.h"
 #include "core/scene/load_scene.h"
@@ -12,6 +13,7 @@
 
 #include <zlib.h>
 #include <cstdint>
+#include <cstring>
 #include <fstream>
 
 namespace fs = std::filesystem;
@@ -48,6 +50,14 @@ void correct_checksums(const fs::path& file) {
     std::ofstream(file, std::ios::binary) << bytes;  // write_text() renames, which is slower
 }
 
+/// Fails with Error if the shader asks for what no device has.
+void read_spirv(const fs::path& file) {
+    const std::string bytes = read_text(file);
+    std::vector<unsigned> words(bytes.size() / sizeof(unsigned));
+    std::memcpy(words.data(), bytes.data(), words.size() * sizeof(unsigned));
+    for (const std::string& name : foreign_capabilities(words)) fail(name);
+}
+
 const FuzzTarget targets[] = {
     {"scene", "scene.json", load, copy_neighbours},
     {"gltf", "input.gltf", load},
@@ -77,6 +87,7 @@ const FuzzTarget targets[] = {
          std::vector<std::string> notes;
          read_radiance_hdr(file, notes);
      }},
+    {"spirv", "shader.spv", read_spirv},
     {"camera", "camera.json", [](const fs::path& file) { read_camera(file); }},
     {"environment", "environment.json",
      [](const fs::path& file) {

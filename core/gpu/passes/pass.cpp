@@ -1,5 +1,6 @@
 #include "core/gpu/passes/pass_list_impl.h"
 #include "core/gpu/resources.h"
+#include "core/in_flight.h"
 
 #include <algorithm>
 #include <bit>
@@ -61,6 +62,7 @@ void PassList::Pass::run() {
 }
 
 void PassList::Pass::run(glm::uvec2 extent) {
+    const InFlightText at_work(in_flight().pass, label_);
     const Shader& shader = pass_list_.pipelines.shader(shader_, vertex_shader_, *pass_list_.params, includes_,
                                                        pass_list_.changes_of(*this));
     const auto local = shader.interface.local_size;
@@ -141,6 +143,7 @@ ShaderChanges PassList::Impl::changes_of(const Pass& pass) const {
 
 void PassList::Impl::run(Pass& pass, std::optional<glm::uvec3> groups, const Buffer* arguments,
                          size_t arguments_offset) {
+    const InFlightText at_work(in_flight().pass, pass.label_);
     const ShaderChanges changed = changes_of(pass);
     const Shader& shader = pipelines.shader(pass.shader_, pass.vertex_shader_, *params, pass.includes_, changed);
     check(pass, shader.interface);

@@ -4,6 +4,7 @@
 #include <SPIRV/spirv.hpp>
 #include <algorithm>
 #include <array>
+#include <cstring>
 
 namespace {
 
@@ -30,15 +31,25 @@ constexpr std::array allowed = {
 
 }  // namespace
 
-std::vector<std::string> foreign_capabilities(const std::vector<unsigned>& spirv) {
+std::vector<std::string> foreign_capabilities(std::span<const unsigned> spirv) {
     std::vector<std::string> found;
     constexpr size_t header = 5;
-    for (size_t i = header; i < spirv.size(); i += std::max(1u, spirv[i] >> spv::WordCountShift)) {
-        const auto op = spv::Op(spirv[i] & spv::OpCodeMask);
-        if (op == spv::OpCapability && std::ranges::find(allowed, spv::Capability(spirv[i + 1])) == allowed.end())
-            found.push_back(spv::CapabilityString(int(spirv[i + 1])));
-        if (op == spv::OpExtension) found.push_back(reinterpret_cast<const char*>(&spirv[i + 1]));
+    for (std::span<const unsigned> rest = spirv.subspan(std::min(header, spirv.size())); !rest.empty();) {
+        const size_t words = rest[0] >> spv::WordCountShift;
+        const auto op = spv::Op(rest[0] & spv::OpCodeMask);
         if (op == spv::OpMemoryModel) break;  // both stand before it
+        const bool has_operand = op == spv::OpCapability || op == spv::OpExtension;
+        if (words < (has_operand ? 2u : 1u) || words > rest.size()) {
+            found.push_back("an instruction without its words");
+            break;
+        }
+        if (op == spv::OpCapability && std::ranges::find(allowed, spv::Capability(rest[1])) == allowed.end())
+            found.push_back(spv::CapabilityString(int(rest[1])));
+        if (op == spv::OpExtension) {
+            const char* const name = reinterpret_cast<const char*>(&rest[1]);
+            found.emplace_back(name, strnlen(name, (words - 1) * sizeof rest[0]));
+        }
+        rest = rest.subspan(words);
     }
     return found;
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <span>
 #include <string>
 #include <vector>
 
@@ -6,4 +7,5 @@
 // no device of ssrlab was created for, a driver does anything, up to writing to any address of the process.
 
 /// Capabilities and extensions in the SPIR-V that no device of ssrlab is created with, by their names; empty: none.
-std::vector<std::string> foreign_capabilities(const std::vector<unsigned>& spirv);
+/// What is no SPIR-V has no device either.
+std::vector<std::string> foreign_capabilities(std::span<const unsigned> spirv);

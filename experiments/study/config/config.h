@@ -81,6 +81,7 @@ struct PointConfig {
     bool is_timed = true;
     std::vector<PointCondition> conditions;          ///< on shots
     std::shared_ptr<const ExternalImages> external;  ///< another program's frames; nullptr: ssrlab renders the point
+    std::string how_it_ended;  ///< EndedPoint::how, which keeps the point from all shots; "": it ended nothing
 };
 
 struct TimingConfig {

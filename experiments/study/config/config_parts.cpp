@@ -213,7 +213,9 @@ Keys tune_keys() {
          "an object with `values`, `lin` or `log` and the conditions `only_if` and `skip_if`. Where conditions exclude "
          "an axis, the parameter keeps its starting value"},
         {"program", some_of(any_text()), none,
-         "External program that renders, and its first arguments. The axes are then settings of the program"},
+         "External program that renders, and its first arguments. The axes are then settings of the program. It runs "
+         "only "
+         "with `ssrlab tune --allow-program`"},
         {"start", any_text(), otherwise("the baseline"), "Point that the axes change, by its name"},
         {"time", one_of(times), milliseconds,
          "Cost of a point: measured time, a quantity of `costs.csv`, or the estimated total time of a GPU in "

@@ -2,6 +2,7 @@
 
 #include "core/gbuffer/gbuffer_transfer.h"
 #include "core/gpu/device.h"
+#include "core/in_flight.h"
 #include "experiments/study/measuring/render_technique.h"
 #include "variants/registry.h"
 
@@ -36,6 +37,8 @@ void rehearse(Device& device, const std::vector<PointConfig>& techniques) {
     for (const PointConfig& config : techniques) {
         if (config.external || !done.insert(config.technique + config.preset + config.parameters.dump()).second)
             continue;
+        const InFlightText technique_at_work(in_flight().technique, config.technique),
+            point_at_work(in_flight().point, config.point);
         PassList pass_list(device, host.extent());
         const std::unique_ptr<Technique> technique = make_technique(config.technique, config.parameters, config.preset);
         technique->ray_probe = &probe;

@@ -1,6 +1,7 @@
 #include "experiments/study/shots/shot_cells.h"
 #include "core/elapsed.h"
 #include "core/error.h"
+#include "core/in_flight.h"
 #include "core/number_text.h"
 #include "experiments/results/cells/host_info.h"
 #include "experiments/results/cells/provenance.h"
@@ -255,6 +256,8 @@ Cell make_cell(StudySession& study, OpenShot& open, const PlannedShot& shot, con
 CellTask task_of(StudySession& study, OpenShot& open, const PlannedShot& shot, const PlannedCell& planned) {
     CellTask task{.planned = planned, .make = {}};
     const auto make = [&study, &open, &shot, &planned](const auto& report) {
+        const InFlightText technique(in_flight().technique, planned.technique ? planned.technique->technique : ""),
+            point(in_flight().point, planned.technique ? planned.technique->point : "");
         Cell cell = make_cell(study, open, shot, planned, report);
         cell.truth = open.truth.content_hash();
         return cell;

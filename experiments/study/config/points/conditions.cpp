@@ -71,6 +71,7 @@ bool is_wanted(std::vector<PointCondition>& conditions, const json& parameters) 
 }
 
 std::string why_skipped(const PointConfig& technique, const Shot& shot) {
+    if (!technique.how_it_ended.empty()) return technique.how_it_ended;
     if (technique.external) {
         if (const std::string why = why_not_external(shot); !why.empty()) return why;
         if (!technique.external->has_view(shot))

@@ -22,7 +22,7 @@ bool is_wanted(std::vector<PointCondition>& conditions, const nlohmann::json& pa
 /// Whether the point runs on the shot.
 bool runs_on(const PointConfig& technique, const Shot& shot);
 
-/// The condition that keeps the point from running on the shot; "" if it runs.
+/// What keeps the point from running on the shot, as a condition or a clause; "" if it runs.
 std::string why_skipped(const PointConfig& technique, const Shot& shot);
 
 /// The study reduced to the points that run on the shot.

@@ -4,6 +4,7 @@
 
 #include "core/elapsed.h"
 #include "core/gpu/device.h"
+#include "core/in_flight.h"
 #include "experiments/study/measuring/render_technique.h"
 #include "experiments/study/measuring/times/clock_proofs.h"
 #include "experiments/study/measuring/times/timed_rounds.h"
@@ -50,6 +51,8 @@ struct TimedCopy {
           technique(make_technique(c.technique, c.parameters, c.preset)) {}
 
     void render(const CameraData& camera, const GBuffer& gbuffer) {
+        const InFlightText technique_at_work(in_flight().technique, config.technique),
+            point_at_work(in_flight().point, config.point);
         render_technique(*pass_list, *technique, camera, config.seeds.front(), gbuffer);
         pass_list->times();  // waits for the device: the next copy starts on an idle one
     }
