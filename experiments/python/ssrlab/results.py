@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from ssrlab.csv_files import needed_number, number, read_rows, whole
 from ssrlab.exr import ExrError, read_exr_rgb
 from ssrlab.json_files import read_json
-from ssrlab.mistakes import ResultsError
+from ssrlab.mistakes import ResultsError, shown
 from ssrlab.text_files import path_inside
 
 # manifest.json as far as scripts read it, as require() of json_files.py has shapes (experiments/docs/results_folder.md explains it).
@@ -141,11 +141,12 @@ class Results:
 
     def own_label(self, technique, point):
         """The display name that a study gave a point; None if it gave none."""
-        return self.labels.get(label(technique, point)) or self.techniques.get((technique, point), {}).get("label")
+        own = self.labels.get(label(technique, point)) or self.techniques.get((technique, point), {}).get("label")
+        return own and shown(own)
 
     def point_label(self, technique, point):
         """The name of a point in tables and figures."""
-        return self.own_label(technique, point) or label(technique, self.point_name(technique, point))
+        return self.own_label(technique, point) or shown(label(technique, self.point_name(technique, point)))
 
     def point_name(self, technique, point):
         """Rounded in figures, unless another point of the technique would then have the same name."""
@@ -159,10 +160,10 @@ class Results:
 
     def point_group(self, technique, point):
         """The group of a point: its display name, else the technique's."""
-        return self.techniques.get((technique, point), {}).get("group") or self.labels.get(technique, technique)
+        return shown(self.techniques.get((technique, point), {}).get("group") or self.labels.get(technique, technique))
 
     def shot_label(self, shot):
-        return self.labels.get(shot) or self.shot_entries.get(shot, {}).get("label") or shot
+        return shown(self.labels.get(shot) or self.shot_entries.get(shot, {}).get("label") or shot)
 
     def asset(self, shot):
         """What a shot's scene shows. Scenes of one asset are not independent samples."""
@@ -172,7 +173,7 @@ class Results:
     def shot_group(self, shot):
         """The group of a shot: its display name, else its scene's."""
         entry = self.shot_entries.get(shot, {})
-        return entry.get("group") or entry.get("scene") or shot
+        return shown(entry.get("group") or entry.get("scene") or shot)
 
     def parameters_of(self, technique, point):
         """Values of all parameters of a point, by name."""

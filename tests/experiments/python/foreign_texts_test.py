@@ -22,6 +22,7 @@ from ssrlab.tables.cell import Cell
 from ssrlab.csv_files import parse_rows, write_lines
 from ssrlab.markdown_text import markdown_code, markdown_prose, markdown_text
 from ssrlab.mistakes import ResultsError, shown
+from ssrlab.results import Results
 from ssrlab.dataframes import Tables
 from ssrlab.text_files import path_inside
 
@@ -183,6 +184,15 @@ class Latex(unittest.TestCase):
 
 
 class Labels(unittest.TestCase):
+    def test_names_in_figures_hold_nothing_that_is_obeyed(self):
+        for attack in ATTACKS:
+            results = Results.__new__(Results)
+            results.labels, results.rounds_names = {}, False
+            for manifest in ({}, {"label": attack, "group": attack}):
+                results.techniques, results.shot_entries = {(attack, attack): manifest}, {attack: manifest}
+                for name in (results.point_label(attack, attack), results.point_group(attack, attack), results.shot_label(attack), results.shot_group(attack)):
+                    self.assertTrue(name.isprintable(), (attack, name))
+
     def test_no_mathematics(self):
         style.apply()
         figure, axes = plt.subplots()

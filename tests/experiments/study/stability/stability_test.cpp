@@ -6,6 +6,7 @@
 #include "experiments/study/stability/case_run.h"
 #include "experiments/study/stability/changed_shot.h"
 #include "tests/error_message.h"
+#include "tests/reading_limits.h"
 #include "tests/variants/technique_fixture.h"
 
 #include <algorithm>
@@ -89,6 +90,19 @@ TEST_F(StabilityTest, WrongTypesInTablesAreNamed) {
     write_text(table, R"({"cases": [{"case": 3, "each": {"near": [1]}, )" + small + R"("frames": 1}]})");
     EXPECT_NE(error_message([&] { read_stability_cases(table); }).find("cases[0]: 'case' must be a text"),
               std::string::npos);
+}
+
+TEST_F(StabilityTest, ImagesOfATableTakeNoMoreMemoryThanAllowed) {
+    const LimitsOf limits({.memory = 100'000'000});
+    const auto said = [&](const std::string& size) {
+        write_text(table, R"({"cases": [{"case": "a", "group": "g", "why": "w",
+            "images": {"size": )" +
+                              size + R"(, "reference": 1, "test": 2}}]})");
+        return error_message([&] { read_stability_cases(table); });
+    };
+    EXPECT_EQ(said("[700, 700]"), "no error");
+    EXPECT_NE(said("[16384, 16384]").find("cases[0]: images: 16384 x 16384 pixels"), std::string::npos)
+        << said("[16384, 16384]");
 }
 
 /// Poses that look alike and the benign form of a case share one, which the next run finds.
