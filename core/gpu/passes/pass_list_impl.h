@@ -50,8 +50,7 @@ struct PassList::Impl {
     bool uses_gpu_forms = !gpu.info.is_cpu();
     PassChanges changes;
     PassWatcher* watcher = nullptr;
-    std::map<std::string, Pipeline> watched_pipelines;  ///< by the bytes of their recipes
-    vk::raii::QueryPool device_counts{nullptr};         ///< of invocations, once a pass was watched that has them
+    vk::raii::QueryPool device_counts{nullptr};  ///< of invocations, once a pass was watched that has them
 
     std::vector<PassTime> times;
     double frame_milliseconds = 0;
