@@ -16,18 +16,33 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The devices that made the cells of the parts, by name and driver.
-std::map<std::string, DeviceInfo> devices_of(const std::vector<fs::path>& folders) {
-    std::map<std::string, DeviceInfo> devices;
+/// A results folder, and all of its cells that can be read.
+struct Part {
+    fs::path folder;
+    std::map<std::string, Cell> cells;  ///< by name; their images are not checked
+};
+
+/// Reads each cell once, which is most of the work of a merge.
+std::vector<Part> read_parts(const std::vector<fs::path>& folders) {
+    std::vector<Part> parts;
     for (const fs::path& folder : folders) {
+        Part& part = parts.emplace_back(folder);
         const CellStore store(folder, [](const std::string&) {});
         for (const std::string& name : store.names())
-            if (const std::optional<Cell> cell = store.read(name)) {
-                const nlohmann::json& made_by = cell->provenance.at("device");
-                const DeviceInfo device{.name = made_by.at("name"), .driver = made_by.at("driver")};
-                devices.emplace(device.name + ", " + device.driver, device);
-            }
+            if (std::optional<Cell> cell = store.read(name)) part.cells.emplace(name, std::move(*cell));
     }
+    return parts;
+}
+
+/// The devices that made the cells of the parts, by name and driver.
+std::map<std::string, DeviceInfo> devices_of(const std::vector<Part>& parts) {
+    std::map<std::string, DeviceInfo> devices;
+    for (const Part& part : parts)
+        for (const auto& [name, cell] : part.cells) {
+            const nlohmann::json& made_by = cell.provenance.at("device");
+            const DeviceInfo device{.name = made_by.at("name"), .driver = made_by.at("driver")};
+            devices.emplace(device.name + ", " + device.driver, device);
+        }
     return devices;
 }
 
@@ -50,19 +65,28 @@ struct FoundCell {
     fs::path folder;
 };
 
+/// Takes a cell out of a part. One that could not be read is tried again, which says what is wrong with it.
+std::optional<Cell> take_cell(const std::string& name, Part& part, const std::function<void(const std::string&)>& say) {
+    const CellStore store(part.folder, say);
+    auto read = part.cells.extract(name);
+    if (read.empty()) return store.load_strictly(name);
+    if (!store.has_images(read.mapped())) return {};
+    return std::move(read.mapped());
+}
+
 /// The best that any folder holds of a cell.
-std::optional<FoundCell> find_cell(const PlannedCell& planned, const std::vector<fs::path>& folders,
+std::optional<FoundCell> find_cell(const PlannedCell& planned, std::vector<Part>& parts,
                                    const std::function<void(const std::string&)>& say) {
     std::optional<FoundCell> best;
-    for (const fs::path& folder : folders)
-        if (std::optional<Cell> cell = CellStore(folder, say).load_strictly(planned.name)) {
+    for (Part& part : parts)
+        if (std::optional<Cell> cell = take_cell(planned.name, part, say)) {
             if (best && best->cell.truth != cell->truth)
                 fail("the truth of ", planned.shot, " is not the same pixels in ", best->folder.string(), " and ",
-                     folder.string(), " (cell ", planned.name, ", ", planned.what,
+                     part.folder.string(), " (cell ", planned.name, ", ", planned.what,
                      "): references differ between processors and libraries. Run them once, with `--cells references`, "
                      "and let all other processes use that --cache");
             if (!best || disturbed_share(cell->timing) < disturbed_share(best->cell.timing))
-                best = {std::move(*cell), folder};
+                best = {std::move(*cell), part.folder};
         }
     return best;
 }
@@ -95,7 +119,8 @@ void take_over(const FoundCell& found, const fs::path& out) {
 
 size_t merge_study(const Config& config, const RunSettings& settings, const std::vector<fs::path>& folders) {
     for (const fs::path& folder : folders) check_owner(folder, config, settings.keep_all);
-    const std::map<std::string, DeviceInfo> devices = devices_of(folders);
+    std::vector<Part> parts = read_parts(folders);
+    const std::map<std::string, DeviceInfo> devices = devices_of(parts);
     const std::optional<DeviceInfo> of_parts = device_of_parts(devices, settings.device);
     RunSettings here = settings;
     if (of_parts) here.device = "";  // nothing is rendered
@@ -108,7 +133,7 @@ size_t merge_study(const Config& config, const RunSettings& settings, const std:
     for (const PlannedShot& shot : study.plan.shots) {
         std::optional<std::string> truth;  // of the shot's references, which come first: without them no cell counts
         for (const PlannedCell& planned : shot.cells) {
-            std::optional<FoundCell> found = find_cell(planned, folders, say);
+            std::optional<FoundCell> found = find_cell(planned, parts, say);
             if (found && planned.kind == CellKind::references) truth = found->cell.truth;
             if (found && truth && found->cell.truth != truth)
                 say("note: " + planned.what + " in " + found->folder.string() +

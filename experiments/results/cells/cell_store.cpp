@@ -79,19 +79,23 @@ std::optional<Cell> CellStore::load(const std::string& name) const {
 
 std::optional<Cell> CellStore::load_strictly(const std::string& name) const {
     std::optional<Cell> cell = parse(name);
-    if (!cell) return {};
-    const std::string file = this->file(name).string();
-    for (size_t i = 0; i < cell->images.size(); ++i)
+    if (!cell || !has_images(*cell)) return {};
+    return cell;
+}
+
+bool CellStore::has_images(const Cell& cell) const {
+    const std::string file = this->file(cell.name).string();
+    for (size_t i = 0; i < cell.images.size(); ++i)
         for (const std::string kind : {"exr", "png"}) {
-            const nlohmann::json& image = cell->images[i];
+            const nlohmann::json& image = cell.images[i];
             const std::string shown = image[kind], place = ": cell: images[" + std::to_string(i) + "]: " + kind,
                               hash = file_hash(image_path(results_, shown, file + place));
             if (image[kind + "_hash"].get<std::string>() == hash) continue;
             notice_("note: " + file + " is done again: its image " + shown +
                     (hash.empty() ? " is missing" : " is not the one that it made"));
-            return {};
+            return false;
         }
-    return cell;
+    return true;
 }
 
 void CellStore::save(const std::string& name, const Cell& cell) const {
@@ -104,10 +108,8 @@ std::vector<std::string> CellStore::names() const {
     std::vector<std::string> names;
     std::error_code error;
     for (const auto& entry : std::filesystem::directory_iterator(path_inside(results_, "cells"), error)) {
-        const std::string stem = entry.path().stem().string();
-        if (entry.path().extension() == ".json" && entry.is_regular_file(error) && !entry.is_symlink(error) &&
-            read(stem))
-            names.push_back(stem);
+        if (entry.path().extension() == ".json" && entry.is_regular_file(error) && !entry.is_symlink(error))
+            names.push_back(entry.path().stem().string());
     }
     std::ranges::sort(names);
     return names;

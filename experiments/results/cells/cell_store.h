@@ -21,10 +21,13 @@ public:
     std::optional<Cell> load_strictly(const std::string& name) const;
     void save(const std::string& name, const Cell& cell) const;
 
-    /// Names of all cells with undamaged files, including those of other versions of the study. Images are not checked.
+    /// Names of all files that may be cells, including those of other versions of the study, in order. No file is read.
     std::vector<std::string> names() const;
     /// The cell, even if images are missing; nullopt if its file is missing, damaged or invalid.
     std::optional<Cell> read(const std::string& name) const;
+    /// Whether all images of a cell of this folder are those that it made. Fails with Error if one is outside the
+    /// folder.
+    bool has_images(const Cell& cell) const;
     std::filesystem::path file(const std::string& name) const;
 
     /// The exclusive right to do a cell while other processes fill the same folder; released when the process ends.

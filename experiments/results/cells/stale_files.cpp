@@ -36,9 +36,10 @@ StaleFiles find_stale_files(const fs::path& results, const CellStore& cells, con
     std::set<std::string> known, current;
     for (const std::string& name : cells.names()) {
         if (used.contains(name)) continue;
+        const std::optional<Cell> cell = cells.read(name);
+        if (!cell) continue;  // none of ours, or another process removed it
         stale.cells.push_back(name);
-        if (const auto cell = cells.read(name))
-            add_files(known, cell->images, results);  // unless another process removed it
+        add_files(known, cell->images, results);
     }
     if (before.is_object()) {
         add_files(known, before.value("images", json::array()), results);

@@ -114,6 +114,7 @@ TEST_F(CellStoreTest, KnowsWhatIsStaleAndTouchesNothingElse) {
     write_text(folder / "images/s/mine.png", "a user's own");
     write_text(folder / "outside.png", "a user's own");
     fs::create_symlink(folder / "outside.png", folder / "images/s/link.png");
+    EXPECT_EQ(store.names(), (std::vector<std::string>{"notes", "old", "used"})) << "unread";
     const nlohmann::json reference = image("reference"), older = image("older");
     const nlohmann::json before = {{"images",
                                     {used.images[0],
