@@ -32,6 +32,19 @@ std::string present(const Names& names, const std::string& name) {
     return found->second;
 }
 
+/// Whether a key or a text anywhere in `value` is a former name of some kind.
+bool holds_former_name(const json& value) {
+    const auto is_former = [](const std::string& text) {
+        return of_studies.contains(text) || of_parameters.contains(text);
+    };
+    if (value.is_string()) return is_former(value.get_ref<const std::string&>());
+    if (value.is_array()) return std::ranges::any_of(value, holds_former_name);
+    if (!value.is_object()) return false;
+    return std::ranges::any_of(value.items(), [&](const auto& member) {
+        return is_former(member.key()) || holds_former_name(member.value());
+    });
+}
+
 /// Writes a document anew.
 class Renaming {
 public:
@@ -92,6 +105,7 @@ private:
 }  // namespace
 
 void take_former_names(JsonDocument& document, FormerNames which) {
+    if (!holds_former_name(document.value)) return;  // no copy of the large ones, such as cells
     Renaming renaming(document.places, which);
     renaming.searches_program = document.value.contains("/tune/program"_json_pointer);
     document.value = renaming.renamed(document.value, "", "", false);
