@@ -34,6 +34,18 @@ CLI::Validator real_in(double min, double max, const std::string& description) {
         },
         "");
 }
+
+const CLI::Validator& no_option_name() {
+    static const CLI::Validator validator(
+        [](std::string& word) {
+            return word.starts_with("--")
+                       ? "'" + word + "' is an option; for a file of this name write './" + word + "'"
+                       : std::string();
+        },
+        "");
+    return validator;
+}
+
 CLI::Validator positive() {
     return real_in(std::numeric_limits<double>::min(), std::numeric_limits<double>::max(), "a number above 0");
 }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 /// Options that most commands share.
@@ -49,12 +50,16 @@ struct ShotOptions {
     bool has_planes_of_scene() const { return planes == "scene"; }
 };
 
+/// Refuses the name of an option where a text or a path is expected: `--out --help` would make a folder of this name.
+const CLI::Validator& no_option_name();
+
 /// Adds an option or positional argument by its name and the name of its value: "--out DIR", "scene SCENE", "--size W
 /// H".
 template <class Value>
 CLI::Option* option(CLI::App& command, const std::string& name_and_type, Value& value, const std::string& help) {
     const size_t space = name_and_type.find(' ');
     CLI::Option* const added = command.add_option(name_and_type.substr(0, space), value, help);
+    if constexpr (!std::is_arithmetic_v<Value>) added->check(no_option_name());
     return space == std::string::npos ? added : added->type_name(name_and_type.substr(space + 1));
 }
 

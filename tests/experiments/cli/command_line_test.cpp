@@ -76,6 +76,17 @@ TEST_F(CommandLine, RunsNoProgramOfAConfigUnasked) {
     EXPECT_FALSE(fs::exists(made));
 }
 
+TEST_F(CommandLine, TakesNoOptionForAFileOrAName) {
+    for (const char* arguments : {"shaders mcguire_dda --assembly --help", "gbuffer fence --out --size",
+                                  "rays mcguire_dda --preset --help", "describe scene --help"}) {
+        const Outcome o = ssrlab(arguments);
+        EXPECT_TRUE(o.code == 2 || o.text.find("Usage:") != std::string::npos) << arguments << ": " << o.text;
+        EXPECT_TRUE(fs::is_empty(folder)) << arguments << ": " << o.text;
+    }
+    expect_mistake("shaders mcguire_dda --assembly --help",
+                   "'--help' is an option; for a file of this name write './--help'");
+}
+
 TEST_F(CommandLine, NamesMistakesOfUnpackedMesas) {
     for (const char* command : {"shaders mcguire_dda --chip navi21", "list chips"}) {
         expect_mistake(command + std::string(" --mesa nowhere"), "'nowhere', does not exist");
