@@ -163,7 +163,6 @@ void enter_shot(Opening& opening) {
 void open_scene(Opening& opening, const ShotConfig& config) {
     OpenShot& open = opening.shot;
     open.shot = load_shot(config, opening.settings.search_path);
-    opening.settings.say(open.shot.scene.name + ", camera " + open.shot.camera.name);
     open.probe = obtain_probe(opening);
     open.source = scene_source(opening.device, open.shot, opening.config, opening.settings.keep_all,
                                open.probe ? &*open.probe : nullptr);
@@ -190,7 +189,6 @@ void open_capture(Opening& opening, const ShotConfig& config) {
     OpenShot& open = opening.shot;
     open.capture = std::make_unique<Capture>(config.gbuffer);
     open.shot = capture_shot(config, *open.capture);
-    opening.settings.say(open.shot.scene.name + ", from files");
     const CaptureContents contents = inspect_capture(open.shot, *open.capture);
     open.shot.facts = contents.facts;
     for (const std::string& note : contents.notes) {

@@ -2,6 +2,7 @@
 #include "core/elapsed.h"
 #include "core/error.h"
 #include "core/in_flight.h"
+#include "core/list_text.h"
 #include "core/number_text.h"
 #include "experiments/results/cells/host_info.h"
 #include "experiments/results/cells/provenance.h"
@@ -20,7 +21,9 @@
 #include <chrono>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
+#include <span>
 
 namespace {
 
@@ -34,34 +37,53 @@ struct CellTask {
     };
 };
 
-/// A result while the study runs: one number that matters, over the seeds.
-void say_result(StudySession& study, const Cell& cell) {
-    const PrimaryComparisons& shown = study.config.primary;
+/// The one number that matters of a point, over the seeds.
+struct ShownResult {
+    std::string point, frame;
+    std::optional<double> value;  ///< the mean
+    size_t non_finite = 0;        ///< pixels, of the worst seed
+};
+
+ShownResult shown_result(const Config& config, const Cell& cell) {
+    const PrimaryComparisons& shown = config.primary;
+    ShownResult result{.point = display_name(config, cell.results.front().technique, cell.results.front().point),
+                       .frame = "",
+                       .value = {}};
     std::map<std::string, std::vector<double>> values;  // by frame
-    size_t non_finite = 0;                              // pixels, of the worst seed
     for (const ResultRow& r : cell.results)
         if (r.target == shown.target && r.metric == shown.metric && r.mask == shown.mask) {
-            non_finite = std::max(non_finite, size_t(r.non_finite));
+            result.non_finite = std::max(result.non_finite, size_t(r.non_finite));
             if (r.value) values[r.frame].push_back(*r.value);
         }
-    const auto name = [&] {
-        return display_name(study.config, cell.results.front().technique, cell.results.front().point);
-    };
-    if (values.empty() && non_finite > 0)
-        study.progress.say("  " + name() + ": no value, for " + std::to_string(non_finite) +
-                           (non_finite == 1 ? " pixel is" : " pixels are") + " NaN or infinite");
-    if (values.empty()) return;
+    if (values.empty()) return result;
     const auto& [frame, seeds] = values.contains(over_frames) ? *values.find(over_frames) : *values.rbegin();
-    double sum = 0;
-    for (const double value : seeds) sum += value;
-    char line[240];
-    std::snprintf(line, sizeof line, "  %-56s %s of %s pixels %.4g (%s, %zu seed%s)", name().c_str(),
-                  shown.metric.c_str(), shown.mask.c_str(), sum / double(seeds.size()),
-                  frame == over_frames ? "over all frames" : ("frame " + frame).c_str(), seeds.size(),
-                  seeds.size() == 1 ? "" : "s");
-    const std::string left_out =
-        non_finite > 0 ? ", without " + std::to_string(non_finite) + " that are not finite" : "";
-    study.progress.say(line + left_out);
+    result.frame = frame == over_frames ? "over all frames" : "frame " + frame;
+    result.value = std::accumulate(seeds.begin(), seeds.end(), 0.0) / double(seeds.size());
+    return result;
+}
+
+/// One line for a shot of hundreds, with the range of its results, and one for each point that is not finite.
+void say_results(StudySession& study, const std::string& shot, std::span<const Cell> cells) {
+    const PrimaryComparisons& shown = study.config.primary;
+    std::vector<ShownResult> results;
+    for (const Cell& cell : cells) {
+        if (cell.results.empty()) continue;
+        const ShownResult result = shown_result(study.config, cell);
+        if (result.non_finite > 0)
+            study.progress.say("  " + result.point + (result.value ? ": " : ": no value, for ") +
+                               std::to_string(result.non_finite) +
+                               (result.non_finite == 1 ? " pixel is" : " pixels are") + " NaN or infinite");
+        if (result.value) results.push_back(result);
+    }
+    std::string line = shot + ": " + counted(cells.size(), "cell");
+    if (!results.empty()) {
+        const auto [least, most] = std::ranges::minmax_element(results, {}, &ShownResult::value);
+        const auto text = [](const ShownResult& r) { return number_text(*r.value) + " (" + r.point + ")"; };
+        line += ", " + shown.metric + " of " + shown.mask + " pixels " + text(*least);
+        if (results.size() > 1) line += " to " + text(*most);
+        line += ", " + least->frame;
+    }
+    study.progress.say(line);
 }
 
 bool is_of_another_machine(const StudySession& study, const Cell& cell) {
@@ -359,10 +381,10 @@ void do_cells(StudySession& study, const PlannedShot& shot, const CellSelection&
             if (is_done[i]) continue;
             std::optional<Cell> cell = do_cell(study, task_of(study, *open, shot, *planned[i]), truth, waits);
             if (!cell) continue;
-            say_result(study, *cell);
             const size_t place = before + size_t(std::count(is_done.begin(), is_done.begin() + ptrdiff_t(i), true));
             study.finished.insert(study.finished.begin() + ptrdiff_t(place), std::move(*cell));
             is_done[i] = true;
             if (i > 0 && is_done.front()) rendered();
         }
+    say_results(study, shot.name, std::span(study.finished).subspan(before));
 }

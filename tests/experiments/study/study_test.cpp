@@ -275,6 +275,38 @@ TEST_F(StudyTest, WhatIsFinishedIsNotReadAgain) {
     EXPECT_NE(read_text(out / "results.csv"), results);
 }
 
+/// Of hundreds of shots nobody reads more.
+TEST_F(StudyTest, SaysALineForEachShot) {
+    std::string sizes;
+    for (int i = 0; i < 12; ++i)
+        sizes += std::string(i > 0 ? "," : "") + R"({"scene": "mirror_pillars", "resolution": [16, )" +
+                 std::to_string(9 + i) + "]}";
+    write_text(folder / "study.json",
+               R"({"shots": [)" + sizes + R"(], "reference": {"samples": 16}, "images": "none", "seeds": 1,
+        "techniques": [{"technique": "none"}, {"technique": "mcguire_dda"}], "timing": {"frames": 0},
+        "metrics": ["mse"], "primary": {"metric": "mse"}})");
+    const Config study = read_config(folder / "study.json");
+    // Lines that begin with a shot's name, and all others that are no warnings.
+    const auto said = [&] {
+        testing::internal::CaptureStdout();
+        run(study, "a");
+        std::istringstream lines(testing::internal::GetCapturedStdout());
+        std::pair<size_t, size_t> count;
+        for (std::string line; std::getline(lines, line);) {
+            if (line.starts_with("warning: ")) continue;
+            ++(line.starts_with("mirror_pillars.main.") ? count.first : count.second);
+        }
+        return count;
+    };
+    const auto [of_shots, others] = said();
+    EXPECT_EQ(of_shots, 12u);
+    const auto [of_shots_again, others_again] = said();
+    EXPECT_EQ(of_shots_again, 0u);
+    // Two sentences about the study, one about the report and its path, with empty lines.
+    EXPECT_LE(others, 8u);
+    EXPECT_LE(others_again, 8u);
+}
+
 TEST_F(StudyTest, OtherSeedsMakeNewCells) {
     Config study = config(R"("fence")");
     for (const unsigned seed : {0, 7}) {
