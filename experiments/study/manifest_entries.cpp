@@ -5,7 +5,6 @@
 #include "experiments/study/config/points/external_images.h"
 #include "experiments/study/config/points/technique_of.h"
 #include "experiments/study/config/shots/read_shots.h"
-#include "experiments/study/measuring/left_out_by.h"
 #include "experiments/study/shots/shot_facts.h"
 #include "variants/registry.h"
 
@@ -88,9 +87,9 @@ nlohmann::json left_out_entry(const LeftOut& part) {
 }
 
 /// What path tracer, rasteriser and techniques leave out, each once.
-nlohmann::json left_out_entries(const Shot& shot, const Config& config) {
+nlohmann::json left_out_entries(const std::vector<LeftOutBy>& left_out) {
     nlohmann::json entries = nlohmann::json::array();
-    for (const auto& [who, part] : left_out_of(shot, config.techniques)) {
+    for (const auto& [who, part] : left_out) {
         nlohmann::json entry = left_out_entry(part);
         const bool says_whose = part.what.find('/') != std::string::npos || !part.stage.empty();
         if (!says_whose) entry["what"] = who + ": " + part.what;
@@ -153,7 +152,7 @@ void complete_shot_entry(nlohmann::json& entry, const nlohmann::json& rendered) 
 }
 
 nlohmann::json new_shot_entry(const Shot& shot, const Config& config, const std::vector<std::string>& scene_warnings,
-                              bool keep_all) {
+                              const std::vector<LeftOutBy>& left_out) {
     const nlohmann::json needs =
         shot.config.gbuffer.empty() ? fact_entries(list_facts(shot.scene, shot.facts)) : nlohmann::json::array();
     nlohmann::json entry = {{"shot", shot.name()},
@@ -171,7 +170,7 @@ nlohmann::json new_shot_entry(const Shot& shot, const Config& config, const std:
                             {"exposure_ev", shot.camera.exposure_ev},
                             {"warnings", scene_warnings},
                             {"needs", needs},
-                            {"left_out", keep_all ? nlohmann::json::array() : left_out_entries(shot, config)}};
+                            {"left_out", left_out_entries(left_out)}};
     if (shot.config.change) entry["change"] = *shot.config.change;
     if (!shot.config.label.empty()) entry["label"] = shot.config.label;
     if (!shot.config.group.empty()) entry["group"] = shot.config.group;

@@ -214,6 +214,7 @@ StudyPlan plan_study(const Config& config, const DeviceInfo& device,
     CellNames names(config, device, keep_all, std::move(sources));
     StudyPlan plan;
     plan.compilers = names.compilers();
+    LeftOutFinder left_out(config.techniques);
     std::set<std::string> known, warned;
     for (const ShotConfig& of_shot : config.shots) {
         const Shot shot = load(of_shot, search_path);
@@ -227,7 +228,7 @@ StudyPlan plan_study(const Config& config, const DeviceInfo& device,
         for (const std::string& text : warnings)
             if (warned.insert(shot.scene.name + ": " + text).second)
                 planned.scene_warnings.push_back(shot.scene.name + ": " + text);
-        planned.entry = new_shot_entry(shot, config, warnings, keep_all);
+        planned.entry = new_shot_entry(shot, config, warnings, keep_all ? std::vector<LeftOutBy>{} : left_out.of(shot));
         const auto add = [&](CellKind kind, std::string name, const std::string& what, double units) -> PlannedCell& {
             return planned.cells.emplace_back(
                 PlannedCell{.kind = kind,

@@ -1,4 +1,5 @@
 #include "experiments/study/needs.h"
+#include "core/error.h"
 #include "experiments/study/config/points/all_points.h"
 #include "tests/variants/technique_fixture.h"
 
@@ -69,6 +70,28 @@ std::set<std::string> united(std::initializer_list<std::set<std::string>> sets) 
     std::set<std::string> all = {"common/repair_inputs"};
     for (const auto& one : sets) all.insert(one.begin(), one.end());
     return all;
+}
+
+/// Shots share what is found once; none may get another's.
+TEST_F(Needs, ManyShotsAreAnsweredAsEachAlone) {
+    const auto text_of = [](const std::vector<LeftOutBy>& left_out) {
+        std::string text;
+        for (const auto& [who, part] : left_out)
+            text += who + ": " + full_name(part) + ", " + part.fact + ", " + part.why + '\n';
+        return text;
+    };
+    const std::vector<PointConfig> techniques = points();
+    LeftOutFinder finder(techniques);
+    const std::vector<Shot> shots = {shot("mirror_pillars", "main", {0}), shot("mirror_pillars", "main", {0, 1}),
+                                     shot("all_rough", "main", {0}),      shot("moving_objects", "main", {0, 1}),
+                                     shot("sky_only", "main", {0}),       shot("mirror_pillars", "main", {0})};
+    std::set<std::string> different;
+    for (const Shot& one : shots) {
+        const std::string text = text_of(finder.of(one));
+        EXPECT_EQ(text, text_of(left_out_of(one, techniques))) << one.name();
+        different.insert(text);
+    }
+    EXPECT_GE(different.size(), 3u) << "the shots do not test much";
 }
 
 TEST_F(Needs, MirrorsThatNothingMovesBeforeABlackSky) {
