@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/json_float.h"
 #include "core/near_miss.h"
 #include "core/reading_limits.h"
 
@@ -349,11 +350,8 @@ glm::vec3 JsonObject::vector(const std::string& key) {
     const bool fits = value.is_array() && value.size() == 3 &&
                       std::ranges::all_of(value, [](const auto& v) { return v.is_number(); });
     if (!fits) fail(at(key), ": '", key, "' must be an array of three numbers, not ", shown(value));
-    const glm::vec3 vector(value[0].get<float>(), value[1].get<float>(), value[2].get<float>());
-    for (int i = 0; i < 3; ++i)
-        if (!std::isfinite(vector[i]))
-            fail(at(key), ": '", key, "' has the number ", shown(value[i]), ", which float32 cannot hold");
-    return vector;
+    const std::string what = at(key) + ": '" + key + "'";
+    return {float_of(value[0], what), float_of(value[1], what), float_of(value[2], what)};
 }
 
 glm::vec3 JsonObject::vector(const std::string& key, glm::vec3 fallback) { return find(key) ? vector(key) : fallback; }

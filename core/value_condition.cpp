@@ -1,6 +1,7 @@
 #include "core/value_condition.h"
 
 #include "core/error.h"
+#include "core/json_float.h"
 #include "core/near_miss.h"
 
 #include <algorithm>
@@ -35,6 +36,7 @@ void check_condition(const json& condition, const json& sample, const std::strin
     const auto check_value = [&](const json& value) {
         if (value.type() != sample.type() && !(value.is_number() && sample.is_number()))
             fail(where, " is compared with ", shown(value), ", but its values are like ", shown(sample));
+        if (value.is_number()) float_of(value, where);  // as which it is compared
     };
     if (condition.is_array()) {
         if (condition.empty()) fail(where, " is compared with no value");
@@ -50,6 +52,7 @@ void check_condition(const json& condition, const json& sample, const std::strin
             } else {
                 if (how == "not" || !limit.is_number() || !sample.is_number())
                     fail(where, ": '", how, "' = ", shown(limit), " does not fit; its values are like ", shown(sample));
+                float_of(limit, where + ": '" + how + "'");
             }
         }
     } else {

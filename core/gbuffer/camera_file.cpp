@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "core/json_float.h"
 #include "core/parameters.h"
 #include "core/scene/ranges.h"
 
@@ -38,9 +39,8 @@ std::vector<float> numbers(const json& array, size_t count, const std::string& w
     const auto is_number = [](const json& value) { return value.is_number(); };
     if (!array.is_array() || array.size() != count || !std::ranges::all_of(array, is_number))
         fail(where, " is ", shown(array), ", but must be an array of ", count, " numbers");
-    const std::vector<float> list = array.get<std::vector<float>>();
-    for (size_t i = 0; i < count; ++i)
-        if (!std::isfinite(list[i])) fail(where, " has the number ", array[i].dump(), ", which float32 cannot hold");
+    std::vector<float> list;
+    for (const json& number : array) list.push_back(float_of(number, where));
     return list;
 }
 

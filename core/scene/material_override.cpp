@@ -28,14 +28,6 @@ void neutralise_channel(Scene& scene, TextureSlot& slot, size_t channel, Changed
     scene.textures.push_back(std::move(copy));
 }
 
-glm::vec3 read_color(JsonObject& entry, const std::string& key, float max) {
-    const glm::vec3 color = entry.vector(key);
-    for (int c = 0; c < 3; ++c)
-        if (!(color[c] >= 0.0f && color[c] <= max))
-            fail(entry.where(), ": '", key, "' has the part ", color[c], " outside of [0, ", max, "]");
-    return color;
-}
-
 /// Removes what has the materials, and the warnings about how it would have been drawn.
 void hide(Scene& scene, const std::vector<bool>& is_hidden) {
     const auto is_about = [&](const SceneWarning& warning, size_t material) {
@@ -64,6 +56,14 @@ std::vector<bool> matching_materials(JsonObject& entry, const Scene& scene) {
 }
 
 }  // namespace
+
+glm::vec3 read_color(JsonObject& entry, const std::string& key, float max) {
+    const glm::vec3 color = entry.vector(key);
+    for (int c = 0; c < 3; ++c)
+        if (!(color[c] >= 0.0f && color[c] <= max))
+            fail(entry.where(), ": '", key, "' has the part ", color[c], " outside of [0, ", max, "]");
+    return color;
+}
 
 void apply_override(JsonObject& entry, Scene& scene, ChangedTexels& changed) {
     const std::vector<bool> matches = matching_materials(entry, scene);

@@ -5,6 +5,9 @@
 #include <map>
 #include <utility>
 
+/// A required colour. Fails with Error unless each part is in [0, max].
+glm::vec3 read_color(JsonObject& entry, const std::string& key, float max);
+
 /// Texels that overrides made, by their source and the channel that was set to 1. The overrides of a scene share them.
 using ChangedTexels = std::map<std::pair<Texels, size_t>, Texels>;
 

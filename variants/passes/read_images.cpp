@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/gpu/format.h"
+#include "core/json_float.h"
 #include "core/near_miss.h"
 #include "variants/common/names.h"
 #include "variants/passes/provided_images.h"
@@ -43,11 +44,11 @@ Format read_format(JsonObject& object) {
 }
 
 glm::vec4 read_color(const json& value, const std::string& where) {
-    if (value.is_number()) return glm::vec4(value.get<float>());
+    if (value.is_number()) return glm::vec4(float_of(value, where));
     const auto is_number = [](const json& one) { return one.is_number(); };
     if (!value.is_array() || value.size() != 4 || !std::ranges::all_of(value, is_number))
         fail(where, ": must be a number or an array of four, not ", shown(value));
-    return {value[0].get<float>(), value[1].get<float>(), value[2].get<float>(), value[3].get<float>()};
+    return {float_of(value[0], where), float_of(value[1], where), float_of(value[2], where), float_of(value[3], where)};
 }
 
 /// `true`, a value, or an object of `to` and `when`.

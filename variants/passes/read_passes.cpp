@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/gpu/pipelines/shader.h"
+#include "core/json_float.h"
 #include "core/near_miss.h"
 #include "variants/common/names.h"
 #include "variants/passes/declared_passes.h"
@@ -78,13 +79,13 @@ PushValue read_push_value(const json& value, const std::string& where) {
         return MipValue{value["last_mip_of"]};
     if (value.is_number_integer() && value >= -0x1p31 && value < 0x1p32)
         return int(uint32_t(value.get<int64_t>()));  // the same bits in both types
-    if (value.is_number_float()) return value.get<float>();
+    if (value.is_number_float()) return float_of(value, where);
     const auto is_number = [](const json& one) { return one.is_number(); };
     if (!value.is_array() || value.size() != 4 || !std::ranges::all_of(value, is_number))
         fail(where, ": must be a whole number (int, uint), one with a point (float), or an array of four (vec4), not ",
              shown(value));
     glm::vec4 vector;
-    for (int i = 0; i < 4; ++i) vector[i] = value[size_t(i)].get<float>();
+    for (int i = 0; i < 4; ++i) vector[i] = float_of(value[size_t(i)], where);
     return vector;
 }
 

@@ -4,6 +4,7 @@
 #include "core/scene/camera_reader.h"
 #include "core/scene/content_hash.h"
 #include "core/scene/material_override.h"
+#include "core/scene/ranges.h"
 
 namespace {
 
@@ -100,8 +101,9 @@ void add_quad(Scene& scene, JsonObject quad) {
         fail(quad.at("corners"), ": 'corners' must be 3 or 4 points of three numbers, not ", shown(json));
     std::vector<glm::vec3> corners;
     for (const nlohmann::json& corner : json) {
-        const auto point = corner.get<std::array<float, 3>>();
-        corners.emplace_back(point[0], point[1], point[2]);
+        const nlohmann::json entry = {{"corner", corner}};
+        JsonObject point(entry, quad.at("corners") + ": 'corners'");
+        corners.push_back(read_position(point, "corner"));
     }
     // In double precision, which holds the product of the edges of the smallest triangles.
     const glm::dvec3 across = glm::cross(glm::dvec3(corners[1] - corners[0]), glm::dvec3(corners[2] - corners[0]));
@@ -110,8 +112,8 @@ void add_quad(Scene& scene, JsonObject quad) {
     Material material{.name = "quad"};
     material.roughness = quad.number("roughness", 0.0f, 1.0f, 0.0f);
     material.metalness = quad.number("metalness", 0.0f, 1.0f, 1.0f);
-    material.base_color = quad.vector("base_color", glm::vec3(0.95f));
-    material.emission = quad.vector("emission", glm::vec3(0.0f));
+    material.base_color = quad.has("base_color") ? read_color(quad, "base_color", 1.0f) : glm::vec3(0.95f);
+    material.emission = quad.has("emission") ? read_color(quad, "emission", any_radiance) : glm::vec3(0.0f);
     material.is_double_sided = quad.boolean("double_sided", true);
     if (quad.boolean("masked", false)) {
         material.alpha_mode = AlphaMode::mask;

@@ -1,10 +1,13 @@
 #include "experiments/study/stability/stability_case.h"
 
 #include "core/error.h"
+#include "core/json_float.h"
 #include "core/reading_limits.h"
+#include "core/scene/ranges.h"
 #include "experiments/study/config/points/point_name.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace {
@@ -31,10 +34,21 @@ std::vector<unsigned> read_poses(JsonObject& object) {
     return poses.get<std::vector<unsigned>>();
 }
 
+/// A factor for each axis, with sign. Its size is in [least, any_length].
+glm::vec3 read_factors(JsonObject& object, const std::string& key, float least) {
+    const glm::vec3 factors = object.vector(key, glm::vec3(1.0f));
+    for (int axis = 0; axis < 3; ++axis)
+        if (const float size = std::abs(factors[axis]); !(size >= least && size <= any_length))
+            fail(object.at(key), ": '", key, "' has the factor ", factors[axis], ", whose size is outside of [", least,
+                 ", ", any_length, "]");
+    return factors;
+}
+
 void read_scale(JsonObject& object, CaseScene& scene) {
     if (!object.has("scale")) return;
     scene.scales_all = object.any("scale").is_number();
-    scene.scale = scene.scales_all ? glm::vec3(object.number("scale", 1e-9f, 1e9f)) : object.vector("scale");
+    scene.scale =
+        scene.scales_all ? glm::vec3(object.number("scale", 1e-9f, any_length)) : read_factors(object, "scale", 0.0f);
 }
 
 CaseScene read_scene(JsonObject& object) {
@@ -50,7 +64,7 @@ CaseScene read_scene(JsonObject& object) {
     if (object.has("near")) scene.near = object.number("near", 1e-6f, 1e9f);
     if (object.has("far")) scene.far = object.number("far", 1e-6f, 1e12f);
     read_scale(object, scene);
-    scene.instance_scale = object.vector("instance_scale", glm::vec3(1.0f));
+    scene.instance_scale = read_factors(object, "instance_scale", 1e-9f);  // meshes are divided by it
     if (object.has("roughness")) scene.roughness = object.number("roughness", 0.0f, 1.0f);
     scene.radiance = object.number("radiance", 0.0f, 1e12f, 1.0f);
     if (object.has("view")) scene.view = object.any("view");
@@ -62,20 +76,21 @@ CaseScene read_scene(JsonObject& object) {
 /// JSON has no name for what is no number.
 float read_value(const nlohmann::json& value, const std::string& where) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
-    if (value.is_number()) return value.get<float>();
+    if (value.is_number()) return float_of(value, where);
     if (value == "nan") return std::numeric_limits<float>::quiet_NaN();
     if (value == "inf") return infinity;
     if (value == "-inf") return -infinity;
     if (value == "denormal") return std::numeric_limits<float>::denorm_min();
-    fail(where, ": a value is a number, \"nan\", \"inf\", \"-inf\" or \"denormal\", not ", shown(value));
+    fail(where, " must be a number, \"nan\", \"inf\", \"-inf\" or \"denormal\", not ", shown(value));
 }
 
 /// One number for both, or two.
 glm::vec2 read_pair(JsonObject& object, const std::string& key) {
     const nlohmann::json& pair = object.any(key);
-    if (!pair.is_array()) return glm::vec2(read_value(pair, object.where()));
-    if (pair.size() != 2) fail(object.where(), ": '", key, "' must be one value or two, not ", shown(pair));
-    return {read_value(pair[0], object.where()), read_value(pair[1], object.where())};
+    const std::string where = object.at(key) + ": '" + key + "'";
+    if (!pair.is_array()) return glm::vec2(read_value(pair, where));
+    if (pair.size() != 2) fail(where, " must be one value or two, not ", shown(pair));
+    return {read_value(pair[0], where), read_value(pair[1], where)};
 }
 
 InputFault read_fault(JsonObject object) {
@@ -86,7 +101,7 @@ InputFault read_fault(JsonObject object) {
     fault.is_factor = object.has("times");
     const nlohmann::json& value = object.any(key);
     for (const nlohmann::json& channel : value.is_array() ? value : nlohmann::json::array({value}))
-        fault.value.push_back(read_value(channel, object.at(key)));
+        fault.value.push_back(read_value(channel, object.at(key) + ": '" + key + "'"));
     if (fault.value.empty() || fault.value.size() > 4)
         fail(object.at(key), ": '", key, "' must be one value, or one for each of up to 4 channels, not ",
              shown(value));

@@ -108,6 +108,8 @@ TEST_F(DeclaredRefusals, Images) {
     expect_part(error_of({{"size", {100000, 1}}}), "'size' must be [width, height] in pixels, each in [1, 16384]");
     expect_part(error_of({{"mips", 16}}), "'mips' = 16 is outside [1, 15]");
     expect_part(error_of({{"divisor", 2}}), "the result 'radiance' must be of the screen's size");
+    expect_part(error_of({{"cleared", {{"to", 1e39}}}}), "'to' has the number 1e+39 outside of [-3.4028235e+38");
+    expect_part(error_of({{"cleared", {{"to", {0, 0, -1e39, 0}}}}}), "'to' has the number -1e+39 outside");
     expect_part(error_of({{"format", "rg16f"}}), "'radiance' is rg16f, which lacks it");
     expect_part(error_of({{"history", true}, {"mips", 2}}), "an image with a history has no mips");
     Json images = sound["images"];
@@ -174,6 +176,8 @@ TEST_F(DeclaredRefusals, Passes) {
     expect_part(error_with_pass({{"tracers", "tracer"}}), "'tracers' has no slot 'tracer'");
     expect_part(error_with_pass({{"rays", "limit"}}), "is no parameter of whole numbers in [1, 64]");
     expect_part(error_with_pass({{"set", {{"x", "1"}}}}), "must be a whole number (int, uint), one with a point");
+    expect_part(error_with_pass({{"set", {{"x", 1e39}}}}), "'x' has the number 1e+39 outside of [-3.4028235e+38");
+    expect_part(error_with_pass({{"set", {{"x", {0, 0, -1e39, 0}}}}}), "'x' has the number -1e+39 outside");
     Json passes = sound["passes"];
     passes.insert(passes.begin(), Json({{"shader", "shade.comp"}, {"reads", {"late"}}, {"writes", {"radiance"}}}));
     Json images = sound["images"];
@@ -190,6 +194,7 @@ TEST_F(DeclaredRefusals, WhatIsMissingUnderSomeCondition) {
     expect_part(error_with({{"result", {{"when", {{"mode", "a"}}}}}}), "there is no result, where mode is 'b'");
     expect_part(error_with_pass({{"when", {{"mood", "a"}}}}), "'mood' is no parameter and no fact of a shot");
     expect_part(error_with_pass({{"when", {{"mode", 1}}}}), "is compared with 1, but its values are like \"a\"");
+    expect_part(error_with_pass({{"when", {{"limit", {{"below", 1e39}}}}}}), "'below' has the number 1e+39 outside");
 }
 
 TEST_F(DeclaredRefusals, Includes) {

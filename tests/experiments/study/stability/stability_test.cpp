@@ -82,6 +82,23 @@ TEST_F(StabilityTest, WrongTypesInTablesAreNamed) {
              {R"("benign": [])", "benign must be a JSON object"},
              {R"("poses": [4294967296])", "'poses' must be an array of frame numbers"},
              {R"("quads": [{"corners": [1, 2, 3]}])", "quads[0]: 'corners' must be 3 or 4 points"},
+             {R"("faults": [{"image": "lit", "value": "NaN"}])", "'value' must be a number, \"nan\""},
+             // Numbers that float32 cannot hold, or whose products it cannot.
+             {R"("faults": [{"image": "lit", "value": 1e39}])",
+              "faults[0]: 'value' has the number 1e+39 outside of [-3"},
+             {R"("faults": [{"image": "lit", "times": [1, -1e39]}])",
+              "faults[0]: 'times' has the number -1e+39 outside"},
+             {R"("faults": [{"image": "lit", "value": 1, "at": 1e39}])",
+              "faults[0]: 'at' has the number 1e+39 outside"},
+             {R"("radiance": 1e39)", "'radiance' = 1e+39 is outside [0, 1e+12]"},
+             {R"("scale": [1e39, 1, 1])", "'scale' has the number 1e+39 outside of [-3"},
+             {R"("scale": [3e38, 1, 1])", "'scale' has the factor 3e+38, whose size is outside of [0, 1e+09]"},
+             {R"("instance_scale": [1, 0, 1])", "'instance_scale' has the factor 0, whose size is outside of [1e-09"},
+             {R"("quads": [{"corners": [[1e39, 0, 0], [1, 0, 0], [0, 1, 0]]}])",
+              "'corner' has the number 1e+39 outside"},
+             {R"("quads": [{"corners": [[3e38, 0, 0], [1, 0, 0], [0, 1, 0]]}])", "outside of [-1e+09, 1e+09] m"},
+             {R"("quads": [{"corners": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "emission": [3e38, 0, 0]}])",
+              "'emission' has the part 3e+38 outside of [0, 1e+12]"},
              {R"("view": 3)", "view must be a JSON object"}}) {
         const std::string sentence = said(more);
         EXPECT_NE(sentence.find("cases.json: cases[0]"), std::string::npos) << more << ": " << sentence;
