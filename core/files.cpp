@@ -1,14 +1,15 @@
 #include "core/files.h"
 
 #include "core/error.h"
+#include "core/leftovers.h"
 #include "core/reading_limits.h"
 
-#include <unistd.h>
 #include <xxhash.h>
-#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <mutex>
+#include <set>
 
 std::string lower_case_extension(const std::filesystem::path& file) {
     std::string text = file.extension().string();
@@ -23,24 +24,34 @@ void create_folder(const std::filesystem::path& folder) {
     if (error) fail_machine("cannot create the folder ", folder.string(), ": ", error.message());
 }
 
+/// A folder may hold as many files as a study has cells, and each write would look at all of them.
+static void remove_leftovers_once(const std::filesystem::path& folder) {
+    static std::set<std::filesystem::path> known;
+    static std::mutex mutex;
+    {
+        const std::lock_guard lock(mutex);
+        if (!known.insert(folder).second) return;
+    }
+    remove_leftovers(folder);
+}
+
 void write_atomically(const std::filesystem::path& file,
                       const std::function<void(const std::filesystem::path&)>& write) {
-    static std::atomic<unsigned> counter = 0;
     std::error_code error;
     if (file.has_parent_path()) create_folder(file.parent_path());
-    std::filesystem::path temporary = file;
-    temporary += ".partial-" + std::to_string(getpid()) + "-" + std::to_string(counter++);
-    std::filesystem::remove(temporary, error);  // of a killed process, or a link that waits there
+    remove_leftovers_once(file.has_parent_path() ? file.parent_path() : ".");
+    const std::filesystem::path temporary = unfinished_path(file);
+    std::filesystem::remove_all(temporary, error);  // of a killed process, or a link that waits there
     try {
         write(temporary);
     } catch (...) {
-        std::filesystem::remove(temporary, error);
+        std::filesystem::remove_all(temporary, error);
         throw;
     }
     std::filesystem::rename(temporary, file, error);
     if (error) {
         const std::string reason = error.message();
-        std::filesystem::remove(temporary, error);
+        std::filesystem::remove_all(temporary, error);
         fail_machine("cannot write ", file.string(), ": ", reason);
     }
 }

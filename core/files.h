@@ -11,8 +11,9 @@ std::string lower_case_extension(const std::filesystem::path& file);
 /// Makes the folder and those above it. Fails with MachineError if that is impossible.
 void create_folder(const std::filesystem::path& folder);
 
-/// Calls `write` with a temporary name beside `file`, then renames it to `file`; removes the temporary if `write`
-/// throws. Makes the folders above `file`. Fails with MachineError if a folder or the new name cannot be made.
+/// Calls `write` with a name beside `file` for a file or a folder, then renames that to `file`; removes it if `write`
+/// throws. Makes the folders above `file`, and removes leftovers beside it (leftovers.h). Fails with MachineError if a
+/// folder or the new name cannot be made.
 void write_atomically(const std::filesystem::path& file,
                       const std::function<void(const std::filesystem::path&)>& write);
 

@@ -4,9 +4,9 @@
 #include "core/child_process.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/leftovers.h"
 #include "core/near_miss.h"
 
-#include <unistd.h>
 #include <algorithm>
 #include <charconv>
 #include <mutex>
@@ -112,7 +112,8 @@ fs::path scene_file_of_family(const std::string& name) {
 
     // Made under another name, and renamed when it is whole: who is interrupted leaves nothing that is taken for a
     // scene.
-    const fs::path beside = folder / (scene.string() + ".partial-" + std::to_string(getpid()));
+    remove_leftovers(folder);
+    const fs::path beside = unfinished_path(folder / scene);
     std::error_code error;
     fs::create_directories(beside, error);
     if (error) fail_machine("cannot create the cache folder ", beside.string(), ": ", error.message());

@@ -70,12 +70,14 @@ static void new_command(const NewOptions& options) {
     if (std::ranges::count(technique_table(), name, &TechniqueEntry::name))
         fail("'", name, "' is one of ssrlab's own techniques; give the folder another name");
     const TechniqueEntry technique = declared_entry(folder_of(options.from));
-    for (const auto& [file, text] : files_of(technique)) write_text(path_inside(options.folder, file), text);
-    const fs::path study = path_inside(options.folder, name + ".json");
-    write_text(study, study_of(name, options.from));
+    const std::string study = name + ".json";
+    write_atomically(whole_path(options.folder), [&](const fs::path& made) {
+        for (const auto& [file, text] : files_of(technique)) write_text(path_inside(made, file), text);
+        write_text(path_inside(made, study), study_of(name, options.from));
+    });
     add_technique_folder(options.folder);  // or says what is wrong with it
     std::printf("%s: technique.json and its shaders. A first study: ssrlab run %s\n",
-                shown_text(options.folder.string()).c_str(), shown_text(study.string()).c_str());
+                shown_text(options.folder.string()).c_str(), shown_text((options.folder / study).string()).c_str());
 }
 
 void add_new(Commands& line) {

@@ -4,6 +4,7 @@
 #include "core/exr/exr.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "core/leftovers.h"
 #include "core/path_inside.h"
 #include "experiments/results/files/verdict_map.h"
 
@@ -156,12 +157,13 @@ private:
     }
 };
 
-/// Scripts of an earlier report: a page must not find images of other results.
+/// Scripts of an earlier report, and parts of such: a page must not find images of other results.
 void remove_scripts(const fs::path& folder) {
     std::error_code error;
     std::vector<fs::path> scripts;
     for (const auto& file : fs::recursive_directory_iterator(folder, error))
-        if (file.path().extension() == ".js" && file.is_regular_file(error)) scripts.push_back(file.path());
+        if ((file.path().extension() == ".js" && file.is_regular_file(error)) || is_leftover(file.path()))
+            scripts.push_back(file.path());
     for (const fs::path& script : scripts) {
         fs::remove(script, error);
         for (fs::path parent = script.parent_path(); parent != folder.parent_path(); parent = parent.parent_path())

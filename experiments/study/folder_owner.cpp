@@ -3,9 +3,9 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "core/leftovers.h"
 #include "core/path_inside.h"
 
-#include <unistd.h>
 #include <optional>
 #include <set>
 
@@ -51,7 +51,7 @@ std::string differences(const json& a, const json& b) {
 
 /// False if the file is there already. It appears whole, or not at all.
 bool create(const fs::path& file, const std::string& text) {
-    const fs::path draft = file.parent_path() / (".study.json-" + std::to_string(getpid()));
+    const fs::path draft = unfinished_path(file);
     write_text(draft, text);
     std::error_code error, ignored;
     fs::create_hard_link(draft, file, error);

@@ -41,9 +41,10 @@ TEST(WriteText, ReplacesALinkAndWritesThroughNone) {
     std::string temporary;
     EXPECT_ANY_THROW(
         write_atomically(folder / "b", [&](const fs::path& name) { throw std::runtime_error(temporary = name); }));
-    const size_t number = temporary.rfind('-') + 1;  // one waits under the next temporary name, whatever its number is
+    // One waits under the next temporary name, whatever its number is.
+    const size_t mark = (folder / "b").string().size(), number = temporary.rfind('-') + 1;
     const std::string next = std::to_string(std::stoul(temporary.substr(number)) + 1);
-    fs::create_symlink(folder / "outside", folder / ("a.partial-" + std::to_string(getpid()) + "-" + next));
+    fs::create_symlink(folder / "outside", folder / ("a" + temporary.substr(mark, number - mark) + next));
     write_text(folder / "a", "theirs");
     EXPECT_EQ(read_text(folder / "a"), "theirs");
     EXPECT_EQ(read_text(folder / "outside"), "mine");

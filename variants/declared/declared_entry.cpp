@@ -148,13 +148,13 @@ std::string hash_of(nlohmann::json document, const TechniqueFolder& folder,
     return hash.hex();
 }
 
+}  // namespace
+
 fs::path whole_path(const fs::path& folder) {
     std::error_code error;
     const fs::path whole = fs::weakly_canonical(fs::absolute(folder), error);
     return whole.has_filename() ? whole : whole.parent_path();
 }
-
-}  // namespace
 
 std::string declared_name(const fs::path& folder) {
     const std::string name = whole_path(folder).filename().string();

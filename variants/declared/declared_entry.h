@@ -13,6 +13,9 @@ struct DeclaredEntry {
 DeclaredEntry read_technique(const std::filesystem::path& folder, bool checks_frames = true);
 TechniqueEntry declared_entry(const std::filesystem::path& folder, bool checks_frames = true);
 
+/// Absolute, without links and without a '/' at its end.
+std::filesystem::path whole_path(const std::filesystem::path& folder);
+
 /// The technique's name, which is the folder's. Fails with Error unless it is of small letters, digits and '_'.
 std::string declared_name(const std::filesystem::path& folder);
 

@@ -1,8 +1,10 @@
 """Reads files of unknown authors, and writes files whole or not at all."""
 
 import contextlib
+import errno
 import json
 import os
+import re
 import stat
 
 from ssrlab.mistakes import ResultsError
@@ -42,12 +44,47 @@ def path_inside(folder, name, where=""):
     return path
 
 
+NOWHERE = "00000000"  # where the system does not say it
+
+
+def word_here():
+    """Of this boot and this namespace of process numbers, as core/leftovers.cpp makes it."""
+    try:
+        with open("/proc/sys/kernel/random/boot_id", encoding="ascii") as boot:
+            bits = int(boot.read(8), 16)
+        return f"{bits ^ os.stat('/proc/self/ns/pid').st_ino & 0xFFFFFFFF:08x}"
+    except (OSError, ValueError):
+        return NOWHERE
+
+
+def is_leftover(name):
+    """Whether a process that has ended left a file of this name. Those of processes that cannot be asked are left to core/leftovers.h."""
+    found = re.search(r"\.partial-([0-9a-f]{8})-([1-9]\d{0,8})-\d{1,9}$", name)
+    if not found or found[1] == NOWHERE or found[1] != word_here():
+        return False
+    try:
+        os.kill(int(found[2]), 0)
+    except OSError as e:
+        return e.errno == errno.ESRCH
+    return False
+
+
+def remove_leftovers(folder):
+    """What killed processes left in a folder of files that they had not finished."""
+    for entry in os.scandir(folder):
+        if is_leftover(entry.name) and not entry.is_dir(follow_symlinks=False):
+            with contextlib.suppress(OSError):
+                os.remove(entry.path)
+
+
 @contextlib.contextmanager
 def whole_file(file):
     """A name beside `file` to write to; it replaces `file` once the block has ended without an exception, never through a link. Makes
-    missing folders."""
-    os.makedirs(os.path.dirname(file) or ".", exist_ok=True)
-    temporary = f"{file}.partial-{os.getpid()}"
+    missing folders, and removes leftovers."""
+    folder = os.path.dirname(file) or "."
+    os.makedirs(folder, exist_ok=True)
+    remove_leftovers(folder)
+    temporary = f"{file}.partial-{word_here()}-{os.getpid()}-0"
     try:
         if os.path.lexists(temporary):  # of a killed run, or a link
             os.remove(temporary)

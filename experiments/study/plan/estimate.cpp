@@ -1,6 +1,8 @@
 #include "experiments/study/plan/estimate.h"
 
 #include "core/elapsed.h"
+#include "core/error.h"
+#include "core/leftovers.h"
 #include "experiments/study/measuring/render_technique.h"
 #include "experiments/study/measuring/times/timed_rounds.h"
 #include "experiments/study/plan/growth.h"
@@ -9,7 +11,6 @@
 #include "groundtruth/reference/reference.h"
 #include "variants/registry.h"
 
-#include <unistd.h>
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -78,12 +79,15 @@ struct Rates {
     std::map<std::string, PointRates> points;  ///< by kind_of()
 };
 
-/// Measures on a folder of its own, which it removes.
+/// Measures on a folder of its own, which it removes. The next removes what a killed one left.
 class Calibration {
 public:
     Calibration(Device& device, const Config& config, const RunSettings& settings)
         : device_(device), settings_(settings), config_(config) {
-        folder_ = fs::temp_directory_path() / ("ssrlab-plan-" + std::to_string(getpid()));
+        remove_leftovers(folder_.parent_path());
+        if (std::error_code error; !fs::create_directory(folder_, error))
+            fail_machine("cannot create the folder ", folder_.string(), ": ",
+                         error ? error.message() : "it is there already");
         for (const PointConfig& technique : config.techniques) {
             if (technique.external) continue;
             auto [ends, is_new] = ends_of_kinds_.try_emplace(kind_of(technique), technique, technique);
@@ -229,7 +233,7 @@ private:
     const RunSettings& settings_;
     Config config_;
     std::map<std::string, std::pair<PointConfig, PointConfig>> ends_of_kinds_;  ///< first and last point
-    fs::path folder_;
+    const fs::path folder_ = unfinished_path(fs::temp_directory_path() / "ssrlab-plan");
 };
 
 /// What the process holds at most that does a cell of the shot: device, scene, G-buffer and truth; then either copies

@@ -24,7 +24,7 @@ from ssrlab.markdown_text import markdown_code, markdown_prose, markdown_text
 from ssrlab.mistakes import ResultsError, shown
 from ssrlab.results import Results
 from ssrlab.dataframes import Tables
-from ssrlab.text_files import path_inside
+from ssrlab.text_files import path_inside, word_here, write_text
 
 TYPED = "\\immediate\\openout7=forged.txt\\immediate\\write7{x}\\immediate\\closeout7"
 ATTACKS = [
@@ -152,6 +152,19 @@ class Paths(unittest.TestCase):
             for name in ("up", "up/x", "images/dangling"):
                 with self.assertRaisesRegex(ResultsError, "is a symbolic link", msg=name):
                     path_inside(folder, name)
+
+
+class Leftovers(unittest.TestCase):
+    def test_of_killed_processes_go_with_the_next_write(self):
+        """As core/leftovers.h has it."""
+        killed = subprocess.Popen([sys.executable, "-c", ""])
+        killed.wait()
+        with tempfile.TemporaryDirectory() as folder:
+            own = f"b.csv.partial-{word_here()}-{os.getpid()}-9"
+            for name in (f"a.csv.partial-{word_here()}-{killed.pid}-0", own, "a.csv.partial-1"):
+                open(os.path.join(folder, name), "w", encoding="utf-8").close()
+            write_text(os.path.join(folder, "c.csv"), "c")
+            self.assertEqual(sorted(os.listdir(folder)), ["a.csv.partial-1", own, "c.csv"])
 
 
 class Latex(unittest.TestCase):
