@@ -44,13 +44,12 @@ nlohmann::json read_manifest_before(const std::filesystem::path& file) {
     }
 }
 
-/// What a reader wants to know first. Of many shots the report alone says each one's answer.
+/// What a reader wants to know first.
 std::vector<std::string> lines_of(const StudyAnswers& answers) {
-    constexpr size_t most_shots = 10;  // whose paragraphs fit a screen or two
     std::vector<std::string> lines;
     for (const std::string& sentence : {answers.in_these_scenes, answers.in_scenes_like_these})
         if (!sentence.empty()) lines.insert(lines.end(), {"", sentence});
-    if (answers.shots.size() > most_shots) {
+    if (answers.shots.size() > most_told_shots) {
         lines.insert(lines.end(),
                      {"", "The report answers for each of the " + std::to_string(answers.shots.size()) + " shots."});
         return lines;

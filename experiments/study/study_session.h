@@ -12,6 +12,10 @@
 /// SpentTime's name for compiling all points' shaders before the first cell.
 inline constexpr const char* compiling = "compiling";
 
+/// A run of at most so many shots says each point's result and each shot's answer, which fit a screen or two; of more,
+/// it says one line for each shot, and the report has the answers.
+inline constexpr size_t most_told_shots = 10;
+
 /// The kind of a cell in Workload: one kind for a point and image size in all shots.
 inline std::string kind_of_work(const PlannedCell& cell) {
     const std::string size = std::to_string(cell.pixels);

@@ -41,6 +41,7 @@ struct CellTask {
 struct ShownResult {
     std::string point, frame;
     std::optional<double> value;  ///< the mean
+    size_t seeds = 0;             ///< of which it is the mean
     size_t non_finite = 0;        ///< pixels, of the worst seed
 };
 
@@ -58,11 +59,27 @@ ShownResult shown_result(const Config& config, const Cell& cell) {
     if (values.empty()) return result;
     const auto& [frame, seeds] = values.contains(over_frames) ? *values.find(over_frames) : *values.rbegin();
     result.frame = frame == over_frames ? "over all frames" : "frame " + frame;
-    result.value = std::accumulate(seeds.begin(), seeds.end(), 0.0) / double(seeds.size());
+    result.value = std::accumulate(seeds.begin(), seeds.end(), 0.0) / double(seeds.size()), result.seeds = seeds.size();
     return result;
 }
 
-/// One line for a shot of hundreds, with the range of its results, and one for each point that is not finite.
+void say_result(StudySession& study, const Cell& cell) {
+    if (cell.results.empty()) return;
+    const ShownResult result = shown_result(study.config, cell);
+    const PrimaryComparisons& shown = study.config.primary;
+    const auto pixels = [](size_t count) { return counted(count, "pixel"); };
+    if (result.value) {
+        char line[240];
+        std::snprintf(line, sizeof line, "  %-56s %s of %s pixels %.4g (%s, %s)", result.point.c_str(),
+                      shown.metric.c_str(), shown.mask.c_str(), *result.value, result.frame.c_str(),
+                      counted(result.seeds, "seed").c_str());
+        study.progress.say(line +
+                           (result.non_finite > 0 ? ", without " + pixels(result.non_finite) + " not finite" : ""));
+    } else if (result.non_finite > 0)
+        study.progress.say("  " + result.point + ": no value, for " + pixels(result.non_finite) + " not finite");
+}
+
+/// One line for the shot, with the range of its results, and one for each point that is not finite.
 void say_results(StudySession& study, const std::string& shot, std::span<const Cell> cells) {
     const PrimaryComparisons& shown = study.config.primary;
     std::vector<ShownResult> results;
@@ -375,16 +392,19 @@ void do_cells(StudySession& study, const PlannedShot& shot, const CellSelection&
     const std::unique_ptr<OpenShot> open = opened(study, shot);
     const std::string truth = open->truth.content_hash();
     const size_t before = study.finished.size();
+    const bool is_told = study.plan.shots.size() <= most_told_shots;
+    if (is_told) study.progress.say(shot.name);
     std::vector<bool> is_done(planned.size());
     for (const bool waits : {false, true})
         for (size_t i = 0; i < planned.size(); ++i) {
             if (is_done[i]) continue;
             std::optional<Cell> cell = do_cell(study, task_of(study, *open, shot, *planned[i]), truth, waits);
             if (!cell) continue;
+            if (is_told) say_result(study, *cell);
             const size_t place = before + size_t(std::count(is_done.begin(), is_done.begin() + ptrdiff_t(i), true));
             study.finished.insert(study.finished.begin() + ptrdiff_t(place), std::move(*cell));
             is_done[i] = true;
             if (i > 0 && is_done.front()) rendered();
         }
-    say_results(study, shot.name, std::span(study.finished).subspan(before));
+    if (!is_told) say_results(study, shot.name, std::span(study.finished).subspan(before));
 }
