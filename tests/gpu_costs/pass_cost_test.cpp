@@ -1,7 +1,6 @@
 #include "experiments/gpu_costs/pass_cost.h"
 #include "core/gpu/device.h"
 #include "core/gpu/passes/pass_list.h"
-#include "core/gpu/pipelines/pipeline.h"
 
 #include <gtest/gtest.h>
 
@@ -88,21 +87,6 @@ TEST_P(PassCosts, OperationsAreThoseThatTheShaderStates) {
     pass_list.compute("counted_operations.comp").write(target).run();
     // And conversions: 3 of the index to floats, 2 of the index to ints.
     EXPECT_EQ(only_cost().operations, 64u * (3 + 3 + 5 + 28 + 4 + 3 + 2 + 2));
-}
-
-/// A study has a pass list for each point of each shot, and drivers keep memory of pipelines that are gone.
-TEST_P(PassCosts, OfAllPassListsShareTheirPipelines) {
-    const auto pipelines_after_a_shot = [&] {
-        PassList of_shot(device(), {10, 9}, GetParam());
-        of_shot.begin_frame(camera, no_parameters, {});
-        CostCounter of_point;
-        of_shot.watch(&of_point);
-        of_shot.compute("counted_operations.comp").write(of_shot.image_of("target", Format::rgba32f, {8, 8})).run();
-        EXPECT_EQ(of_point.costs().at(0).invocations, 64u);
-        return PipelineCache::of(device().impl()).pipeline_count();
-    };
-    const size_t first = pipelines_after_a_shot();
-    for (int shot = 1; shot < 4; ++shot) EXPECT_EQ(pipelines_after_a_shot(), first);
 }
 
 /// 64 x 64 x 1100 KiB, more than 2^32 bytes.

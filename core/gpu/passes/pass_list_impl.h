@@ -50,7 +50,8 @@ struct PassList::Impl {
     bool uses_gpu_forms = !gpu.info.is_cpu();
     PassChanges changes;
     PassWatcher* watcher = nullptr;
-    vk::raii::QueryPool device_counts{nullptr};  ///< of invocations, once a pass was watched that has them
+    std::map<std::string, Pipeline> watched_pipelines;  ///< by the bytes of their recipes
+    vk::raii::QueryPool device_counts{nullptr};         ///< of invocations, once a pass was watched that has them
 
     std::vector<PassTime> times;
     double frame_milliseconds = 0;

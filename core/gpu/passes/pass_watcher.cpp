@@ -57,7 +57,12 @@ bool PassList::Impl::run_watched(Pass& pass, ShaderChanges changes, const Pipeli
     const std::optional<InstrumentedPipeline> other = watcher->before(run);
     if (!other) return false;
 
-    const Pipeline& pipeline = pipelines.instrumented(seen, other->recipe);
+    const auto [pipeline, is_new] = watched_pipelines.try_emplace(bytes_of({other->recipe}));
+    if (is_new) {
+        pipeline->second = make_pipeline(gpu.device, other->recipe);
+        pipeline->second.interface = seen.interface;
+        pipeline->second.interface.resources = other->recipe.resources;
+    }
     flush();
     if (!gpu.watched) gpu.watched = std::make_shared<WatchedBuffer>();
     gpu.watched->grow(gpu, other->bytes);
@@ -77,7 +82,7 @@ bool PassList::Impl::run_watched(Pass& pass, ShaderChanges changes, const Pipeli
     pass.buffers_.push_back(buffer);
     execute(pass.label_, [&](const vk::raii::CommandBuffer& commands) {
         if (has_invocations) commands.resetQueryPool(*device_counts, 0, 1), commands.beginQuery(*device_counts, 0, {});
-        record(commands, pipeline);
+        record(commands, pipeline->second);
         if (has_invocations) commands.endQuery(*device_counts, 0);
     });
     flush();

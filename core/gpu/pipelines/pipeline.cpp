@@ -1,7 +1,6 @@
 #include "core/gpu/pipelines/pipeline.h"
 
 #include "core/error.h"
-#include "core/files.h"
 #include "core/gpu/pipelines/shader_files.h"
 
 namespace {
@@ -186,18 +185,6 @@ Pipeline& PipelineCache::pipeline(const std::string& file, const std::string& ve
     if (is_new) {
         entry->second = make_pipeline(gpu_.device, recipe(shader, file, params, constants, state));
         entry->second.interface = shader.interface;
-    }
-    return entry->second;
-}
-
-const Pipeline& PipelineCache::instrumented(const Shader& shader, const PipelineRecipe& recipe) {
-    ContentHash hash;
-    hash.add(bytes_of({recipe}));
-    const auto [entry, is_new] = instrumented_.try_emplace({&shader, hash.hex()});
-    if (is_new) {
-        entry->second = make_pipeline(gpu_.device, recipe);
-        entry->second.interface = shader.interface;
-        entry->second.interface.resources = recipe.resources;
     }
     return entry->second;
 }

@@ -38,16 +38,10 @@ public:
     Pipeline& pipeline(const std::string& file, const std::string& vertex_file, const ParameterSet& params,
                        const ShaderIncludes& includes, const Constants& constants, const PipelineState& state,
                        const ShaderChanges& changes = {});
-    /// The pipeline of a recipe that was made of `shader`, a result of shader(). Drivers may keep memory of a pipeline
-    /// that is destroyed: lavapipe keeps its code.
-    const Pipeline& instrumented(const Shader& shader, const PipelineRecipe& recipe);
-    /// Pipelines of both kinds that were made.
-    size_t pipeline_count() const { return pipelines_.size() + instrumented_.size(); }
 
 private:
     Device::Impl& gpu_;
     std::map<std::string, Shader> shaders_;  // nodes keep their addresses
     std::set<const Shader*> webgl2_shaders_;
     std::map<std::string, Pipeline> pipelines_;
-    std::map<std::pair<const Shader*, std::string>, Pipeline> instrumented_;  ///< by the hash of the recipe's bytes
 };
