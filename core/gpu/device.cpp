@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/gpu/device_impl.h"
 #include "core/list_text.h"
+#include "core/memory_fault.h"
 #include "core/near_miss.h"
 
 #include <algorithm>
@@ -18,6 +19,15 @@ const char* const no_device =
     "there is no Vulkan 1.3 device: install a driver (on Debian: apt-get install mesa-vulkan-drivers)";
 const char* const no_hardware =
     "compiles shaders for a chip and runs none: to render, take RADV_FORCE_FAMILY out of the environment";
+
+/// About what lavapipe and its LLVM take before they draw anything (bytes). Loaders and drivers without memory say that
+/// there is no driver, or that it cannot be initialised.
+constexpr size_t memory_of_driver = 256 << 20;
+
+[[noreturn]] void fail_without_device() {
+    if (can_get_memory(memory_of_driver)) fail_machine(no_device);
+    fail_machine(memory_sentence(" to load a Vulkan driver"));
+}
 
 VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                           const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
@@ -50,7 +60,7 @@ vk::raii::Instance make_instance(const vk::raii::Context& context, bool validate
                                                 .enabledExtensionCount = validate ? 1u : 0u,
                                                 .ppEnabledExtensionNames = extensions}};
     } catch (const vk::IncompatibleDriverError&) {  // what the loader says when it finds no driver at all
-        fail_machine(no_device);
+        fail_without_device();
     }
 }
 
@@ -130,7 +140,7 @@ size_t choose_by_name(const std::vector<DeviceInfo>& devices, const std::string&
 }
 
 size_t choose(const std::vector<DeviceInfo>& devices, const std::string& choice) {
-    if (devices.empty()) fail_machine(no_device);
+    if (devices.empty()) fail_without_device();
     if (choice.empty()) return choose_by_type(devices);
     const size_t chosen = choose_by_name(devices, choice);
     if (!devices[chosen].has_hardware()) fail("'", devices[chosen].name, "' ", no_hardware, ", or name another device");
@@ -143,6 +153,9 @@ auto translated(const Action& action) {
     try {
         return action();
     } catch (const vk::SystemError& e) {
+        if (e.code() == vk::Result::eErrorOutOfHostMemory || e.code() == vk::Result::eErrorOutOfDeviceMemory ||
+            !can_get_memory(memory_of_driver))
+            fail_machine(memory_sentence(message_text(" for the Vulkan driver (", e.what(), ")")));
         fail_machine("Vulkan: ", e.what());
     }
 }
@@ -209,7 +222,7 @@ std::vector<DeviceInfo> list_devices() {
         const vk::raii::Instance instance = make_instance(context, false);
         std::vector<DeviceInfo> devices;
         for (const auto& gpu : usable_devices(instance)) devices.push_back(describe(gpu));
-        if (devices.empty()) fail_machine(no_device);
+        if (devices.empty()) fail_without_device();
         return devices;
     });
 }

@@ -2,6 +2,7 @@
 #include "core/error.h"
 #include "core/former_names.h"
 #include "core/gpu/pipelines/shader_error.h"
+#include "core/memory_fault.h"
 #include "core/shown_text.h"
 #include "experiments/bridges/inspect/inspect_hint.h"
 #include "experiments/cli/commands.h"
@@ -10,10 +11,13 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <new>
 #include <string_view>
+#include <system_error>
 
 namespace {
 
@@ -57,6 +61,32 @@ int parse_and_run(int argc, char** argv, const std::vector<EndedPoint>& ended) {
     return line.status;
 }
 
+/// Whether memory or a thread is missing, as the system says it, or Vulkan by VK_ERROR_OUT_OF_HOST_MEMORY and
+/// VK_ERROR_OUT_OF_DEVICE_MEMORY.
+bool is_of_memory(const std::error_code& code) {
+    if (std::string_view(code.category().name()) == "vk::Result") return code.value() == -1 || code.value() == -2;
+    return code == std::errc::not_enough_memory || code == std::errc::resource_unavailable_try_again;
+}
+
+int say_memory_is_short() {
+    std::fprintf(stderr, "error: not enough memory; %s\n", more_memory);
+    return 3;
+}
+
+const std::terminate_handler usual_end = std::get_terminate();
+
+/// Threads of drivers and libraries throw where nobody catches.
+[[noreturn]] void end_uncaught() {
+    try {
+        if (std::current_exception()) std::rethrow_exception(std::current_exception());
+    } catch (const std::bad_alloc&) {
+        std::_Exit(say_memory_is_short());
+    } catch (...) {  // which the usual end shows
+    }
+    usual_end();
+    std::abort();
+}
+
 /// A mistake in a file that is there is seen best by who looks at all that is understood of it.
 void say_how_to_inspect(int argc, char** argv, const Error& error) {
     if (argc > 1 && std::string_view(argv[1]) == "inspect") return;
@@ -79,7 +109,10 @@ int exit_code_of(int argc, char** argv, const std::function<int()>& work) {
         say_how_to_inspect(argc, argv, e);
         return 2;
     } catch (const std::bad_alloc&) {
-        std::fprintf(stderr, "error: not enough memory\n");
+        return say_memory_is_short();
+    } catch (const std::system_error& e) {
+        const std::string text = is_of_memory(e.code()) ? memory_sentence(message_text(" (", e.what(), ")")) : e.what();
+        std::fprintf(stderr, "error: %s\n", shown_text(text).c_str());
         return 3;
     } catch (const std::exception& e) {
         std::fprintf(stderr, "error: %s\n", shown_text(e.what()).c_str());
@@ -90,6 +123,7 @@ int exit_code_of(int argc, char** argv, const std::function<int()>& work) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    std::set_terminate(end_uncaught);
     const std::string_view command = argc > 1 ? argv[1] : "";
     const auto parse = [&](const std::vector<EndedPoint>& ended) {
         return exit_code_of(argc, argv, [&] { return parse_and_run(argc, argv, ended); });

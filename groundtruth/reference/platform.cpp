@@ -1,16 +1,14 @@
 #include "groundtruth/reference/platform.h"
 
-#include "core/error.h"
+#include "groundtruth/scene/embree_device.h"
 
-#include <embree3/rtcore.h>
 #include <gnu/libc-version.h>
 
 namespace {
 
 /// Of the library that runs, which need not be the one whose headers were compiled: "31305".
 std::string embree_version() {
-    const RTCDevice device = rtcNewDevice(nullptr);
-    if (!device) fail_machine("Embree found no usable processor (error ", int(rtcGetDeviceError(nullptr)), ")");
+    const RTCDevice device = open_embree();
     const auto version = rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION);
     rtcReleaseDevice(device);
     return std::to_string(version);

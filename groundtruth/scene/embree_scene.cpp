@@ -1,9 +1,11 @@
 #include "groundtruth/scene/embree_scene.h"
 
 #include "core/error.h"
+#include "core/memory_fault.h"
 #include "core/scene/deform.h"
 #include "core/scene/transform.h"
 #include "groundtruth/scene/alpha_mask.h"
+#include "groundtruth/scene/embree_device.h"
 
 #include <tbb/parallel_for.h>
 #include <algorithm>
@@ -79,7 +81,7 @@ RTCGeometry EmbreeScene::make_triangles(const std::vector<TriangleRecord>& recor
     auto* indices =
         static_cast<uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                                        3 * sizeof(uint32_t), std::max<size_t>(1, records.size())));
-    if (!positions || !indices) fail_machine("out of memory while Embree took over mesh '", mesh.name, "'");
+    if (!positions || !indices) fail_machine(memory_sentence(" for Embree to take over mesh '" + mesh.name + "'"));
     for (size_t t = 0; t < records.size(); ++t)
         for (int k = 0; k < 3; ++k) {
             const uint32_t corner = records[t].corner[k];
@@ -105,8 +107,7 @@ RTCGeometry EmbreeScene::make_triangles(const std::vector<TriangleRecord>& recor
 }
 
 EmbreeScene::EmbreeScene(const Scene& scene, const ScenePose& pose, bool test_every_alpha) {
-    device_ = rtcNewDevice(nullptr);
-    if (!device_) fail_machine("Embree found no usable processor (error ", int(rtcGetDeviceError(nullptr)), ")");
+    device_ = open_embree();
     const auto new_scene = [&] {
         RTCScene result = rtcNewScene(device_);
         rtcSetSceneFlags(result, RTC_SCENE_FLAG_ROBUST);
@@ -161,8 +162,8 @@ EmbreeScene::EmbreeScene(const Scene& scene, const ScenePose& pose, bool test_ev
     }
     rtcCommitScene(scene_);
     if (const RTCError error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE)
-        fail_machine("Embree could not build the BVH of scene '", scene.name, "' with ", scene.triangle_count(),
-                     " triangles (error ", int(error), ")");
+        fail_machine(embree_sentence(error, message_text("build the BVH of scene '", scene.name, "' with ",
+                                                         scene.triangle_count(), " triangles")));
 }
 
 EmbreeScene::~EmbreeScene() {
