@@ -1,20 +1,25 @@
 #include "experiments/live/watch/watch_server.h"
 
 #include "core/error.h"
+#include "experiments/live/watch/impatient_socket.h"
 
 #include <httplib.h>
 #include <sys/random.h>
+#include <sys/socket.h>
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <system_error>
 #include <thread>
 
 namespace {
 
 constexpr size_t longest_path = 200, largest_body = 1 << 16;
 constexpr auto longest_wait = std::chrono::seconds(20);  // of a page for news, which then asks again
-constexpr size_t threads = 32;                           // each page that waits has one
+constexpr size_t most_connections = 256;                 // each page that waits has one
+constexpr int most_waiting = 128;                        // connections that are not accepted yet
 
 /// 128 random bits as hexadecimal digits.
 std::string random_token() {
@@ -44,14 +49,87 @@ httplib::Headers headers_of_all() {
             {"Cache-Control", "no-store"}};
 }
 
+/// A thread for each connection, which a slow client thus keeps from nobody.
+class ThreadForEach : public httplib::TaskQueue {
+public:
+    void enqueue(std::function<void()> serve) override {
+        std::unique_lock lock(mutex_);
+        has_room_.wait(lock, [&] { return running_ < most_connections; });
+        ++running_;
+        lock.unlock();
+        const auto run = [this, serve = std::move(serve)] {
+            serve();
+            const std::lock_guard ended(mutex_);
+            --running_;
+            has_room_.notify_all();
+        };
+        try {
+            std::thread(run).detach();
+        } catch (const std::system_error&) {  // there are no more threads
+            run();
+        }
+    }
+    void shutdown() override {
+        std::unique_lock lock(mutex_);
+        has_room_.wait(lock, [&] { return running_ == 0; });
+    }
+
+private:
+    std::mutex mutex_;
+    std::condition_variable has_room_;
+    size_t running_ = 0;
+};
+
+/// An ImpatientSocket as httplib reads and writes it.
+class SocketStream : public httplib::Stream {
+public:
+    SocketStream(socket_t socket, const std::atomic<bool>& is_ending) : socket_(socket, is_ending) {}
+
+    bool is_readable() const override { return socket_.is_readable(); }
+    bool is_writable() const override { return socket_.is_writable(); }
+    ssize_t read(char* bytes, size_t size) override { return socket_.read(bytes, size); }
+    ssize_t write(const char* bytes, size_t size) override { return socket_.write(bytes, size); }
+    void get_remote_ip_and_port(std::string& ip, int& port) const override { ip = "127.0.0.1", port = 0; }
+    void get_local_ip_and_port(std::string& ip, int& port) const override { ip = "127.0.0.1", port = 0; }
+    socket_t socket() const override { return socket_.number(); }
+
+private:
+    ImpatientSocket socket_;
+};
+
+/// A server of one request for each connection, which no client can keep waiting, or from its end.
+class ImpatientServer : public httplib::Server {
+public:
+    ImpatientServer() {
+        new_task_queue = [] { return new ThreadForEach; };
+    }
+    /// Returns the port; 0 or less if none is free.
+    int bind() {
+        const int port = bind_to_any_port("127.0.0.1");
+        ::listen(svr_sock_, most_waiting);  // httplib's own 5 refuse a page beside a few others
+        return port;
+    }
+    void end() {
+        is_ending_ = true;
+        stop();
+    }
+
+private:
+    bool process_and_close_socket(socket_t socket) override {
+        SocketStream stream(socket, is_ending_);
+        bool is_closed = false;
+        return process_request(stream, /*close_connection=*/true, is_closed, nullptr);
+    }
+
+    std::atomic<bool> is_ending_ = false;
+};
+
 }  // namespace
 
 struct WatchServer::Parts {
     explicit Parts(WatchPages pages) : pages(std::move(pages)) {
-        server.new_task_queue = [] { return new httplib::ThreadPool(threads); };
         server.set_default_headers(headers_of_all());
         server.set_payload_max_length(largest_body);
-        server.set_keep_alive_timeout(1);  // seconds: the server's end waits for idle connections
         server.set_pre_routing_handler([this](const auto& request, auto& response) {
             const int refusal = refusal_of(request);
             if (refusal == 0) return httplib::Server::HandlerResponse::Unhandled;
@@ -60,7 +138,7 @@ struct WatchServer::Parts {
         });
         server.Get("/.*", [this](const auto& request, auto& response) { get(request, response); });
         server.Post("/.*", [this](const auto& request, auto& response) { post(request, response); });
-        port = server.bind_to_any_port("127.0.0.1");
+        port = server.bind();
         if (port <= 0) fail_machine("no port of 127.0.0.1 is free to listen on");
         listening = std::thread([this] { server.listen_after_bind(); });
         while (!server.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -72,7 +150,7 @@ struct WatchServer::Parts {
             is_ending = true;
         }
         changed.notify_all();
-        server.stop();
+        server.end();
         listening.join();
     }
 
@@ -135,7 +213,7 @@ struct WatchServer::Parts {
 
     const WatchPages pages;
     const std::string token = random_token();
-    httplib::Server server;
+    ImpatientServer server;
     int port = 0;
     std::thread listening;
     std::mutex mutex;
