@@ -1,5 +1,6 @@
-"""Where files of strangers are read, names become paths in one way: no source there joins a folder with a name that it does not spell out
-but by path_inside() (core/path_inside.h, experiments/python/ssrlab/text_files.py), so that no such file leads out of its folder.
+"""Where files of strangers are read, and where commands write folders, names become paths in one way: no source there joins a folder with
+a name that it does not spell out but by path_inside() (core/path_inside.h, experiments/python/ssrlab/text_files.py), so that no file or link
+in there leads out of its folder.
 
 A join is `folder / name` in C++ and in Python, os.path.join(folder, name), or a text made of a folder, "/" and a name, where the name is no
 literal. Scenes have a rule of their own, file_below(), which tests of scenes hold."""
@@ -11,10 +12,16 @@ import unittest
 
 from markdown_test import FILES, ROOT
 
-# Of results folders, captures and G-buffers. Configs and command lines are not among these: they are what the user asks for.
+# Of results folders, captures, G-buffers, and what commands write. Configs and command lines are not among these: they are what the user
+# asks for.
 READERS = (
     "core/gbuffer/",
     "core/gpu/",
+    "experiments/bridges/captures/",
+    "experiments/bridges/scene_for/",
+    "experiments/bridges/shader_export/",
+    "experiments/cli/gbuffer_command.cpp",
+    "experiments/live/",
     "experiments/python/ssrlab/dataframes.py",
     "experiments/python/ssrlab/figures/",
     "experiments/python/ssrlab/results.py",

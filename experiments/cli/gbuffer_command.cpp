@@ -3,6 +3,7 @@
 #include "core/gbuffer/gbuffer_transfer.h"
 #include "core/gbuffer/rasterizer.h"
 #include "core/gpu/device.h"
+#include "core/path_inside.h"
 #include "core/scene/load_scene.h"
 #include "core/shown_text.h"
 #include "experiments/cli/commands.h"
@@ -53,7 +54,7 @@ static void gbuffer_command(const GBufferCommandOptions& options, const CommonOp
         rasterizer.light_directly(gbuffer);
         char name[32];
         std::snprintf(name, sizeof name, "frame_%04u", frame);
-        const std::filesystem::path folder = options.frames.empty() ? out : out / name;
+        const std::filesystem::path folder = options.frames.empty() ? out : path_inside(out, name);
         HostGBuffer host = download_gbuffer(rasterizer.pass_list(), gbuffer, rasterizer.camera(), format);
         host.exposure_ev = shot.camera.exposure_ev;
         save_gbuffer(folder, host);

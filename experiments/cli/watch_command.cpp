@@ -4,6 +4,8 @@
 #include "experiments/cli/frame_numbers.h"
 #include "experiments/live/watch/watch_session.h"
 
+#include <unistd.h>
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 
@@ -20,12 +22,15 @@ struct WatchOptions {
 
 volatile std::sig_atomic_t is_ended = 0;
 
-/// While it lives, Ctrl-C and SIGTERM set is_ended.
+/// While it lives, Ctrl-C and SIGTERM set is_ended; the second ends the process, and with it what it started.
 class EndingSignals {
 public:
     EndingSignals() {
         struct sigaction end {};
-        end.sa_handler = [](int) { is_ended = 1; };
+        end.sa_handler = [](int signal) {
+            if (is_ended) _exit(128 + signal);
+            is_ended = 1;
+        };
         for (size_t i = 0; i < 2; ++i) sigaction(signals[i], &end, &before_[i]);
     }
     ~EndingSignals() {
@@ -38,6 +43,22 @@ private:
     static constexpr int signals[] = {SIGINT, SIGTERM};
     struct sigaction before_[2];
 };
+
+/// A scene's name, or what its path ends with, as a part of a folder's name: "hall" for "a/hall/scene.json", "room_5".
+std::string plain_name(const std::string& scene) {
+    std::filesystem::path path = std::filesystem::absolute(scene).lexically_normal();
+    if (!path.has_filename() || path.filename() == "scene.json") path = path.parent_path();
+    std::string name = path.stem().string();
+    std::ranges::replace(name, ':', '_');
+    return name;
+}
+
+/// Of its own for each technique and its scenes, whose numbers the folder holds.
+std::filesystem::path default_folder(const std::string& technique, const std::vector<std::string>& scenes) {
+    std::string name = technique;
+    for (const std::string& scene : scenes) name += "." + plain_name(scene);
+    return std::filesystem::path("results/watch") / name;
+}
 
 }  // namespace
 
@@ -57,7 +78,7 @@ static void watch_command(const WatchOptions& options, const std::vector<std::st
          .samples = options.samples,
          .seeds = options.seeds,
          .patience = options.patience,
-         .out = options.out.empty() ? std::filesystem::path("results/watch") / folder.filename() : options.out,
+         .out = options.out.empty() ? default_folder(folder.filename().string(), options.scenes) : options.out,
          .run_options = run_options});
     session.run([] { return is_ended != 0; },
                 [](const std::string& text) {
@@ -95,7 +116,7 @@ void add_watch(Commands& line) {
         ->check(real_in(15, 1e6, "a number from 15, as there is a sign every ten seconds, to 1000000"))
         ->capture_default_str();
     option(command, "--out DIR", watch.out,
-           "Folder of kept versions and rendered images; default: results/watch/<name>");
+           "Folder of kept versions and rendered images; default: results/watch/<name>.<scene>");
     add_device(command, line.common), add_scene_path(command, line.common), add_cache(command, line.common);
     add_reading(command);
     command.callback([&] { watch_command(watch, run_options(command, line.common)); });

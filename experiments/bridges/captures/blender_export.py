@@ -18,7 +18,7 @@ from mathutils import Matrix
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parents[1] / "python")]
 from blender_passes import OLDER_NAMES, PANORAMA_CAMERA, camera_of, layers_of, with_previous  # noqa: E402
-from capture_files import write_environment, write_frame  # noqa: E402
+from capture_files import frame_folder, write_environment, write_frame  # noqa: E402
 from ssrlab.exr import read_exr_planes  # noqa: E402
 from ssrlab.mistakes import ResultsError, exit_code, shown  # noqa: E402
 
@@ -327,7 +327,7 @@ def main():
             passes = rendered(scene, layer, 1, place)
             lit = None if arguments.no_lit else rendered(scene, layer, arguments.samples, place)
             layers = layers_of(passes, camera, previous, lit)
-            out = arguments.out / f"frame_{frame:04}"
+            out = frame_folder(arguments.out, frame)
             write_frame(out, layers, with_previous(camera, previous))
             say(f"{out}")
 

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from ssrlab.mistakes import ResultsError
+from ssrlab.text_files import path_inside, whole_file, write_text
 
 # Layers and their channels: core/gbuffer/gbuffer_file.h.
 CHANNELS = {
@@ -62,9 +63,13 @@ def write_exr(path, planes):
         data = _zipped(rows[y].tobytes())
         blocks.append(struct.pack("<ii", y, len(data)) + data)
     at = len(header) + 8 * height + np.concatenate([[0], np.cumsum([len(b) for b in blocks])[:-1]])
-    unfinished = path.with_suffix(".partial")
-    unfinished.write_bytes(header + np.asarray(at, "<u8").tobytes() + b"".join(blocks))
-    unfinished.replace(path)
+    with whole_file(path) as unfinished:
+        Path(unfinished).write_bytes(header + np.asarray(at, "<u8").tobytes() + b"".join(blocks))
+
+
+def frame_folder(out, frame):
+    """Of a frame of a sequence."""
+    return Path(path_inside(out, f"frame_{frame:04}"))
 
 
 def write_frame(folder, layers, camera):
@@ -88,7 +93,7 @@ def write_frame(folder, layers, camera):
     write_exr(folder / "gbuffer.exr", planes)
     text = {"extent": [width, height], **camera}
     text = {key: value.tolist() if isinstance(value, np.ndarray) else value for key, value in text.items()}
-    (folder / "camera.json").write_text(json.dumps(text, indent=2) + "\n")
+    write_text(folder / "camera.json", json.dumps(text, indent=2) + "\n")
 
 
 def write_environment(folder, environment):
@@ -102,7 +107,7 @@ def write_environment(folder, environment):
     else:
         write_exr(folder / "environment.exr", {c: environment[..., i] for i, c in enumerate("RGB")})
         entry = {"image": "environment.exr"}
-    (folder / "environment.json").write_text(json.dumps(entry, indent=2) + "\n")
+    write_text(folder / "environment.json", json.dumps(entry, indent=2) + "\n")
 
 
 def vulkan_clip(clip_from_view):

@@ -16,7 +16,7 @@ import renderdoc as rd
 
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parents[1] / "python")]
-from capture_files import CHANNELS, write_environment, write_frame  # noqa: E402
+from capture_files import CHANNELS, frame_folder, write_environment, write_frame  # noqa: E402
 from ssrlab.json_files import read_json  # noqa: E402
 from ssrlab.mistakes import ResultsError, exit_code, say  # noqa: E402
 from renderdoc_layers import camera_value, decoded, from_the_top, layer_of  # noqa: E402
@@ -184,7 +184,7 @@ def main():
         folder = arguments.out
         if "environment" in mapping:
             write_environment(folder, np.asarray(mapping["environment"]))
-        write_frame(folder if arguments.frame is None else folder / f"frame_{arguments.frame:04}", layers, camera)
+        write_frame(folder if arguments.frame is None else frame_folder(folder, arguments.frame), layers, camera)
     finally:
         replay.close()
 

@@ -1,6 +1,7 @@
 #include "experiments/bridges/scene_for/raw_files.h"
 
 #include "core/files.h"
+#include "core/path_inside.h"
 #include "core/scene/deform.h"
 #include "core/scene/texture_slots.h"
 #include "experiments/bridges/scene_for/scene_numbers.h"
@@ -43,7 +44,7 @@ public:
         const std::string name = "textures/" + std::to_string(slot.texture) + ".png";
         if (written_.insert(slot.texture).second) {
             const std::vector<std::byte> bytes = texture_png(scene_.textures[size_t(slot.texture)]);
-            write_text(folder_ / name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+            write_text(path_inside(folder_, name), {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
         }
         json transform = json::array();
         for (int column = 0; column < 3; ++column) append_numbers(transform, slot.uv_transform[column]);

@@ -1,5 +1,7 @@
 #include "experiments/live/watch/fresh_images.h"
 
+#include "core/path_inside.h"
+
 namespace fs = std::filesystem;
 
 std::optional<std::chrono::system_clock::time_point> written_at(const fs::path& file) {
@@ -14,8 +16,9 @@ std::map<std::string, std::map<std::string, fs::path>> fresh_images(const fs::pa
                                                                     std::chrono::system_clock::time_point since) {
     std::map<std::string, std::map<std::string, fs::path>> found;
     std::error_code error;
-    for (fs::recursive_directory_iterator file(results / "images", error), end; !error && file != end;
+    for (fs::recursive_directory_iterator file(path_inside(results, "images"), error), end; !error && file != end;
          file.increment(error)) {
+        if (file->is_symlink(error)) continue;
         const std::string name = file->path().filename().string();
         for (const std::string target : {"image", "specular"}) {
             if (name.starts_with("reference.") && name.ends_with("." + target + ".exr"))

@@ -14,8 +14,9 @@ struct KeptVersion {
 /// The kept versions in a watch's folder, oldest first: versions.json, and copies of the technique's folder.
 class KeptVersions {
 public:
-    /// Loads versions of earlier watches in this folder. Fails with Error if versions.json is broken.
-    KeptVersions(std::filesystem::path out, std::string technique);
+    /// Loads versions of earlier watches in WatchSettings::out. Fails with Error if versions.json is broken, or is of
+    /// another technique or of other scenes. Removes what a killed watch left of a version.
+    explicit KeptVersions(const WatchSettings& settings);
 
     /// Copies the technique in technique/ as the next version, and its results in `now`, so that `ssrlab diff` can
     /// compare two versions.
@@ -24,7 +25,12 @@ public:
     const std::vector<KeptVersion>& all() const { return versions_; }
 
 private:
+    void load();
+    /// The folder of a version or of the technique, in a part of the watch's folder.
+    std::filesystem::path part(const char* of, const std::string& name) const;
+
     const std::filesystem::path out_;
     const std::string technique_;
+    const nlohmann::json of_;  ///< {"technique", "scenes"}, for versions.json
     std::vector<KeptVersion> versions_;
 };

@@ -2,6 +2,7 @@
 
 #include "core/elapsed.h"
 #include "core/files.h"
+#include "core/path_inside.h"
 #include "experiments/live/watch/watch_study.h"
 #include "experiments/results/cells/host_info.h"
 
@@ -20,10 +21,10 @@ std::string name_of(JobKind kind) {
 /// With its config written.
 std::vector<std::string> arguments_of(JobKind kind, const WatchSettings& settings, const nlohmann::json& study,
                                       bool prunes) {
-    const fs::path config = settings.out / (name_of(kind) + ".json");
+    const fs::path config = path_inside(settings.out, name_of(kind) + ".json");
     write_text(config, study.dump(1) + "\n");
     std::vector<std::string> arguments = {this_program().string(), "run", config.string(), "--replace"};
-    arguments.push_back("--out=" + (settings.out / name_of(kind)).string());
+    arguments.push_back("--out=" + path_inside(settings.out, name_of(kind)).string());
     if (kind == JobKind::truth) arguments.push_back("--cells=references");
     if (kind != JobKind::truth && kind != JobKind::kept) arguments.push_back("--no-report");
     if (prunes) arguments.push_back("--prune");
@@ -41,9 +42,9 @@ double patience_with(JobKind kind, double seconds) {
 
 WatchJob::WatchJob(JobKind kind, const WatchSettings& settings, const nlohmann::json& study, bool prunes)
     : kind(kind),
-      results(settings.out / name_of(kind)),
-      output_(settings.out / (name_of(kind) + ".out")),
-      errors_(settings.out / (name_of(kind) + ".err")),
+      results(path_inside(settings.out, name_of(kind))),
+      output_(path_inside(settings.out, name_of(kind) + ".out")),
+      errors_(path_inside(settings.out, name_of(kind) + ".err")),
       patience_(patience_with(kind, settings.patience)),
       program_(arguments_of(kind, settings, study, prunes), output_, errors_) {}
 

@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/list_text.h"
+#include "core/path_inside.h"
 #include "core/shown_text.h"
 #include "experiments/live/watch/error_places.h"
 #include "experiments/live/watch/fresh_images.h"
@@ -33,7 +34,8 @@ double seconds_between(std::chrono::system_clock::time_point a, std::chrono::sys
 std::chrono::system_clock::time_point saved_at(const fs::path& folder) {
     std::optional<std::chrono::system_clock::time_point> newest;
     for (const fs::path& file : technique_files(folder))
-        if (const auto time = written_at(folder / file); time && (!newest || *time > *newest)) newest = time;
+        if (const auto time = written_at(path_inside(folder, file.string())); time && (!newest || *time > *newest))
+            newest = time;
     const auto now = std::chrono::system_clock::now();
     return newest && *newest < now && seconds_between(*newest, now) < 2 ? *newest : now;
 }
@@ -69,9 +71,10 @@ std::map<std::string, WatchReply> page_files() {
 
 WatchSession::WatchSession(const WatchSettings& settings)
     : settings_(with_absolute_paths(settings)),
-      copy_(settings_.out / watch_folder::technique / settings_.name()),
+      lock_(settings_.out),
+      copy_(path_inside(settings_.out, std::string(watch_folder::technique) + "/" + settings_.name())),
       against_(settings.against.empty() ? std::nullopt : std::optional(point_against(settings.against))),
-      versions_(settings_.out, settings_.name()),
+      versions_(settings_),
       files_(settings_.folder),
       since_(Clock::now()),
       opened_(Clock::now()),
@@ -289,9 +292,9 @@ void WatchSession::start_job(JobKind kind) {
 /// The results of a seed lie there before its errors are measured.
 void WatchSession::look_for_picture() {
     if (has_picture_ || (job_->kind != JobKind::now && job_->kind != JobKind::coarse)) return;
-    auto found = fresh_images(job_->results, settings_.name(), job_->started);
-    if (found["now"].size() < 2) return;
     try {
+        auto found = fresh_images(job_->results, settings_.name(), job_->started);
+        if (found["now"].size() < 2) return;
         json images = json::object();
         for (const auto& [label, targets] : found)
             for (const auto& [target, exr] : targets) images[label][target] = images_.add(exr);

@@ -2,6 +2,7 @@
 #include "experiments/live/watch/kept_versions.h"
 #include "experiments/live/watch/page_images.h"
 #include "experiments/live/watch/watch_job.h"
+#include "experiments/live/watch/watch_lock.h"
 #include "experiments/live/watch/watched_files.h"
 
 #include <functional>
@@ -12,7 +13,8 @@
 /// Renders and judges a technique after every save, and serves the page that shows it.
 class WatchSession {
 public:
-    /// Fails with Error if the folder is not a technique's, or if what it is compared with does not exist.
+    /// Fails with Error if the folder is not a technique's, if what it is compared with does not exist, or if
+    /// WatchSettings::out is that of another watch.
     explicit WatchSession(const WatchSettings& settings);
     ~WatchSession();
     WatchSession(const WatchSession&) = delete;
@@ -51,6 +53,7 @@ private:
     nlohmann::json news() const;
 
     const WatchSettings settings_;
+    const WatchLock lock_;
     const std::filesystem::path copy_;  ///< copy of the folder, which is rendered
     const std::optional<WatchedPoint> against_;
     KeptVersions versions_;

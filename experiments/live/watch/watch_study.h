@@ -17,7 +17,8 @@ struct WatchedPoint {
 WatchedPoint point_against(const std::string& asked);
 
 /// Parts of a watch's folder, relative to WatchSettings::out: technique/NAME, the copy that is rendered;
-/// versions/NAME_1, ..., the kept copies; each study's config, and its results folder beside it.
+/// versions/NAME_1, ..., the kept copies; numbers/NAME_1, ..., what was measured of them; each study's config, and its
+/// results folder beside it; watch.lock.
 namespace watch_folder {
 inline constexpr const char *technique = "technique", *versions = "versions", *kept_numbers = "numbers";
 /// Results folders: `now` of what is shown; `coarse` of what is shown until the truth has all samples; `why` of where

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/path_inside.h"
 
 #include <algorithm>
 
@@ -92,16 +93,15 @@ std::vector<fs::path> technique_files(const fs::path& folder) {
 }
 
 void copy_technique(const fs::path& folder, const fs::path& to) {
-    fs::path made = to;
-    made += ".new";
-    fs::remove_all(made);
-    create_folder(made);
-    for (const fs::path& file : technique_files(folder)) {
-        create_folder((made / file).parent_path());
-        std::error_code error;
-        fs::copy_file(folder / file, made / file, error);
-        if (error) fail((folder / file).string(), " cannot be read: ", error.message());
-    }
-    fs::remove_all(to);
-    fs::rename(made, to);
+    write_atomically(to, [&](const fs::path& made) {
+        create_folder(made);
+        for (const fs::path& file : technique_files(folder)) {
+            const fs::path from = path_inside(folder, file.string()), copy = path_inside(made, file.string());
+            create_folder(copy.parent_path());
+            std::error_code error;
+            fs::copy_file(from, copy, error);
+            if (error) fail(from.string(), " cannot be read: ", error.message());
+        }
+        fs::remove_all(to);
+    });
 }

@@ -109,7 +109,7 @@ export function writeSeconds({seconds, result, samples, truths, scenes}) {
 
 export function writeKept({kept, out}) {
     writeTable("kept", ["version", "mse of reflective pixels"],
-              kept.map(v => [v.name, v.shots.map(s => `${v.shots.length > 1 ? s.shot + ": " : ""}${errorText(s)}`).join("; ")]));
+              kept.map(v => [v.name, v.shots.map(s => `${s.shot}: ${errorText(s)}`).join("; ")]));
     at("keep-note").textContent = kept.length ? `To see all versions with their numbers, run: ssrlab report ${out}/kept` : "";
 }
 

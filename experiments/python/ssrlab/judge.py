@@ -25,6 +25,7 @@ except ImportError as missing:
 from ssrlab.figures.crops import REFERENCE, display
 from ssrlab.results import Results
 from ssrlab.tables.agreement import JUDGEMENTS
+from ssrlab.text_files import path_inside
 
 METRICS = ("mse", "relmse", "flip")
 COLUMNS = ("shot", "first", "first_point", "second", "second_point", "nearer", "judge")
@@ -82,10 +83,10 @@ def sheet(results, shot, left, right):
 def make_sheets(arguments):
     results = Results(arguments.results)
     os.makedirs(arguments.out, exist_ok=True)
-    with open(os.path.join(arguments.out, "key.csv"), "w", newline="", encoding="utf-8") as stream:
+    with open(path_inside(arguments.out, "key.csv"), "w", newline="", encoding="utf-8") as stream:
         write_lines(stream, [("pair",) + PAIR])
         for number, (shot, left, right) in enumerate(draw_pairs(results, arguments.pairs, random.Random(arguments.seed)), 1):
-            Image.fromarray(sheet(results, shot, left, right)).save(os.path.join(arguments.out, f"pair_{number}.png"))
+            Image.fromarray(sheet(results, shot, left, right)).save(path_inside(arguments.out, f"pair_{number}.png"))
             write_lines(stream, [(number, shot, *left, *right)])
 
 

@@ -19,7 +19,7 @@ import numpy as np
 EXPERIMENTS = Path(__file__).resolve().parents[4] / "experiments"
 sys.path[:0] = [str(EXPERIMENTS / "bridges/captures"), str(EXPERIMENTS / "python")]
 from blender_passes import PANORAMA_CAMERA, camera_of, layers_of, with_previous  # noqa: E402
-from capture_files import write_environment, write_exr, write_frame  # noqa: E402
+from capture_files import frame_folder, write_environment, write_exr, write_frame  # noqa: E402
 from ssrlab.exr import read_exr_planes  # noqa: E402
 from ssrlab.mistakes import ResultsError  # noqa: E402
 from renderdoc_layers import camera_value, decoded, layer_of  # noqa: E402
@@ -133,7 +133,7 @@ class CapturesTest(unittest.TestCase):
         for frame in (1, 2):
             passes, _, _, camera, before = passes_of_ground(0.2 * frame, 0.2 * (frame - 1))
             lit = dict.fromkeys(("DiffDir", "DiffInd", "DiffCol", "Emit", "Env"), np.ones((27, 48, 3)))
-            write_frame(self.folder / f"frame_000{frame}", layers_of(passes, camera, before, lit),
+            write_frame(frame_folder(self.folder, frame), layers_of(passes, camera, before, lit),
                         with_previous(camera, before))  # fmt: skip
         write_environment(self.folder, np.full((8, 16, 3), 0.5))
         said = subprocess.run([SSRLAB, "capture", self.folder], capture_output=True, text=True, check=True)
@@ -147,6 +147,16 @@ class CapturesTest(unittest.TestCase):
         write_frame(self.folder / "frame_0002", layers, with_previous(camera, before))
         said = subprocess.run([SSRLAB, "capture", self.folder], capture_output=True, text=True, check=True)
         self.assertIn("they would fit, taken as before - now", said.stdout)
+
+    def test_frames_are_written_through_no_link(self):
+        outside = self.folder / "outside"
+        outside.mkdir(parents=True)
+        (self.folder / "frame_0003").symlink_to(outside)
+        with self.assertRaisesRegex(ResultsError, "frame_0003 is a symbolic link"):
+            frame_folder(self.folder, 3)
+        (self.folder / "environment.json").symlink_to(outside / "other.json")
+        write_environment(self.folder, np.full(3, 0.5))
+        self.assertEqual(list(outside.iterdir()), [])
 
     def test_what_is_missing_or_unknown_is_said(self):
         passes, _, _, camera, before = passes_of_ground(0.0, 0.0)
