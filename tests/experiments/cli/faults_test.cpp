@@ -4,6 +4,7 @@
 #include "core/exr/exr.h"
 #include "core/json.h"
 #include "tests/experiments/cli/command_line_fixture.h"
+#include "tests/leftover.h"
 #include "variants/registry.h"
 
 #include <unistd.h>
@@ -109,6 +110,88 @@ TEST_F(Faults, AFolderThatIsOnlyReadIsNamed) {
         expect_fault(command, reader);
     EXPECT_EQ(contents("o"), before);
     std::system(("chmod -R u+w '" + folder.string() + "/o'").c_str());
+}
+
+/// Address space for the program, for Vulkan's loader, driver and compiler, and for Embree: each of these fails first
+/// at some of the limits.
+TEST_F(Faults, LittleMemoryIsNamed) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "sanitizers reserve terabytes of addresses";
+#endif
+    constexpr int out_of_memory = 3, not_loaded = 127, aborted = 128 + 6, bad_access = 128 + 11;
+    for (const char* command : {"list devices", "reference fence --size 8 8 --samples 16 --out r.exr"}) {
+        int named = 0;
+        for (int mib = 60; mib <= 500; mib += 20) {
+            const Outcome o = ssrlab(command, "ulimit -c 0; ulimit -v " + std::to_string(mib * 1024) + ";");
+            SCOPED_TRACE(std::string(command) + " with " + std::to_string(mib) + " MiB: " + o.text);
+            for (const char* other : {"install a driver", "processor", "InitializationFailed\n"})
+                EXPECT_EQ(o.text.find(other), std::string::npos) << "that is not the reason";
+            if (o.code == out_of_memory) {
+                EXPECT_NE(o.text.find("error: not enough memory"), std::string::npos);
+                ++named;
+            } else if (o.code != 0 && o.code != not_loaded && o.code != aborted && o.code != bad_access) {
+                ADD_FAILURE() << "code " << o.code;  // the last two: inside of a driver that does not expect it
+            }
+        }
+        EXPECT_GT(named, 2) << command;
+    }
+}
+
+TEST_F(Faults, WhatKilledCommandsLeftGoesWithTheNext) {
+    fs::create_directories(folder / "tmp");
+    for (const auto& [beside, command] : std::vector<std::pair<std::string, std::string>>{
+             {"tmp/ssrlab-plan", "plan study.json"},
+             {"o/report_images/shot/mcguire_dda/a.js", "report o --link-images"},
+             {"o/report_images/shot/mcguire_dda/b.js", "report o"},
+             {"o/report.html", "report o"},
+             {"s/scene.glb", "scene-for any fence --size 8 8 --samples 16 --out s"},
+             {"my_ssr", "new my_ssr"},
+             {"o/tables/errors.csv", "tables o"}}) {
+        const fs::path left = plant_leftover(folder / beside);
+        const Outcome o = ssrlab(command, "TMPDIR='" + (folder / "tmp").string() + "'");
+        EXPECT_EQ(o.code, 0) << command << ": " << o.text;
+        EXPECT_FALSE(fs::exists(left)) << command << " keeps " << left;
+    }
+    EXPECT_TRUE(fs::is_empty(folder / "tmp"));
+}
+
+TEST_F(Faults, OutputFollowsNoLinkInItsFolder) {
+    fs::create_directories(folder / "outside");
+    const auto through = [&](const std::string& link, const std::string& command) {
+        fs::remove_all(folder / "out");
+        fs::create_directories((folder / "out" / link).parent_path());
+        fs::create_directory_symlink(folder / "outside", folder / "out" / link);
+        const Outcome o = ssrlab(command);
+        EXPECT_EQ(o.code, 2) << command << ": " << o.text;
+        EXPECT_NE(o.text.find("out/" + link + " is a symbolic link"), std::string::npos) << command << ": " << o.text;
+        EXPECT_TRUE(fs::is_empty(folder / "outside")) << command;
+    };
+    ASSERT_EQ(ssrlab("new my_ssr").code, 0);
+    through("fence.main.8x8", "scene-for any fence --size 8 8 --samples 16 --out out");
+    through("textures", "scene-for any fence --size 8 8 --samples 16 --out out");
+    through("frame_0001", "gbuffer fence --size 8 8 --frames 0 1 --out out");
+    for (const char* part : {"technique", "now", "truth"})
+        through(part, "watch my_ssr --scene fence --size 8 8 --samples 32 --out out");
+    fs::remove_all(folder / "out");
+    fs::create_directory_symlink(folder / "outside", folder / "out");  // which the user named
+    EXPECT_EQ(ssrlab("gbuffer fence --size 8 8 --out out").code, 0);
+    EXPECT_TRUE(fs::exists(folder / "outside/gbuffer.exr"));
+}
+
+/// Both signals wait until the process goes on, which has done nothing of its end by then.
+TEST_F(Faults, TheSecondSignalEndsAWatchAtOnce) {
+    ASSERT_EQ(ssrlab("new my_ssr").code, 0);
+    const std::string watch = "'" SSRLAB_PROGRAM "' watch my_ssr --scene fence --size 8 8 --samples 32";
+    const Outcome second =
+        ssrlab("--version > /dev/null",
+               "exec 2>&1; export SSRLAB_CACHE=\"$PWD/cache\"; " + watch + " > said & watch=$!; " +
+                   "until grep -q http said; do kill -0 $watch || exit 1; sleep 0.02; done; " + watch + "; " +
+                   "kill -STOP $watch; kill -INT $watch; kill -TERM $watch; kill -CONT $watch; wait $watch; echo ended "
+                   "with $?;");
+    EXPECT_NE(second.text.find("another `ssrlab watch` works in"), std::string::npos) << second.text;
+    EXPECT_TRUE(second.text.find("ended with 143") != std::string::npos ||
+                second.text.find("ended with 130") != std::string::npos)
+        << second.text;
 }
 
 /// SSRLAB_KILLS: how many of them, for a longer test, of a study of all techniques that takes times, too.
