@@ -67,5 +67,14 @@ double studentised_range_tail(double range, size_t count, double degrees) {
 
 double noncentral_t_cdf(double t, double degrees, double noncentrality) {
     if (!(degrees > 0)) fail("degrees of freedom must be above 0, not ", degrees);
-    return boost::math::cdf(boost::math::non_central_t(degrees, noncentrality), t);
+    // Beside so large a mean the normal's scatter is lost: it changes the probability by its inverse square, 1e-6. The
+    // series does not reach so far.
+    constexpr double certain = 1e3;
+    if (std::abs(noncentrality) < certain)
+        return boost::math::cdf(boost::math::non_central_t(degrees, noncentrality), t);
+    if (t * noncentrality <= 0) return noncentrality < 0 ? 1 : 0;
+    const double ratio = noncentrality / t, squares = degrees * ratio * ratio;
+    const boost::math::chi_squared distribution(degrees);
+    return t > 0 ? boost::math::cdf(boost::math::complement(distribution, squares))
+                 : boost::math::cdf(distribution, squares);
 }

@@ -21,6 +21,17 @@ TEST(Quantiles, MatchTables) {
     EXPECT_THROW(student_t_quantile(0.5, 0), Error);
 }
 
+TEST(Quantiles, OfANoncentralTReachFarMeans) {
+    // Of two degrees chi-squared / 2 is exponential: far from 0, t is below twice the mean with probability exp(-1 /
+    // 4). What the scatter of the normal changes is in the order of 900^-2.
+    for (const double mean : {900.0, 1e3, 1e5, 1e12}) {
+        EXPECT_NEAR(noncentral_t_cdf(2 * mean, 2, mean), std::exp(-0.25), 1e-5) << mean;
+        EXPECT_NEAR(noncentral_t_cdf(-2 * mean, 2, -mean), 1 - std::exp(-0.25), 1e-5) << mean;
+    }
+    EXPECT_EQ(noncentral_t_cdf(0, 1, 1e7), 0);
+    EXPECT_EQ(noncentral_t_cdf(0, 1, -1e7), 1);
+}
+
 TEST(Statistics, IntervalOfTheMean) {
     const std::vector<double> values = {1, 2, 3, 4, 5};
     const Estimate e = mean_estimate(values);

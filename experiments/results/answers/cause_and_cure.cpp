@@ -39,6 +39,7 @@ std::string listed_points(const std::vector<const MetricSummary*>& points, const
 
 /// Two significant digits, and whole numbers from 10 on.
 std::string share_text(double share) {
+    if (share > 10) return "more than 1000 %";
     return share < 0.0995 ? percent_text(share, 2) : fixed_text(100 * share) + " %";
 }
 

@@ -113,6 +113,11 @@ TEST(CauseAndCure, SaysWhichDifferencesAreSeen) {
     MadeShot single;
     single.add("best", "");
     EXPECT_EQ(power_sentence(single.judged()), "");
+    MetricSummary& noisy = single.add("a", "");
+    noisy.interval = interval::reference, noisy.seeds = 1;
+    noisy.over_best_low = std::exp(-100), noisy.over_best_high = std::exp(100);
+    EXPECT_EQ(power_sentence(single.judged()),
+              " A study like this detects a difference of more than 1000 % from the best in 8 of 10 cases.");
 
     OverScenesRow first, row;
     first.scenes = row.scenes = 11, first.rank = 1, row.rank = 2;
