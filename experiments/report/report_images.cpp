@@ -6,14 +6,19 @@
 #include "core/json.h"
 #include "core/leftovers.h"
 #include "core/path_inside.h"
+#include "experiments/results/files/manifest.h"
 #include "experiments/results/files/verdict_map.h"
 
 #include <half.h>
+#include <tbb/parallel_for.h>
 #include <zlib.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <map>
+#include <set>
+#include <span>
 #include <tuple>
 
 namespace fs = std::filesystem;
@@ -82,67 +87,147 @@ int predicted(const std::vector<int16_t>& plane, size_t width, size_t i) {
 /// Integers in the order of the half floats that the bits stand for; no two are equal.
 int16_t ordered(uint16_t bits) { return int16_t(bits < 0x8000 ? bits : 0x7fff - bits); }
 
+const char* format_of(const Entry& entry) {
+    return entry.kind == "hits"                                    ? "palette"
+           : entry.kind == "confidence" || entry.kind == "surface" ? "bytes"
+                                                                   : "halves";
+}
+
+std::string script_name(const Entry& entry) {
+    return report_image_folder + ("/" + fs::path(entry.exr).replace_extension(".js").string());
+}
+
+/// An image as the page has it.
+struct Encoded {
+    json description;    ///< what its encoding adds: width, height, palette and the like
+    size_t clamped = 0;  ///< pixels
+    std::string text;    ///< base64; empty if a script has it
+};
+
+Encoded encoded(const Entry& entry, const fs::path& exr) {
+    const HostImage rgb = read_exr_rgb(exr);
+    const std::string format = format_of(entry);
+    Encoded image{.description = {{"width", rgb.extent.x}, {"height", rgb.extent.y}, {"format", format}}};
+    if (format == "palette") {
+        image.text = base64(encode_palette(rgb, image.description["palette"]));
+    } else if (format == "bytes") {
+        image.text = base64(encode_bytes(rgb));
+    } else {
+        const unsigned bits = entry.kind == "played" ? played_significand_bits : 10;
+        if (bits < 10) image.description["significand_bits"] = bits;
+        image.text = base64(encode_halves(rgb, image.clamped, bits));
+    }
+    return image;
+}
+
+/// What a script is made of. A script of the same file need not be made again: a report of a large study would spend
+/// its time on them.
+json origin_of(const Entry& entry, const fs::path& exr) {
+    constexpr int version = 1;  // of what encoded() makes
+    std::error_code error;
+    const uintmax_t size = fs::file_size(exr, error);
+    return {{"version", version},
+            {"kind", entry.kind},
+            {"size", error ? 0 : size},
+            {"time", fs::last_write_time(exr, error).time_since_epoch().count()}};
+}
+
+/// The image that an earlier report made of `origin`; none if the script is of another, or is none of ssrlab's.
+std::optional<Encoded> kept_image(const fs::path& script, const json& origin) {
+    if (fs::symlink_status(script).type() != fs::file_type::regular) return {};
+    std::string start(20'000, '\0');  // a palette of 256 colours fits
+    std::ifstream in(script, std::ios::binary);
+    in.read(start.data(), std::streamsize(start.size()));
+    start.resize(size_t(in.gcount()));
+    if (!start.starts_with("// ")) return {};
+    const json head = json::parse(start.substr(3, start.find('\n') - 3), nullptr, false);
+    const auto is_count = [](const json& value) { return value.is_number_unsigned(); };
+    if (!head.is_object() || member(head, "origin") != origin || !is_count(member(head, "clamped"))) return {};
+    const json& description = member(head, "description");
+    if (!description.is_object() || !is_count(member(description, "width")) || !is_count(member(description, "height")))
+        return {};
+    return Encoded{.description = description, .clamped = head["clamped"], .text = {}};
+}
+
 /// Takes images, and keeps them for the page until they are too many for it.
 class ImageSink {
 public:
     ImageSink(fs::path folder, size_t budget)
-        : folder_(std::move(folder)), manifest_((folder_ / "manifest.json").string()), budget_(budget) {}
+        : folder_(std::move(folder)),
+          manifest_((folder_ / "manifest.json").string()),
+          budget_(budget),
+          is_linked_(budget == 0) {}
 
-    void add(const Entry& entry, ReportImages& report) {
-        const HostImage rgb = read_exr_rgb(path_inside(folder_, entry.exr, manifest_ + ": images: 'exr'"));
-        check_extent(entry, rgb.extent);
-        json description = {{"shot", entry.shot},        {"frame", entry.frame},  {"technique", entry.technique},
-                            {"point", entry.point},      {"kind", entry.kind},    {"target", entry.target},
-                            {"seed", entry.seed},        {"width", rgb.extent.x}, {"height", rgb.extent.y},
-                            {"format", format_of(entry)}};
-        const std::string text = base64(encoded(entry, rgb, description, report.notes));
-        files_.push_back(script_name(entry));
-        size_ += text.size() + description.dump().size();
-        report.descriptions.push_back(std::move(description));
-        if (is_linked_) return write(files_.back(), text);
-        report.data.push_back(text);
-        if (size_ <= budget_) return;
-        is_linked_ = true;
-        for (size_t i = 0; i < report.data.size(); ++i) write(files_[i], report.data[i]);
-        report.data.clear();
+    void add_all(std::span<const Entry> entries) {
+        constexpr size_t at_once = 64;  // whose texts are in memory beside the page's
+        for (; !entries.empty(); entries = entries.subspan(std::min(at_once, entries.size()))) {
+            const auto some = entries.first(std::min(at_once, entries.size()));
+            std::vector<Encoded> images(some.size());
+            tbb::parallel_for(size_t(0), some.size(), [&](size_t i) { images[i] = made(some[i]); });
+            for (size_t i = 0; i < some.size(); ++i) add(some[i], images[i]);
+        }
     }
 
-    void finish(ReportImages& report) const {
-        if (!is_linked_) return;
-        for (size_t i = 0; i < files_.size(); ++i) report.descriptions[i]["file"] = files_[i];
+    ReportImages finished() {
+        if (is_linked_)
+            for (size_t i = 0; i < files_.size(); ++i) report_.descriptions[i]["file"] = files_[i];
+        for (auto& [entry, image] : in_page_) report_.data.push_back(std::move(image.text));
+        return std::move(report_);
+    }
+
+    /// The scripts that were written or kept.
+    std::set<fs::path> scripts() const {
+        std::set<fs::path> all;
+        if (is_linked_)
+            for (const std::string& file : files_) all.insert(path_inside(folder_, file));
+        return all;
     }
 
 private:
     fs::path folder_;
     std::string manifest_;
     size_t budget_, size_ = 0;
-    bool is_linked_ = false;
+    bool is_linked_;
     std::vector<std::string> files_;  ///< of all images so far, whether they are written or not
     std::map<std::string, std::pair<Entry, glm::uvec2>> first_;  ///< image of each shot
+    std::vector<std::pair<Entry, Encoded>> in_page_;
+    ReportImages report_;
 
-    static const char* format_of(const Entry& entry) {
-        return entry.kind == "hits"                                    ? "palette"
-               : entry.kind == "confidence" || entry.kind == "surface" ? "bytes"
-                                                                       : "halves";
+    fs::path exr_of(const Entry& entry) const { return path_inside(folder_, entry.exr, manifest_ + ": images: 'exr'"); }
+
+    /// Writes its script, if images are linked.
+    Encoded made(const Entry& entry) const {
+        const fs::path exr = exr_of(entry);
+        if (!is_linked_) return encoded(entry, exr);
+        if (auto kept = kept_image(path_inside(folder_, script_name(entry)), origin_of(entry, exr))) return *kept;
+        Encoded image = encoded(entry, exr);
+        write(entry, image);
+        image.text.clear();
+        return image;
     }
 
-    static std::string script_name(const Entry& entry) {
-        return report_image_folder + ("/" + fs::path(entry.exr).replace_extension(".js").string());
-    }
-
-    static std::vector<unsigned char> encoded(const Entry& entry, const HostImage& rgb, json& description,
-                                              std::vector<std::string>& notes) {
-        const std::string format = format_of(entry);
-        if (format == "palette") return encode_palette(rgb, description["palette"]);
-        if (format == "bytes") return encode_bytes(rgb);
-        size_t clamped = 0;
-        const unsigned bits = entry.kind == "played" ? played_significand_bits : 10;
-        if (bits < 10) description["significand_bits"] = bits;
-        std::vector<unsigned char> bytes = encode_halves(rgb, clamped, bits);
-        if (clamped > 0)
-            notes.push_back(entry.shot + ", " + entry.technique + " " + entry.point + ": " + std::to_string(clamped) +
-                            " pixels are brighter than 65504, the largest half float. They are shown as 65504.");
-        return bytes;
+    void add(const Entry& entry, Encoded& image) {
+        check_extent(entry, {image.description["width"], image.description["height"]});
+        json description = {{"shot", entry.shot},   {"frame", entry.frame}, {"technique", entry.technique},
+                            {"point", entry.point}, {"kind", entry.kind},   {"target", entry.target},
+                            {"seed", entry.seed}};
+        description.update(image.description);
+        if (image.clamped > 0)
+            report_.notes.push_back(
+                entry.shot + ", " + entry.technique + " " + entry.point + ": " + std::to_string(image.clamped) +
+                " pixels are brighter than 65504, the largest half float. They are shown as 65504.");
+        files_.push_back(script_name(entry));
+        size_ += image.text.size() + description.dump().size();
+        report_.descriptions.push_back(std::move(description));
+        if (is_linked_) {
+            if (!image.text.empty()) write(entry, image);
+            return;
+        }
+        in_page_.emplace_back(entry, std::move(image));
+        if (size_ <= budget_) return;
+        is_linked_ = true;
+        for (const auto& [of, shown] : in_page_) write(of, shown);
+        in_page_.clear();
     }
 
     void check_extent(const Entry& entry, glm::uvec2 extent) {
@@ -152,17 +237,23 @@ private:
                  ", ", other.exr, " ", expected.x, "x", expected.y);
     }
 
-    void write(const std::string& file, const std::string& text) const {
-        write_text(path_inside(folder_, file), "registerImage(" + json(file).dump() + ",\"" + text + "\");\n");
+    void write(const Entry& entry, const Encoded& image) const {
+        const json head = {{"origin", origin_of(entry, exr_of(entry))},
+                           {"description", image.description},
+                           {"clamped", image.clamped}};
+        const std::string file = script_name(entry);
+        write_text(path_inside(folder_, file),
+                   "// " + head.dump() + "\nregisterImage(" + json(file).dump() + ",\"" + image.text + "\");\n");
     }
 };
 
-/// Scripts of an earlier report, and parts of such: a page must not find images of other results.
-void remove_scripts(const fs::path& folder) {
+/// Scripts of an earlier report but for `kept`, and parts of such: a page must not find images of other results.
+void remove_scripts(const fs::path& folder, const std::set<fs::path>& kept) {
     std::error_code error;
     std::vector<fs::path> scripts;
     for (const auto& file : fs::recursive_directory_iterator(folder, error))
-        if ((file.path().extension() == ".js" && file.is_regular_file(error)) || is_leftover(file.path()))
+        if ((file.path().extension() == ".js" && file.is_regular_file(error) && !kept.contains(file.path())) ||
+            is_leftover(file.path()))
             scripts.push_back(file.path());
     for (const fs::path& script : scripts) {
         fs::remove(script, error);
@@ -174,19 +265,17 @@ void remove_scripts(const fs::path& folder) {
 }  // namespace
 
 ReportImages report_images(const fs::path& folder, const json& manifest, size_t budget) {
-    remove_scripts(path_inside(folder, report_image_folder));
-    ReportImages report;
+    const fs::path scripts = path_inside(folder, report_image_folder);
     ImageSink sink(folder, budget);
-    for (const Entry& entry : first_seeds(read_entries(folder, manifest))) sink.add(entry, report);
-    sink.finish(report);
-    return report;
+    sink.add_all(first_seeds(read_entries(folder, manifest)));
+    remove_scripts(scripts, sink.scripts());
+    return sink.finished();
 }
 
 ReportImages embedded_images(const fs::path& folder, const json& manifest) {
-    ReportImages report;
     ImageSink sink(folder, SIZE_MAX);
-    for (const Entry& entry : first_seeds(read_entries(folder, manifest))) sink.add(entry, report);
-    return report;
+    sink.add_all(first_seeds(read_entries(folder, manifest)));
+    return sink.finished();
 }
 
 std::vector<unsigned char> encode_halves(const HostImage& rgb, size_t& clamped, unsigned significand_bits) {
@@ -217,7 +306,7 @@ std::vector<unsigned char> encode_halves(const HostImage& rgb, size_t& clamped, 
             bytes[p * pixels + i] = code & 255;
             bytes[count + p * pixels + i] = code >> 8;
         }
-    return compressed(bytes);
+    return compressed(bytes, Redundancy::of_predictions);
 }
 
 std::vector<unsigned char> encode_bytes(const HostImage& image) {
@@ -247,12 +336,20 @@ std::vector<unsigned char> encode_palette(const HostImage& rgb, json& palette) {
     return compressed(bytes);
 }
 
-std::vector<unsigned char> compressed(const std::vector<unsigned char>& bytes) {
-    uLongf size = compressBound(bytes.size());
-    std::vector<unsigned char> packed(size);
-    if (compress2(packed.data(), &size, bytes.data(), bytes.size(), 6) != Z_OK)
+std::vector<unsigned char> compressed(const std::vector<unsigned char>& bytes, Redundancy redundancy) {
+    // Of what is left of predictions runs repeat and nothing else: Z_RLE is four times as fast, and the result smaller.
+    const int strategy = redundancy == Redundancy::of_predictions ? Z_RLE : Z_DEFAULT_STRATEGY;
+    z_stream stream{};
+    constexpr int level = 6, window_bits = 15, memory_level = 8;
+    if (deflateInit2(&stream, level, Z_DEFLATED, window_bits, memory_level, strategy) != Z_OK)
         fail_machine("not enough memory to compress a part of a page");
-    packed.resize(size);
+    std::vector<unsigned char> packed(deflateBound(&stream, bytes.size()));
+    stream.next_in = const_cast<unsigned char*>(bytes.data()), stream.avail_in = uInt(bytes.size());
+    stream.next_out = packed.data(), stream.avail_out = uInt(packed.size());
+    const int result = deflate(&stream, Z_FINISH);
+    packed.resize(stream.total_out);
+    deflateEnd(&stream);
+    if (result != Z_STREAM_END) fail_machine("a part of a page could not be compressed");
     return packed;
 }
 

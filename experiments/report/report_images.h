@@ -19,9 +19,10 @@ inline constexpr const char* report_image_folder = "report_images";
 
 /// The images that manifest.json lists, of the first seed of each point: results, references, confidence, verdicts of
 /// rays, roughness of surfaces, and frames that are only played, with rounded values. If all fit into `budget` bytes of
-/// text they are returned. Else each is written as a script into report_images/ (made anew), which a page can also load
-/// from disk. None is reduced or left out. Fails with Error if a listed file is missing or broken, or if images of a
-/// shot differ in size.
+/// text they are returned. Else each is written as a script into report_images/, which a page can also load from disk.
+/// Scripts of an earlier report stay if their images have not changed since, by size and time; others are removed. No
+/// image is reduced or left out. Fails with Error if a listed file is missing or broken, or if images of a shot differ
+/// in size.
 ReportImages report_images(const std::filesystem::path& folder, const nlohmann::json& manifest, size_t budget);
 
 /// report_images() with all images as texts.
@@ -42,8 +43,12 @@ std::vector<unsigned char> encode_bytes(const HostImage& image);
 /// [r, g, b] of 0 to 255. Fails with Error if there are more colours.
 std::vector<unsigned char> encode_palette(const HostImage& rgb, nlohmann::json& palette);
 
+/// What repeats in bytes: whatever compresses texts, or what is left of good predictions.
+enum class Redundancy { of_texts, of_predictions };
+
 /// Compresses bytes to a zlib stream.
-std::vector<unsigned char> compressed(const std::vector<unsigned char>& bytes);
+std::vector<unsigned char> compressed(const std::vector<unsigned char>& bytes,
+                                      Redundancy redundancy = Redundancy::of_texts);
 
 /// Base64 (RFC 4648) with padding.
 std::string base64(const std::vector<unsigned char>& bytes);

@@ -40,6 +40,6 @@ TexelStream encode_floats(const HostImage& image) {
                 stream.bytes[(c * 4 + byte) * pixels + i] = uint8_t(code >> 8 * byte);
         }
     }
-    stream.bytes = compressed(stream.bytes);
+    stream.bytes = compressed(stream.bytes, Redundancy::of_predictions);
     return stream;
 }

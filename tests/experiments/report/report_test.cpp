@@ -198,9 +198,23 @@ TEST_F(Report, PutsImagesBesideThePageThatAreTooManyForIt) {
     ASSERT_EQ(linked.descriptions.size(), images);
     for (size_t i = 0; i < images; ++i) {
         const std::string file = linked.descriptions[i].value("file", "");
-        EXPECT_EQ(read_text(folder / file), "registerImage(\"" + file + "\",\"" + all.data[i] + "\");\n");
+        EXPECT_TRUE(read_text(folder / file).ends_with("\nregisterImage(\"" + file + "\",\"" + all.data[i] + "\");\n"));
         EXPECT_EQ(linked.descriptions[i]["width"], all.descriptions[i]["width"]) << "nothing is reduced";
     }
+    // A script is made again where its image, or what an image is encoded as, is another.
+    const auto file = [&](size_t i) { return folder / linked.descriptions[i]["file"].get<std::string>(); };
+    const auto time_of = [&](size_t i) { return std::filesystem::last_write_time(file(i)); };
+    const auto old = std::filesystem::file_time_type::clock::now() - std::chrono::hours(1);
+    for (size_t i = 0; i < images; ++i) std::filesystem::last_write_time(file(i), old);
+    const auto exr = std::filesystem::relative(file(1), folder / report_image_folder).replace_extension(".exr");
+    std::filesystem::last_write_time(folder / exr, old);
+    write_text(file(2), "registerImage(\"another\",\"\");\n");
+    const ReportImages again = report_images(folder, manifest, 0);
+    EXPECT_EQ(again.descriptions, linked.descriptions);
+    EXPECT_EQ(again.notes, linked.notes);
+    EXPECT_EQ(time_of(0), old) << "kept";
+    EXPECT_NE(time_of(1), old) << "its image was written since";
+    EXPECT_TRUE(read_text(file(2)).ends_with("\",\"" + all.data[2] + "\");\n"));
     write_text(folder / report_image_folder / "mine.txt", "");
     EXPECT_EQ(report_images(folder, manifest, 100'000'000).data.size(), images);
     size_t left = 0;
