@@ -184,6 +184,7 @@ constexpr size_t most_pixel_warnings = 12;  ///< the rest is counted: nobody rea
 std::vector<std::string> pixel_warnings(std::span<const MetricSummary> errors) {
     std::map<std::string, std::pair<size_t, size_t>> worst;
     for (const MetricSummary& e : errors) {
+        if (e.non_finite == 0 && e.negative == 0) continue;
         auto& [non_finite, negative] = worst[e.shot + ", " + e.technique + " (" + e.point + "), " + e.target + ": "];
         non_finite = std::max(non_finite, e.non_finite);
         negative = std::max(negative, e.negative);

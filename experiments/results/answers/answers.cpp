@@ -11,6 +11,7 @@
 #include "metrics/direction.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -190,6 +191,22 @@ std::string perceptual_sentence_of(const ShotAnswer& answer, const std::vector<S
            (are_ranked ? ", but the difference is undecided." : ", but not both points are ranked.");
 }
 
+/// The rows that judge each shot, by all metrics; shots and rows in the order of the results.
+std::vector<std::pair<std::string, std::vector<const MetricSummary*>>> judged_by_shot(const StudyResults& tables,
+                                                                                      const Headline& headline) {
+    const PointSet left_out = points_using_scene_data(tables.manifest);
+    std::vector<std::pair<std::string, std::vector<const MetricSummary*>>> shots;
+    std::map<std::string, size_t> places;
+    for (const MetricSummary& e : tables.summary) {
+        const auto [place, is_new] = places.try_emplace(e.shot, shots.size());
+        if (is_new) shots.push_back({e.shot, {}});
+        if (e.represents_shot && e.mask == headline.mask && e.target == headline.target && e.value &&
+            !left_out.contains({e.technique, e.point}))
+            shots[place->second].second.push_back(&e);
+    }
+    return shots;
+}
+
 }  // namespace
 
 Headline headline_of(const json& manifest, std::span<const MetricSummary> errors) {
@@ -205,28 +222,21 @@ Headline headline_of(const json& manifest, std::span<const MetricSummary> errors
 std::vector<ShotAnswer> shot_answers(const StudyResults& tables) {
     const json& manifest = tables.manifest;
     const Headline headline = headline_of(manifest, tables.summary);
-    const PointSet left_out = points_using_scene_data(manifest);
     auto labels = point_labels(manifest);
     const size_t comparisons = comparisons_left(tables.summary, headline.target, headline.metric, headline.mask);
-    std::vector<std::string> shots;
-    for (const MetricSummary& e : tables.summary)
-        if (std::ranges::count(shots, e.shot) == 0) shots.push_back(e.shot);
+    std::map<std::array<std::string, 3>, const TimeSummary*> totals;  // by shot, technique and point
+    for (const TimeSummary& t : tables.time_summary)
+        if (t.stage == "total") totals.try_emplace({t.shot, t.technique, t.point}, &t);
     std::vector<ShotAnswer> answers;
-    for (const std::string& shot : shots) {
+    for (const auto& [shot, judged] : judged_by_shot(tables, headline)) {
         ShotAnswer answer{.shot = shot, .limit = limit_of(manifest, shot, headline)};
         std::vector<Scored> scored, perceived;
-        std::vector<const MetricSummary*> judged;  // by all metrics
-        for (const MetricSummary& e : tables.summary) {
-            if (!e.represents_shot || e.shot != shot || e.mask != headline.mask || e.target != headline.target ||
-                !e.value || left_out.contains({e.technique, e.point}))
-                continue;
-            judged.push_back(&e);
+        for (const MetricSummary* row : judged) {
+            const MetricSummary& e = *row;
             const AnswerPoint point{e.technique, e.point, *e.value, e.low, e.high, labels[{e.technique, e.point}]};
             if (e.metric == headline.metric) {
-                const auto time = std::ranges::find_if(tables.time_summary, [&](const TimeSummary& t) {
-                    return t.shot == shot && t.technique == e.technique && t.point == e.point && t.stage == "total";
-                });
-                scored.push_back({point, &e, time == tables.time_summary.end() ? nullptr : &*time});
+                const auto time = totals.find({shot, e.technique, e.point});
+                scored.push_back({point, &e, time == totals.end() ? nullptr : time->second});
                 if (e.technique == "none" && !answer.baseline) answer.baseline = point;
             }
             if (e.metric == headline.perceptual_metric) perceived.push_back({point, &e});

@@ -129,9 +129,10 @@ std::string in_scenes_like_these(const StudyResults& tables) {
     if (!first.rank)
         return "Nothing is ranked over scenes: no shot has an error of every point." +
                deciding_over_scenes_sentence(tables.over_scenes, first);
-    std::set<std::string> scenes;
+    std::set<std::string> shots, scenes;
     for (const MetricSummary& e : tables.summary)
-        if (is_of_headline(e)) scenes.insert(asset_of(manifest, e.shot));
+        if (is_of_headline(e)) shots.insert(e.shot);
+    for (const std::string& shot : shots) scenes.insert(asset_of(manifest, shot));
     if (scenes.size() == 1)
         return "One scene says nothing about other scenes: a verdict over scenes needs at least " +
                std::to_string(least_scenes) + ".";

@@ -73,15 +73,15 @@ void write_rows(const std::filesystem::path& file, const Rows& rows) {
     write_text(file, text);
 }
 
-inline void read_field(const CsvReader& csv, const char* name, std::string& value) { value = csv.text(name); }
-inline void read_field(const CsvReader& csv, const char* name, double& value) { value = csv.number(name); }
-inline void read_field(const CsvReader& csv, const char* name, size_t& value) { value = csv.count(name); }
-inline void read_field(const CsvReader& csv, const char* name, bool& value) { value = csv.count(name) != 0; }
-inline void read_field(const CsvReader& csv, const char* name, std::optional<double>& value) {
-    value = csv.optional_number(name);
+inline void read_field(const CsvReader& csv, size_t place, std::string& value) { value = csv.text(place); }
+inline void read_field(const CsvReader& csv, size_t place, double& value) { value = csv.number(place); }
+inline void read_field(const CsvReader& csv, size_t place, size_t& value) { value = csv.count(place); }
+inline void read_field(const CsvReader& csv, size_t place, bool& value) { value = csv.count(place) != 0; }
+inline void read_field(const CsvReader& csv, size_t place, std::optional<double>& value) {
+    value = csv.optional_number(place);
 }
-inline void read_field(const CsvReader& csv, const char* name, unsigned& value) {
-    value = unsigned(std::min<size_t>(csv.count(name), std::numeric_limits<unsigned>::max()));
+inline void read_field(const CsvReader& csv, size_t place, unsigned& value) {
+    value = unsigned(std::min<size_t>(csv.count(place), std::numeric_limits<unsigned>::max()));
 }
 
 /// Reads a table; other columns are ignored. Fails with Error on a file that cannot be read, lacks a column, or holds
@@ -89,10 +89,13 @@ inline void read_field(const CsvReader& csv, const char* name, unsigned& value) 
 template <class Row>
 std::vector<Row> read_rows(const std::filesystem::path& file) {
     std::vector<Row> rows;
-    for (CsvReader csv(file); csv.next();) {
-        Row row{};
-        for_each_column<Row>([&](const auto& column) { read_field(csv, column.name, row.*column.member); });
-        rows.push_back(std::move(row));
+    CsvReader csv(file);
+    std::vector<size_t> places;
+    for_each_column<Row>([&](const auto& column) { places.push_back(csv.place(column.name)); });
+    while (csv.next()) {
+        Row& row = rows.emplace_back();
+        auto place = places.begin();
+        for_each_column<Row>([&](const auto& column) { read_field(csv, *place++, row.*column.member); });
     }
     return rows;
 }

@@ -6,6 +6,7 @@
 #include "core/list_text.h"
 #include "core/near_miss.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <ranges>
@@ -29,15 +30,15 @@ bool is_number(std::string_view text) {
 
 CsvReader::CsvReader(std::filesystem::path file) : file_(std::move(file)), content_(read_text(file_)) {
     if (!read_record()) fail(file_.string(), " is empty: its first line must name the columns");
-    for (size_t i = 0; i < fields_.size(); ++i)
+    for (size_t i = 0; i < field_count_; ++i)
         if (!columns_.emplace(fields_[i], i).second)
             fail(file_.string(), ":1: the column '", fields_[i], "' is named twice");
 }
 
 bool CsvReader::next() {
     if (!read_record()) return false;
-    if (fields_.size() != columns_.size())
-        fail(file_.string(), ":", record_line_, ": ", fields_.size(), " fields, but the first line names ",
+    if (field_count_ != columns_.size())
+        fail(file_.string(), ":", record_line_, ": ", field_count_, " fields, but the first line names ",
              columns_.size(), " columns");
     return true;
 }
@@ -45,14 +46,23 @@ bool CsvReader::next() {
 bool CsvReader::read_record() {
     if (at_ == content_.size()) return false;
     read_fields();
-    for (std::string& field : fields_)
-        if (field.starts_with('\'') && is_formula(field)) field.erase(0, 1);  // as csv_field() wrote it
+    for (size_t i = 0; i < field_count_; ++i)
+        if (std::string& field = fields_[i]; field.starts_with('\'') && is_formula(field))
+            field.erase(0, 1);  // as csv_field() wrote it
     return true;
+}
+
+std::string& CsvReader::new_field() {
+    if (field_count_ == fields_.size()) fields_.emplace_back();
+    std::string& field = fields_[field_count_++];
+    field.clear();
+    return field;
 }
 
 void CsvReader::read_fields() {
     record_line_ = line_;
-    fields_.assign(1, "");
+    field_count_ = 0;
+    std::string* field = &new_field();
     bool is_quoted = false;
     for (; at_ < content_.size(); ++at_) {
         const char c = content_[at_];
@@ -62,53 +72,54 @@ void CsvReader::read_fields() {
             if (c == '"' && !is_double_quote) {
                 is_quoted = false;
             } else {
-                fields_.back() += c;
+                *field += c;
                 if (is_double_quote) ++at_;
             }
-        } else if (c == '"' && fields_.back().empty()) {
+        } else if (c == '"' && field->empty()) {
             is_quoted = true;
         } else if (c == ',') {
-            fields_.emplace_back();
+            field = &new_field();
         } else if (c == '\n') {
             ++at_;
             return;
         } else if (c != '\r') {
-            fields_.back() += c;
+            *field += c;
         }
     }
     if (is_quoted) fail(file_.string(), ":", record_line_, ": a quoted field is not closed");
 }
 
-void CsvReader::fail_at(const std::string& column, const char* allowed) const {
-    fail(file_.string(), ":", record_line_, ": '", column, "' = \"", text(column), "\" is not ", allowed);
+void CsvReader::fail_at(size_t place, const char* allowed) const {
+    const auto column = std::ranges::find(columns_, place, [](const auto& entry) { return entry.second; });
+    fail(file_.string(), ":", record_line_, ": '", column->first, "' = \"", text(place), "\" is not ", allowed);
 }
 
-const std::string& CsvReader::text(const std::string& column) const {
+size_t CsvReader::place(const std::string& column) const {
     const auto found = columns_.find(column);
     if (found == columns_.end())
         fail(file_.string(), " has no column '", column, "'", suggestion(column, names_of(std::views::keys(columns_))));
-    return fields_[found->second];
+    return found->second;
 }
 
-double CsvReader::number(const std::string& column) const {
-    const std::string& field = text(column);
+double CsvReader::number(size_t place) const {
+    const std::string& field = text(place);
     double value = 0;
     const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
     if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value))
-        fail_at(column, "a finite number");
+        fail_at(place, "a finite number");
     return value;
 }
 
-std::optional<double> CsvReader::optional_number(const std::string& column) const {
-    if (text(column).empty()) return {};
-    return number(column);
+std::optional<double> CsvReader::optional_number(size_t place) const {
+    if (text(place).empty()) return {};
+    return number(place);
 }
 
-size_t CsvReader::count(const std::string& column) const {
-    const std::string& field = text(column);
+size_t CsvReader::count(size_t place) const {
+    const std::string& field = text(place);
     size_t value = 0;
     const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-    if (error != std::errc() || end != field.data() + field.size()) fail_at(column, "a whole number from 0");
+    if (error != std::errc() || end != field.data() + field.size()) fail_at(place, "a whole number from 0");
     return value;
 }
 

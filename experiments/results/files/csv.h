@@ -15,21 +15,29 @@ public:
 
     bool next();  ///< false at the end of the file
 
-    const std::string& text(const std::string& column) const;
-    double number(const std::string& column) const;                          ///< finite
-    std::optional<double> optional_number(const std::string& column) const;  ///< none if the field is empty
-    size_t count(const std::string& column) const;                           ///< a whole number >= 0
+    /// A column of the file, for the functions below: who reads many rows looks it up once.
+    size_t place(const std::string& column) const;
+    const std::string& text(size_t place) const { return fields_[place]; }
+    double number(size_t place) const;                          ///< finite
+    std::optional<double> optional_number(size_t place) const;  ///< none if the field is empty
+    size_t count(size_t place) const;                           ///< a whole number >= 0
+
+    const std::string& text(const std::string& column) const { return text(place(column)); }
+    double number(const std::string& column) const { return number(place(column)); }
+    std::optional<double> optional_number(const std::string& column) const { return optional_number(place(column)); }
 
 private:
     bool read_record();
     void read_fields();
-    [[noreturn]] void fail_at(const std::string& column, const char* allowed) const;
+    std::string& new_field();
+    [[noreturn]] void fail_at(size_t place, const char* allowed) const;
 
     std::filesystem::path file_;
     std::string content_;
     size_t at_ = 0, line_ = 1, record_line_ = 1;
     std::map<std::string, size_t> columns_;
     std::vector<std::string> fields_;
+    size_t field_count_ = 0;  ///< of the record; `fields_` keeps the memory of longer ones
 };
 
 /// One line of a CSV file of the given values, with its line feed. Numbers are the shortest text that reads back

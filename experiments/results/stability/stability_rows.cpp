@@ -24,9 +24,9 @@ const std::vector<VerdictName>& verdict_names() {
 
 std::string csv_field(Verdict verdict) { return verdict_names()[size_t(verdict)].name; }
 
-void read_field(const CsvReader& csv, const char* name, Verdict& verdict) {
-    const auto found = std::ranges::find(verdict_names(), csv.text(name), &VerdictName::name);
-    if (found == verdict_names().end()) fail("stability.csv: unknown verdict '", csv.text(name), "'");
+void read_field(const CsvReader& csv, size_t place, Verdict& verdict) {
+    const auto found = std::ranges::find(verdict_names(), csv.text(place), &VerdictName::name);
+    if (found == verdict_names().end()) fail("stability.csv: unknown verdict '", csv.text(place), "'");
     verdict = Verdict(found - verdict_names().begin());
 }
 

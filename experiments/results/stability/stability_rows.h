@@ -48,7 +48,7 @@ struct VerdictName {
 };
 const std::vector<VerdictName>& verdict_names();  ///< by Verdict
 std::string csv_field(Verdict verdict);
-void read_field(const CsvReader& csv, const char* name, Verdict& verdict);
+void read_field(const CsvReader& csv, size_t place, Verdict& verdict);
 inline nlohmann::json column_json(Verdict verdict) { return size_t(verdict); }
 
 /// One technique in one case: a row of stability.csv.
