@@ -168,7 +168,7 @@ TEST_F(Faults, OutputFollowsNoLinkInItsFolder) {
     };
     ASSERT_EQ(ssrlab("new my_ssr").code, 0);
     through("fence.main.8x8", "scene-for any fence --size 8 8 --samples 16 --out out");
-    through("textures", "scene-for any fence --size 8 8 --samples 16 --out out");
+    through("textures", "scene-for any normal_mapped --size 8 8 --samples 16 --out out");
     through("frame_0001", "gbuffer fence --size 8 8 --frames 0 1 --out out");
     for (const char* part : {"technique", "now", "truth"})
         through(part, "watch my_ssr --scene fence --size 8 8 --samples 32 --out out");
