@@ -121,7 +121,7 @@ TEST_F(Faults, LittleMemoryIsNamed) {
     constexpr int out_of_memory = 3, not_loaded = 127, aborted = 128 + 6, bad_access = 128 + 11;
     for (const char* command : {"list devices", "reference fence --size 8 8 --samples 16 --out r.exr"}) {
         int named = 0;
-        for (int mib = 60; mib <= 500; mib += 20) {
+        for (int mib = 60; mib <= 500; mib += 40) {
             const Outcome o = ssrlab(command, "ulimit -c 0; ulimit -v " + std::to_string(mib * 1024) + ";");
             SCOPED_TRACE(std::string(command) + " with " + std::to_string(mib) + " MiB: " + o.text);
             for (const char* other : {"install a driver", "processor", "InitializationFailed\n"})
