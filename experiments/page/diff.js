@@ -9,7 +9,7 @@ import {falseColorPixels, putPixels} from "./images/colors.js";
 import {scalarModes, scalarsOf, sharedMaximum} from "./images/differences.js";
 import {whyNoImages} from "./images/packed.js";
 import {startPage} from "./sections/start.js";
-import {newShot, oldShot, pointKey, pointLabel, report} from "./study/data.js";
+import {newShot, ofShot, oldShot, pointKey, pointLabel, report} from "./study/data.js";
 import {number} from "./values.js";
 import {addressedView} from "./viewer/keep.js";
 import {imageCanvas, loadedImages} from "./viewer/page_images.js";
@@ -62,10 +62,8 @@ function verdictTable(counts) {
 }
 
 /// The point's image in both runs; undefined where the page has none.
-const diffImages = ({shot, technique, point}) => [oldShot(shot), newShot(shot)].map(of => {
-    const index = report.images.findIndex(i => i.shot === of && i.technique === technique && i.point === point);
-    return index < 0 ? undefined : {...report.images[index], index};
-});
+const diffImages = ({shot, technique, point}) => [oldShot(shot), newShot(shot)].map(
+    of => ofShot(report.images, of).find(i => i.technique === technique && i.point === point));
 
 function diffBlock(point) {
     const changed = point.numbers.filter(isOfChange), others = point.numbers.filter(n => !isOfChange(n));

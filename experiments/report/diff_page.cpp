@@ -198,8 +198,6 @@ void write_diff_page(const std::filesystem::path& page, const StudyDiff& diff, c
     data["warnings"] = json::array(), data["defaults"] = json::object();
     data["manifest"] = merged_manifest(before.manifest, after.manifest);
     data["is_study"] = false;
-    data["notes"] = images.all.notes;
-    data["images"] = images.all.descriptions;
     data["diff"] = {{"before", before.folder.string()},
                     {"after", after.folder.string()},
                     {"target", target},
@@ -219,6 +217,5 @@ void write_diff_page(const std::filesystem::path& page, const StudyDiff& diff, c
                     {std::to_string(count_of(diff.errors, change::changed)) + " of " +
                      std::to_string(diff.errors.size()) + " errors changed from " + before.folder.string() + " to " +
                      after.folder.string() + "; `ssrlab diff` lists them."}}};
-    add_images(values, images.all.data);
-    write_text(page, report_page("diff", "What changed", data, values));
+    write_text(page, report_page("diff", "What changed", script_text(data), images.all, values));
 }

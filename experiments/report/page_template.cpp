@@ -8,10 +8,13 @@
 using nlohmann::json;
 
 std::string script_text(const json& value) {
+    const std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
     std::string escaped;
-    for (const char c : value.dump(-1, ' ', false, json::error_handler_t::replace))
-        escaped += c == '<' ? "\\u003c" : std::string(1, c);
-    return escaped;
+    escaped.reserve(text.size());
+    size_t from = 0;
+    for (size_t at; (at = text.find('<', from)) != std::string::npos; from = at + 1)
+        escaped.append(text, from, at - from).append("\\u003c");
+    return escaped.append(text, from);
 }
 
 namespace {
@@ -46,19 +49,26 @@ std::string built_file(const std::string& name) {
     return read_text(file);
 }
 
-std::string page_text(const std::string& script, const std::string& body, const std::string& title, json values) {
+std::string page_text(const std::string& script, const std::string& body, const std::string& title, json values,
+                      std::span<const PageElement> elements) {
     values["title"] = title;
     values["style"] = built_file(script + ".css");
     values["script"] = built_file(script + ".js");
-    kainjow::mustache::mustache page(template_file("frame.html"));
     kainjow::mustache::data all = mustache_data(values);
     all.set("body", template_file(body + ".html"));
     all.set("no_scripts", template_file("no_scripts.html"));
-    const std::string filled = page.render(all);
-    if (!page.is_valid()) fail("a template of pages is malformed: ", page.error_message());
-    return filled;
-}
-
-json page_element(const std::string& id, const std::string& text, const std::string& type) {
-    return {{"id", id}, {"text", text}, {"type", type}};
+    const auto filled = [&](const std::string& text) {
+        kainjow::mustache::mustache part(text);
+        const std::string result = part.render(all);
+        if (!part.is_valid()) fail("a template of pages is malformed: ", part.error_message());
+        return result;
+    };
+    // Elements may hold tens of megabytes, which the template's renderer would copy several times.
+    const std::string frame = template_file("frame.html"), tag = "{{{elements}}}\n";
+    const size_t place = frame.find(tag);
+    if (place == std::string::npos) fail("a template of pages is malformed: frame.html has no ", tag);
+    std::string page = filled(frame.substr(0, place));
+    for (const PageElement& e : elements)
+        page += "<script type=\"" + e.type + "\" id=\"" + e.id + "\">" + e.text + "</script>\n";
+    return page + filled(frame.substr(place + tag.size()));
 }

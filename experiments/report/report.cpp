@@ -94,14 +94,13 @@ json data_files(const std::filesystem::path& folder) {
 
 }  // namespace
 
-std::string report_page(const std::string& script, const std::string& title, const json& data, json values) {
-    values["elements"].push_back(page_element("data", script_text(data), "application/json"));
-    return page_text(script, "report", title, std::move(values));
-}
-
-void add_images(json& values, const std::vector<std::string>& texts) {
-    for (size_t i = 0; i < texts.size(); ++i)
-        values["elements"].push_back(page_element("image-" + std::to_string(i), texts[i]));
+std::string report_page(const std::string& script, const std::string& title, std::string data,
+                        const ReportImages& images, json values) {
+    std::vector<PageElement> elements = {
+        {"data", std::move(data), "application/json"},
+        {"image-list", script_text({{"images", images.descriptions}, {"notes", images.notes}}), "application/json"}};
+    for (size_t i = 0; i < images.data.size(); ++i) elements.push_back({"image-" + std::to_string(i), images.data[i]});
+    return page_text(script, "report", title, std::move(values), elements);
 }
 
 StudyAnswers write_report(const std::filesystem::path& folder, bool links_images) {
@@ -109,15 +108,16 @@ StudyAnswers write_report(const std::filesystem::path& folder, bool links_images
         if (const StabilityResults stability = read_stability_results(folder); !stability.rows.empty()) {
             // No study: the page has this one section.
             json data = report_data({}, stability, {});
-            for (const char* key : {"warnings", "notes", "images"}) data[key] = json::array();
+            data["warnings"] = json::array();
             data["manifest"] = data["defaults"] = json::object();
             data["is_study"] = false;
-            write_text(folder / "report.html", report_page("report", "Stability under extreme inputs", data,
-                                                           {{"is_stability", true},
-                                                            {"stability", stability_without_scripts(stability)},
-                                                            {"tables",
-                                                             "stability.csv, stability_cases.csv and "
-                                                             "stability_stages.csv beside this page"}}));
+            write_text(folder / "report.html",
+                       report_page("report", "Stability under extreme inputs", script_text(data), {},
+                                   {{"is_stability", true},
+                                    {"stability", stability_without_scripts(stability)},
+                                    {"tables",
+                                     "stability.csv, stability_cases.csv and "
+                                     "stability_stages.csv beside this page"}}));
             return {};
         }
         if (std::filesystem::exists(folder / "study.json"))
@@ -143,9 +143,10 @@ StudyAnswers write_report(const std::filesystem::path& folder, bool links_images
     data["in_these_scenes"] = answers.in_these_scenes;
     data["in_scenes_like_these"] = answers.in_scenes_like_these;
     data["answers"] = answers_json(answers.shots, headline);
-    data["manifest"] = manifest;
-    data["manifest"].erase("images");  // the page has its own list
-    data["manifest"].erase("stale");   // not of this study as it is
+    data["manifest"] = json::object();
+    for (const auto& [key, value] : manifest.items())
+        if (key != "images" && key != "stale")  // the page has its own list; those are not of this study as it is
+            data["manifest"][key] = value;
     data["warnings"] = report_warnings(manifest, tables.summary, tables.time_summary);
     data["defaults"] = parameter_defaults(manifest);
     data["is_study"] = true;
@@ -155,17 +156,14 @@ StudyAnswers write_report(const std::filesystem::path& folder, bool links_images
     values["tables"] = "and the images as EXR and PNG in images/, beside this page";
     if (!stability.rows.empty()) values["stability"] = stability_without_scripts(stability);
     const json title = manifest.value("title", json());
-    const auto page = [&] {
-        return report_page("report", title.is_string() ? title.get<std::string>() : "Study", data, values);
-    };
 
-    const size_t used = page().size() + 100'000;  // the descriptions and notes of the images
+    std::string text = script_text(data);
+    // Beside the data: scripts, styles, tables for readers without scripts, descriptions and notes of the images.
+    const size_t used = text.size() + script_text(values).size() + 1'000'000;
     const ReportImages images =
         report_images(folder, manifest, links_images || used > page_bytes ? 0 : page_bytes - used);
-    data["notes"] = images.notes;
-    data["images"] = images.descriptions;
-    add_images(values, images.data);
     if (images.data.size() < images.descriptions.size()) values["script_source"] = linked_scripts;
-    write_text(folder / "report.html", page());
+    write_text(folder / "report.html", report_page("report", title.is_string() ? title.get<std::string>() : "Study",
+                                                   std::move(text), images, std::move(values)));
     return answers;
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include "experiments/report/report_images.h"
 #include "experiments/results/answers/answers.h"
 
 #include <filesystem>
@@ -7,13 +8,10 @@
 /// page.
 inline constexpr size_t page_bytes = 30'000'000;
 
-/// A page of `data` (page/study/data.js) with the scripts of `script`: "report" or "diff". `values`: for
-/// page/report.html and page/no_scripts.html.
-std::string report_page(const std::string& script, const std::string& title, const nlohmann::json& data,
-                        nlohmann::json values);
-
-/// Adds ReportImages::data to the values of report_page().
-void add_images(nlohmann::json& values, const std::vector<std::string>& texts);
+/// A page of `data` (page/study/data.js), as script_text(), with the scripts of `script`: "report" or "diff". `values`:
+/// for page/report.html and page/no_scripts.html.
+std::string report_page(const std::string& script, const std::string& title, std::string data,
+                        const ReportImages& images, nlohmann::json values);
 
 /// Reads a results folder (experiments/docs/results_folder.md) and writes summary.csv, time_summary.csv and report.html
 /// into it, each atomically. Returns the page's first answers. It reads manifest.json, results.csv, splits.csv,

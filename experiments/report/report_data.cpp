@@ -9,8 +9,11 @@
 
 #include <algorithm>
 #include <map>
+#include <ranges>
 #include <set>
+#include <span>
 #include <tuple>
+#include <unordered_map>
 
 namespace {
 
@@ -18,7 +21,7 @@ using nlohmann::json;
 
 /// Each text once.
 struct Texts {
-    std::map<std::string, size_t> index;
+    std::unordered_map<std::string, size_t> index;
     json list = json::array();
 
     size_t operator()(const std::string& text) {
@@ -35,37 +38,49 @@ constexpr bool is_text<std::string Row::*> = true;
 template <class Row>
 constexpr bool is_text<std::string Row::*const> = true;
 
-/// {"columns": names, "texts": those of the columns whose values are indices into the list of texts, "rows": values}.
+/// Equal values as one of them.
+json column_values(json::array_t values) {
+    const bool are_equal =
+        !values.empty() && std::ranges::all_of(values, [&](const json& v) { return v == values[0]; });
+    return are_equal ? values[0] : json(std::move(values));
+}
+
+/// {"count": of rows, "columns": {name: values}, "texts": names of the columns whose values are indices into the list
+/// of texts}. `unread` are columns that the page does not read.
 template <class Row, class Rows>
-json table(const Rows& rows, Texts& code) {
-    json columns = json::array(), texts = json::array(), values = json::array();
+json table(const Rows& rows, Texts& code, std::span<const std::string_view> unread = {}) {
+    json columns = json::object(), texts = json::array();
     for_each_column<Row>([&](const auto& column) {
-        columns.push_back(column.name);
+        if (std::ranges::find(unread, column.name) != unread.end()) return;
         if (is_text<decltype(column.member)>) texts.push_back(column.name);
-    });
-    for (const Row& row : rows) {
-        json line = json::array();
-        for_each_column<Row>([&](const auto& column) {
+        json::array_t values;
+        for (const Row& row : rows) {
             const auto& value = row.*column.member;
             if constexpr (is_text<decltype(column.member)>)
-                line.push_back(code(value));
+                values.push_back(code(value));
             else
-                line.push_back(column_json(value));
-        });
-        values.push_back(std::move(line));
-    }
-    return {{"columns", std::move(columns)}, {"texts", std::move(texts)}, {"rows", std::move(values)}};
+                values.push_back(column_json(value));
+        }
+        columns[column.name] = column_values(std::move(values));
+    });
+    return {{"count", std::ranges::distance(rows)}, {"columns", std::move(columns)}, {"texts", std::move(texts)}};
 }
+
+constexpr std::string_view unread_of_errors[] = {"value_of_power", "value_of_bounded", "represents_shot",
+                                                 "over_best",      "over_best_low",    "over_best_high",
+                                                 "p_best",         "p_equivalent",     "dominated"};
 
 /// As table(), with a column for how far each value is from the best that there is, so that less is better for every
 /// metric; null where a value or its metric's direction is missing.
-json error_table(const std::vector<MetricSummary>& errors, Texts& code) {
-    json all = table<MetricSummary>(errors, code);
-    all["columns"].push_back("badness");
-    for (size_t i = 0; i < errors.size(); ++i) {
-        const std::optional<Better> better = direction_of(errors[i].metric);
-        all["rows"][i].push_back(better && errors[i].value ? json(shortfall(*better, *errors[i].value)) : json());
+template <class Errors>
+json error_table(const Errors& errors, Texts& code) {
+    json all = table<MetricSummary>(errors, code, unread_of_errors);
+    json::array_t badness;
+    for (const MetricSummary& e : errors) {
+        const std::optional<Better> better = direction_of(e.metric);
+        badness.push_back(better && e.value ? json(shortfall(*better, *e.value)) : json());
     }
+    all["columns"]["badness"] = column_values(std::move(badness));
     return all;
 }
 
@@ -84,21 +99,28 @@ json described_metrics() {
 
 /// As table(), with one row for each stage and a column for each quantity; one that a stage lacks is 0.
 json cost_table(const std::vector<CostRow>& costs, Texts& code) {
-    const json texts = {"shot", "technique", "point", "stage"};
-    json columns = texts, values = json::array();
-    for (const CostQuantity& quantity : cost_quantities) columns.push_back(quantity.name);
+    const std::vector<std::string> texts = {"shot", "technique", "point", "stage"};
+    std::map<std::string, json::array_t> values;
     std::map<std::vector<size_t>, size_t> place;
     for (const CostRow& row : costs) {
         const std::vector<size_t> key = {code(row.shot), code(row.technique), code(row.point), code(row.stage)};
-        const auto [at, is_new] = place.try_emplace(key, values.size());
+        const auto [at, is_new] = place.try_emplace(key, place.size());
         if (is_new) {
-            values.push_back(key);
-            for (size_t i = 0; i < cost_quantities.size(); ++i) values.back().push_back(0);
+            for (size_t i = 0; i < key.size(); ++i) values[texts[i]].push_back(key[i]);
+            for (const CostQuantity& quantity : cost_quantities) values[quantity.name].push_back(0);
         }
-        for (size_t i = 0; i < cost_quantities.size(); ++i)
-            if (row.quantity == cost_quantities[i].name) values[at->second][key.size() + i] = row.value;
+        if (values.contains(row.quantity)) values[row.quantity][at->second] = row.value;
     }
-    return {{"columns", columns}, {"texts", texts}, {"rows", std::move(values)}};
+    json columns = json::object();
+    for (auto& [name, column] : values) columns[name] = column_values(std::move(column));
+    return {{"count", place.size()}, {"columns", columns}, {"texts", texts}};
+}
+
+/// Those of `rows` that compare points of one technique: the page shows no others.
+template <class Row>
+std::vector<Row> of_one_technique(std::vector<Row> rows) {
+    std::erase_if(rows, [](const Row& row) { return row.technique != row.against_technique; });
+    return rows;
 }
 
 json stability_data(const StabilityResults& tables, Texts& code) {
@@ -133,19 +155,20 @@ json stability_data(const StabilityResults& tables, Texts& code) {
 
 json report_data(const StudyResults& tables, const StabilityResults& stability, const PointSet& single_changes) {
     Texts code;
-    std::vector<MetricSummary> errors, frames;
+    std::vector<const MetricSummary*> errors, frames;
     std::set<std::tuple<std::string, std::string, std::string, std::string>> known_over_frames;
     const auto quantity_of = [](const MetricSummary& e) { return std::tuple(e.shot, e.target, e.metric, e.mask); };
     for (const MetricSummary& e : tables.summary)
         if (e.frame == over_frames) known_over_frames.insert(quantity_of(e));
     for (const MetricSummary& e : tables.summary) {
         if (e.represents_shot)
-            errors.push_back(e);
+            errors.push_back(&e);
         else if (known_over_frames.contains(quantity_of(e)) && !single_changes.contains({e.technique, e.point}))
-            frames.push_back(e);
+            frames.push_back(&e);
     }
-    json data = {{"errors", error_table(errors, code)},
-                 {"frames", table<MetricSummary>(frames, code)},
+    const auto rows_of = std::views::transform([](const MetricSummary* e) -> const MetricSummary& { return *e; });
+    json data = {{"errors", error_table(errors | rows_of, code)},
+                 {"frames", table<MetricSummary>(frames | rows_of, code, unread_of_errors)},
                  {"splits", table<SplitRow>(tables.splits, code)},
                  {"hits", table<HitRow>(tables.hits, code)},
                  {"costs", cost_table(tables.costs, code)},
@@ -153,8 +176,8 @@ json report_data(const StudyResults& tables, const StabilityResults& stability, 
                  {"compiled", table<CompiledRow>(tables.compiled, code)},
                  {"estimates", table<EstimateRow>(tables.estimates, code)},
                  {"model_range", {{"low", model_range.low}, {"high", model_range.high}, {"text", model_range_text()}}},
-                 {"effects", table<EffectRow>(tables.effects, code)},
-                 {"time_effects", table<TimeEffectRow>(tables.time_effects, code)},
+                 {"effects", table<EffectRow>(of_one_technique(tables.effects), code)},
+                 {"time_effects", table<TimeEffectRow>(of_one_technique(tables.time_effects), code)},
                  {"times", table<TimeSummary>(tables.time_summary, code)},
                  {"metrics", described_metrics()}};
     if (!stability.rows.empty()) data["stability"] = stability_data(stability, code);

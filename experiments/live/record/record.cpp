@@ -156,9 +156,9 @@ json facts_of(const Shot& shot, const RecordSettings& settings, const Device& de
 
 std::string page_of(const json& recording, const std::vector<std::string>& texts, const std::string& title) {
     const std::string text = recording.dump(-1, ' ', false, json::error_handler_t::replace);
-    json elements = {page_element("recording", base64(compressed({text.begin(), text.end()})))};
-    for (size_t i = 0; i < texts.size(); ++i) elements.push_back(page_element("texels-" + std::to_string(i), texts[i]));
-    return page_text("record", "record", title, {{"elements", elements}});
+    std::vector<PageElement> elements = {{"recording", base64(compressed({text.begin(), text.end()}))}};
+    for (size_t i = 0; i < texts.size(); ++i) elements.push_back({"texels-" + std::to_string(i), texts[i]});
+    return page_text("record", "record", title, {}, elements);
 }
 
 }  // namespace

@@ -12,7 +12,9 @@ import {grouped, unique} from "../values.js";
 
 export const symbolNames = ["circle", "square", "triangle", "diamond", "star", "cross", "wye", "hexagon"];
 
-/// Eight colours and eight shapes: shape and colour shift against each other, so that 64 pairs differ.
+export const mostStyles = 64;
+
+/// Eight colours and eight shapes: shape and colour shift against each other, so that all pairs differ.
 export const seriesStyle = index =>
     ({color: `var(--s${index % 8})`, symbol: symbolNames[(index + Math.floor(index / 8)) % 8]});
 
@@ -64,8 +66,16 @@ export function pointMark(row, more) {
     };
 }
 
-/// A mark's shape in `size` pixels, for legends and tables.
-export function icon({color, symbol, hasOutline}, isHollow = false) {
+const icons = new Map();
+
+/// A mark's shape, for legends and tables.
+export function icon(style, isHollow = false) {
+    const key = JSON.stringify([style, isHollow]);
+    if (!icons.has(key)) icons.set(key, drawnIcon(style, isHollow));
+    return icons.get(key).cloneNode(true);
+}
+
+function drawnIcon({color, symbol, hasOutline}, isHollow) {
     const stroke = isHollow ? color : hasOutline ? "var(--ink)" : color;
     const picture =
         Plot.dot([[7, 7]], {x: "0", y: "1", symbol, r: 4.5, fill: isHollow ? "none" : color, stroke, strokeWidth: 1.2})

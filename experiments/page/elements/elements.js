@@ -89,20 +89,27 @@ export function badge(text, why) {
 
 export const tip = h("div", {class: "tip", hidden: true, role: "tooltip"});
 
+const tipTexts = new WeakMap();  // by element
+
+function tipFor(event) {
+    let element = event.target;
+    while (element instanceof Element && !tipTexts.has(element)) element = element.parentElement;
+    if (!(element instanceof Element)) return;
+    const box = element.getBoundingClientRect();
+    tip.textContent = tipTexts.get(element);
+    tip.hidden = false;
+    tip.style.left = Math.min((event.clientX ?? box.right) + 14, innerWidth - tip.offsetWidth - 8) + "px";
+    tip.style.top = Math.min((event.clientY ?? box.top) + 14, innerHeight - tip.offsetHeight - 8) + "px";
+}
+function hideTip() { tip.hidden = true; }
+
+// For all elements at once: a page has thousands with tips.
+for (const name of ["pointermove", "focusin"]) addEventListener(name, tipFor);
+for (const name of ["pointerout", "focusout"]) addEventListener(name, hideTip);
+
 /// Shows `text` beside the pointer, or beside the element for keyboard users.
 export function withTip(element, text) {
-    const show = event => {
-        const box = element.getBoundingClientRect();
-        tip.textContent = text;
-        tip.hidden = false;
-        tip.style.left = Math.min((event.clientX ?? box.right) + 14, innerWidth - tip.offsetWidth - 8) + "px";
-        tip.style.top = Math.min((event.clientY ?? box.top) + 14, innerHeight - tip.offsetHeight - 8) + "px";
-    };
-    const hide = () => {
-        tip.hidden = true;
-    };
-    for (const name of ["pointermove", "focus"]) element.addEventListener(name, show);
-    for (const name of ["pointerleave", "blur"]) element.addEventListener(name, hide);
+    tipTexts.set(element, text);
     element.setAttribute("tabindex", "0");
     element.setAttribute("role", "img");
     element.setAttribute("aria-label", text.replaceAll("\n", "; "));
@@ -110,5 +117,5 @@ export function withTip(element, text) {
 }
 
 addEventListener("keydown", event => {
-    if (event.key === "Escape") tip.hidden = true;
+    if (event.key === "Escape") hideTip();
 });

@@ -2,18 +2,23 @@
 
 import {h, scrollWatcher} from "./elements.js";
 import {copyText, saveFile} from "./files.js";
+import {drawLater} from "./later.js";
 import {interval, number, percent} from "../values.js";
 
+const mostRows = 100;  // that are made at once
+
 /// Columns are names, or {name, number: true} as numbers() makes them: those are right-aligned. Rows are arrays of
-/// cells; a cell is a text, an element, or a cell(). `sortable`: a button in each head sorts; `groupBy`: the column by
-/// which rows are set apart.
-export function table(columns, rows, {sortable, groupBy, caption} = {}) {
+/// cells, or functions that make one; a cell is a text, an element, or a cell(). `sortable`: a button in each head sorts;
+/// `groupBy`: the column by which rows are set apart; `last`: a row that stays the last. Of many rows the further ones
+/// are made when the reader comes near them.
+export function table(columns, rows, {sortable, groupBy, caption, last} = {}) {
+    rows = rows.map(row => typeof row === "function" ? once(row) : () => row);
     const body = h("tbody"), names = columns.map(c => c.name ?? c), classes = columns.map(c => c.number ? "number" : null);
     const sortBy = i => {
         const up = heads[i].getAttribute("aria-sort") !== "ascending";
         heads.forEach(head => head.removeAttribute("aria-sort"));
         heads[i].setAttribute("aria-sort", up ? "ascending" : "descending");
-        show([...rows].sort((a, b) => compareCells(sortKey(a[i]), sortKey(b[i]), up)));
+        show([...rows].sort((a, b) => compareCells(sortKey(a()[i]), sortKey(b()[i]), up)));
     };
     const button = (name, i) => h("button", {click: () => sortBy(i), title: "Sort by " + name}, name);
     const heads = names.map((name, i) => h("th", {class: classes[i], scope: "col"}, sortable ? button(name, i) : name));
@@ -22,13 +27,29 @@ export function table(columns, rows, {sortable, groupBy, caption} = {}) {
         return h("td", {class: classes[c], "data-value": value}, cell?.content ?? cell);
     };
     const isFirst = (ordered, i) => groupBy !== undefined && i > 0 &&
-        sortKey(ordered[i][groupBy]) !== sortKey(ordered[i - 1][groupBy]);
+        sortKey(ordered[i]()[groupBy]) !== sortKey(ordered[i - 1]()[groupBy]);
+    const lineOf = (ordered, i) => h("tr", {class: isFirst(ordered, i) ? "group" : null}, ordered[i]().map(data));
+    const lines = (ordered, from, to) => ordered.slice(from, to).map((_, i) => lineOf(ordered, from + i));
+    /// In place of the rows from `from` on.
+    const rest = (ordered, from) => {
+        const count = ordered.length - from, place = h("tr", {}, h("td", {colspan: columns.length}, `${count} more rows`));
+        const drawTo = to => place.replaceWith(...lines(ordered, from, to), ...(to < ordered.length ? [rest(ordered, to)] : []));
+        place.drawWhole = () => drawTo(ordered.length);
+        return drawLater(place, () => drawTo(from + mostRows));
+    };
     const show = ordered => body.replaceChildren(
-        ...ordered.map((row, i) => h("tr", {class: isFirst(ordered, i) ? "group" : null}, row.map(data))));
+        ...lines(ordered, 0, mostRows), ...(ordered.length > mostRows ? [rest(ordered, mostRows)] : []),
+        ...(last ? [h("tr", {}, last.map(data))] : []));
     show(rows);
     const whole = h("table", {}, caption ? h("caption", {}, caption) : null, h("thead", {}, h("tr", {}, heads)), body);
     scrollWatcher.observe(whole);  // on narrow screens tables scroll by themselves
     return whole;
+}
+
+/// What `make` makes, once.
+function once(make) {
+    let made;
+    return () => made ??= make();
 }
 
 export const numbers = (...names) => names.map(name => ({name, number: true}));
@@ -61,11 +82,17 @@ export const valueCell = (row, digits) =>
 /// an apostrophe, as in ssrlab's own files (experiments/results/files/csv.h).
 const inCells = text => /^'*[=+\-@]/.test(text) && !/^[+-][\d.,e\s%[\]+-]*$/.test(text) ? `'${text}` : text;
 
+/// With the rows that are still to be made.
+function wholeTable(whole) {
+    whole.querySelector("tr.later")?.drawWhole();
+    return whole;
+}
+
 /// Buttons that copy a table as it is shown, for a spreadsheet, and save it under the name that `name` gives.
 export function tableButtons(whole, name, said = null) {
     const text = c => inCells(c.textContent.replace(/\s+/g, " ").trim());
     const quoted = c => /[",]/.test(text(c)) ? `"${text(c).replaceAll("\"", "\"\"")}"` : text(c);
-    const lines = (of, separator) => [...whole.rows].map(row => [...row.cells].map(of).join(separator) + "\n").join("");
+    const lines = (of, separator) => [...wholeTable(whole).rows].map(row => [...row.cells].map(of).join(separator) + "\n").join("");
     const copy = async event => {
         await copyText(lines(text, "\t"));
         (said ?? event.target).textContent = "Copied.";

@@ -6,12 +6,13 @@ import {at, clickable, h, scroller} from "../elements/elements.js";
 import {numberCell, numbers, table} from "../elements/tables.js";
 import {drawBudget, showBudget} from "./budget.js";
 import {costAxis, costBox, costListeners, errorTimeChart} from "./error_time.js";
+import {showInMatrix} from "./explore.js";
 import {hasInflate, whyNoImages} from "../images/packed.js";
 import {drawWhy} from "../sections/error_shares.js";
 import {pointListeners} from "../sections/parts.js";
 import {answerChoice, answerOf, chosenPoint} from "../study/answers.js";
 import {chipKinds, howEstimated, timedOn, timesOf, totalTime} from "../study/costs.js";
-import {manifestShots, pointKey, pointLabel, report, shortShot} from "../study/data.js";
+import {manifestShots, ofShot, pointKey, pointLabel, report, shortShot} from "../study/data.js";
 import {headline, headlineMetrics, headlineRows} from "../study/errors.js";
 import {allPoints} from "../study/points.js";
 import {interval, number, percent, preferred, unique} from "../values.js";
@@ -23,7 +24,8 @@ import {chooseShot, openPoint} from "../viewer/viewer.js";
 /// The sections below show the chosen shot, too.
 function showShotBelow(shot) {
     for (const part of document.querySelectorAll("details.shot[data-shot]")) part.open = part.dataset.shot === shot;
-    if (viewer.shot !== null && report.images.some(i => i.shot === shot)) chooseShot(shot);
+    showInMatrix(shot);
+    if (viewer.shot !== null && ofShot(report.images, shot).length) chooseShot(shot);
 }
 
 /// Resolves when the pictures are there.
@@ -164,9 +166,8 @@ function answerPictures(shot) {
 
 /// Of the shot's last frame; null: the truth.
 export function answerImage(shot, point) {
-    const ofShot = report.images.map((image, index) => ({...image, index}))
-                       .filter(i => i.shot === shot && (i.kind === "result" || i.kind === "reference"));
-    const last = Math.max(...ofShot.map(frameOf).map(Number)), own = ofShot.filter(i => Number(frameOf(i)) === last);
+    const images = ofShot(report.images, shot).filter(i => i.kind === "result" || i.kind === "reference");
+    const last = Math.max(...images.map(frameOf).map(Number)), own = images.filter(i => Number(frameOf(i)) === last);
     const target = preferred(unique(own.map(i => i.target)), "image");
     return own.find(
         i => i.target === target &&

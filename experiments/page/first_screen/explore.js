@@ -1,19 +1,41 @@
 // The reader's choice of metric and points, and what it shows: the matrix, charts of error against time, the table.
 
 import {at, choiceBox, h} from "../elements/elements.js";
+import {drawnLater} from "../elements/later.js";
 import {costAxis, costBox, costListeners, costOf, errorTimeChart} from "./error_time.js";
 import {matrix, sortedPoints, sortKeys, timeRows} from "./matrix.js";
 import {choiceListeners, chosenRows, otherRows, showChoice, showSummary} from "./summary.js";
 import {pointLegend, pointListeners, pointsChanged} from "../sections/parts.js";
 import {chipKinds, howEstimated} from "../study/costs.js";
-import {pointKey} from "../study/data.js";
+import {byShot, ofShot, pointKey, report, shortShot} from "../study/data.js";
 import {better} from "../study/errors.js";
 import {isOneSeed} from "../study/mistakes.js";
 import {
-    choice, comparedPoints, filteredRows, mostNamed, pointGroups, shownPoints, singleChangeKeys, sweptParameters,
+    chartedRows, choice, comparedPoints, filteredRows, mostNamed, pointGroups, shownPoints, singleChangeKeys, sweptParameters,
     techniques
 } from "../study/points.js";
 import {unique} from "../values.js";
+
+const mostShots = 32;  // of the matrix; further ones have pages of their own
+const matrixShots = [...byShot(report.errors).keys()], shownPage = {first: "0"};
+
+/// A box for the page of the matrix; null where there is one alone.
+function pageBox() {
+    const firsts = matrixShots.map((_, i) => i).filter(i => i % mostShots === 0);
+    const last = first => Math.min(first + mostShots, matrixShots.length) - 1;
+    const text = first => `${first + 1} to ${last(first) + 1}: ${shortShot(matrixShots[first])} to ${shortShot(matrixShots[last(first)])}`;
+    return firsts.length > 1 ? choiceBox("Shots of the matrix", shownPage, "first", firsts.map(i => [String(i), text(i)]), drawMatrix) : null;
+}
+
+/// Shows the page of the matrix that has the shot.
+export function showInMatrix(shot) {
+    const box = at("results")?.querySelector("#page-choice select");
+    if (!box) return;
+    const place = matrixShots.indexOf(shot), first = String(place - place % mostShots);
+    if (first === shownPage.first) return;
+    box.value = shownPage.first = first;
+    drawMatrix();
+}
 
 const matchText = (shown, all) => shown === all ? `${all} points` : `${shown} of ${all} points`;
 
@@ -51,6 +73,7 @@ export function showExplorer() {
         h("output", {id: "match", "aria-live": "polite"})
     ].filter(Boolean));
     showChoice();
+    at("page-choice").append(pageBox() ?? "");
     const draw = () => {
         drawMatrix();
         drawErrorTime();
@@ -62,11 +85,14 @@ export function showExplorer() {
     draw();
 }
 
+const ofPage = rows => matrixShots.slice(Number(shownPage.first), Number(shownPage.first) + mostShots)
+                           .flatMap(shot => ofShot(rows, shot));
+
 function drawMatrix() {
     const rows = filteredRows(chosenRows());
     at("match").textContent = matchText(unique(rows.map(pointKey)).length, unique(chosenRows().map(pointKey)).length);
     at("matrix").replaceChildren(
-        rows.length ? matrix([chosenRows(), otherRows(), timeRows(chosenRows())].filter(own => own.length), sortedPoints(rows)) :
+        rows.length ? matrix([ofPage(chosenRows()), ofPage(otherRows()), timeRows(ofPage(chosenRows()))], sortedPoints(rows)) :
                       h("p", {class: "note"}, "No point has a name with these words."));
 }
 
@@ -86,10 +112,9 @@ function drawErrorTime() {
         "Point at a mark to read its parameters and numbers. Click it to open its images."
     ].filter(Boolean).join(" ");
     at("legend").replaceChildren(pointLegend(rows));
-    const pairs = unique(rows.map(r => r.shot))
-                      .map(
-                          shot => [rows, others]
-                                      .map(own => errorTimeChart(shot, own.filter(r => r.shot === shot)))
-                                      .filter(Boolean));
-    at("scatter").replaceChildren(...pairs.filter(pair => pair.length).map(pair => h("div", {class: "pair"}, pair)));
+    const charted = chartedRows([...rows, ...others]).filter(r => r.value !== null);
+    const pair = shot => h(
+        "div", {class: "pair"}, [rows, others].map(own => errorTimeChart(shot, ofShot(own, shot))).filter(Boolean));
+    const shots = [...byShot(rows).keys()].filter(shot => ofShot(charted, shot).length);
+    at("scatter").replaceChildren(...drawnLater(shots, pair, 450));
 }

@@ -6,7 +6,7 @@ import {breakable, h, scroller, withTip} from "../elements/elements.js";
 import {compareCells} from "../elements/tables.js";
 import {shortWhy} from "../sections/error_shares.js";
 import {totalTime} from "../study/costs.js";
-import {pointKey, pointLabel, shortShot} from "../study/data.js";
+import {byShot, changedRow, pointKey, pointLabel, shortShot} from "../study/data.js";
 import {better, rowText, unitText} from "../study/errors.js";
 import {madeText} from "../study/makers.js";
 import {isOneSeed, mistakesOfError} from "../study/mistakes.js";
@@ -36,21 +36,21 @@ function ratioColour(ratio) {
 }
 
 /// A column per metric and shot. `groups`: rows of one metric each, not filtered.
-const matrixColumns = groups => groups.flatMap(rows => unique(rows.map(r => r.shot)).map((shot, i) => {
-    const own = rows.filter(r => r.shot === shot && r.value !== null);
+const matrixColumns = groups => groups.flatMap(rows => [...byShot(rows)].map(([shot, all], i) => {
+    const own = all.filter(r => r.value !== null);
     return {
         shot,
         metric: rows[0].metric,
         isFirst: i === 0,
         reference: own.length ? columnReference(own) : null,
-        byPoint: new Map(rows.filter(r => r.shot === shot).map(r => [pointKey(r), r]))
+        byPoint: new Map(all.map(r => [pointKey(r), r]))
     };
 }));
 
-/// `groups`: of the chosen metric and of the one beside it, not filtered; `order`: the points, as the reader sorted
+/// `all`: rows of the chosen metric and of the one beside it, not filtered; `order`: the points, as the reader sorted
 /// them.
-export function matrix(groups, order) {
-    const columns = matrixColumns(groups), buttons = [];
+export function matrix(all, order) {
+    const groups = all.filter(rows => rows.length), columns = matrixColumns(groups), buttons = [];
     const metricHead = ([{metric, isTime}]) => h(
         "th", {scope: "colgroup", class: "metric", colspan: columns.filter(c => c.metric === metric).length},
         isTime ? "total time (ms)" : metric + unitText(metric));
@@ -104,14 +104,15 @@ function matrixButton(row, ratio, {reference}) {
                row.standing === "best" ? "best" :
                                          null},
           text, mistakes.length ? " !" : "");
-    withTip(button, [
+    const tip = [
         `${row.shot}\n${pointText(row)}`, row.isTime ? `${number(row.value)} ms ${interval(row)}` : rowText(row),
         ratio === null || reference === row ? null : `${number(ratio, 3)} times the value of ${pointLabel(reference)}`,
         row.isTime ? null : standingText(row), row.isTime ? null : shortWhy(row),
         ...mistakes.map(m => `! ${m.text}: ${m.why}`), madeText(row)
-    ].filter(Boolean).join("\n"));
+    ].filter(Boolean).join("\n");
+    withTip(button, tip);
     button.removeAttribute("role");  // it has its own
-    button.setAttribute("aria-label", `${button.textContent}; ${button.getAttribute("aria-label")}`);
+    button.setAttribute("aria-label", `${text}${mistakes.length ? " !" : ""}; ${button.getAttribute("aria-label")}`);
     button.addEventListener("click", () => openPoint(row));
     return button;
 }
@@ -128,8 +129,7 @@ const timeColumn = "time";
 /// The total times of the points of `rows`, as rows for a group of columns.
 export const timeRows = rows => rows.flatMap(row => {
     const time = totalTime(row);
-    return time ? [{
-        ...row,
+    return time ? [changedRow(row, {
         metric: timeColumn,
         isTime: true,
         isRanked: false,
@@ -137,7 +137,7 @@ export const timeRows = rows => rows.flatMap(row => {
         value: time.value,
         low: time.low,
         high: time.high
-    }] :
+    })] :
                   [];
 });
 

@@ -1,20 +1,25 @@
 // The summary table, and the choice of target, metric and mask that it shares with the matrix and the charts.
 
 import {at, h, scroller} from "../elements/elements.js";
+import {foldedLater} from "../elements/later.js";
 import {cell, countCell, numberCell, numbers, table, tableActions} from "../elements/tables.js";
 import {choiceBoxes, longTable} from "../sections/parts.js";
 import {totalTime} from "../study/costs.js";
-import {isSamePoint, ownLabel, report, shotName} from "../study/data.js";
+import {isSamePoint, ofShot, ownLabel, report, shotName} from "../study/data.js";
 import {againstNone, bestRows, better, metricKey, otherMetric} from "../study/errors.js";
 import {besideTheirShots, ladderRows} from "../study/ladder.js";
 import {madeCell} from "../study/makers.js";
 import {badges, isOneSeed, mistakesOfError, mistakesOfTime} from "../study/mistakes.js";
-import {choice, filteredRows, mayShow} from "../study/points.js";
-import {interval, number} from "../values.js";
+import {choice, filteredRows, mayShow, showsAll} from "../study/points.js";
+import {grouped, interval, number} from "../values.js";
 
 export const choiceListeners = [];
-const rowsOfMetric = metric => report.errors.filter(
-    r => r.target === choice.target && metricKey(r) === metric && r.mask === choice.mask && mayShow(r));
+const errorKey = (target, metric, mask) => [target, metric, mask].join("\n");
+const errorsByKey = grouped(report.errors, r => errorKey(r.target, metricKey(r), r.mask));
+function rowsOfMetric(metric) {
+    const rows = errorsByKey.get(errorKey(choice.target, metric, choice.mask)) ?? [];
+    return showsAll() ? rows : rows.filter(mayShow);
+}
 export const chosenRows = () => rowsOfMetric(choice.metric);
 export const otherRows = () => rowsOfMetric(otherMetric(choice.metric, report.errors));
 
@@ -38,13 +43,14 @@ function errorCell(row, isBest) {
           [interval(row), ...notes].filter(Boolean).join(" ")));
 }
 
-function summaryRow(row, rows, best, others, otherBest) {
-    const ratio = againstNone(row, rows), time = totalTime(row), other = others.find(o => isSamePoint(o, row));
+function summaryRow(row, rows, best, others, otherBest, hasLitNoise) {
+    const ratio = againstNone(row, rows), time = totalTime(row),
+          other = ofShot(others, row.shot).find(o => isSamePoint(o, row));
     return [
         shotName(row.shot), row.technique, cell(row.point, ownLabel(row) ?? row.point, " ", badges(mistakesOfError(row))),
         errorCell(row, best.has(row)), ...(others.length ? [other ? errorCell(other, otherBest.has(other)) : ""] : []),
         numberCell(row.floor),
-        ...(rows.some(isLitNoisy) ? [cell(row.litNoise ?? null, number(row.litNoise))] : []),
+        ...(hasLitNoise ? [cell(row.litNoise ?? null, number(row.litNoise))] : []),
         cell(
             ratio?.value ?? null, ratio ? number(ratio.value, 3) : "", " ",
             h("small", {}, ratio ? interval({low: ratio.low, high: ratio.high}) : "")),
@@ -63,19 +69,23 @@ export function showSummary() {
           rows = besideTheirShots(chosen, ladder);
     const others = [...otherRows(), ...ladderRows(otherMetric(choice.metric, report.errors))];
     const best = bestRows(chosen), otherBest = bestRows(otherRows());
-    const name = choice.metric.split("|")[0];
+    const name = choice.metric.split("|")[0], hasLitNoise = rows.some(isLitNoisy);
     const columns = [
         "Shot", "Technique", "Point", ...numbers(name),
         ...(others.length ? numbers(others[0].metric) : []), ...numbers("Noise floor"),
-        ...(rows.some(isLitNoisy) ? numbers("Lit noise") : []), ...numbers("× none", "Total ms", "Seeds", "Pixels"),
+        ...(hasLitNoise ? numbers("Lit noise") : []), ...numbers("× none", "Total ms", "Seeds", "Pixels"),
         "Made by"
     ];
-    const whole =
-        table(columns, rows.map(r => summaryRow(r, rows, best, others, otherBest)), {sortable: true, groupBy: 0});
+    const lines = rows.map(r => () => summaryRow(r, rows, best, others, otherBest, hasLitNoise));
     const isOpen = at("summary").querySelector("details")?.open ?? chosen.length <= longTable;
     const title = `All ${rows.length} values, with noise floors, times and seeds`;
-    at("summary").replaceChildren(h(
-        "details", {open: isOpen}, h("summary", {}, title), tableActions(whole, "summary_shown.csv"), scroller(whole)));
+    const part = foldedLater(title, () => {
+        const whole = table(columns, lines, {sortable: true, groupBy: 0});
+        return [tableActions(whole, "summary_shown.csv"), scroller(whole)];
+    });
+    at("summary").replaceChildren(part);
+    part.open = isOpen;
+    part.drawNow();
     const about = report.metrics[name];
     const corrected = rows.some(r => r.corrected) ?
         "The reference's noise is subtracted." :
@@ -88,7 +98,7 @@ export function showSummary() {
                 `Noise floor and × none are about ${name}.`,
         ladder.length &&
             "Truth ladder: images with less of the truth's light (see How to read this). They are no techniques, so they are never bold.",
-        rows.some(isLitNoisy) &&
+        hasLitNoise &&
             "Lit noise: how much the noise of the path-traced light that techniques read adds to the " +
                 "value. Intervals reach down by this amount.",
         "Brackets hold 95 % intervals." +

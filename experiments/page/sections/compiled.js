@@ -3,7 +3,7 @@
 import {h, scroller} from "../elements/elements.js";
 import {cell, numberCell, numbers, table} from "../elements/tables.js";
 import {chipPart, leaveOut, refusalsNote} from "./parts.js";
-import {pointLabel, report, shotLabel} from "../study/data.js";
+import {byShot, ofShot, pointLabel, report, shotLabel} from "../study/data.js";
 import {filteredRows} from "../study/points.js";
 import {grouped, unique} from "../values.js";
 
@@ -28,15 +28,15 @@ export function showCompiled() {
 /// Lists of shots whose passes are the same: most shots of a study need the same ones.
 function shotsByCode() {
     const code = shot =>
-        JSON.stringify(report.compiled.filter(r => r.shot === shot).map(r => ({...r, shot: null})));
-    return [...grouped(unique(report.compiled.map(r => r.shot)), code).values()];
+        JSON.stringify(ofShot(report.compiled, shot).map(r => ({...r.toJSON(), shot: null})));
+    return [...grouped([...byShot(report.compiled).keys()], code).values()];
 }
 
 const compiledPass = r => r.stage + (r.pipeline > 0 ? ` #${r.pipeline + 1}` : "");
 
 function compiledPart() {
     const {chip, shot} = compiledChoice;
-    const own = filteredRows(report.compiled.filter(r => r.chip === chip && r.shot === shot && r.shader !== "vertex"));
+    const own = filteredRows(ofShot(report.compiled, shot).filter(r => r.chip === chip && r.shader !== "vertex"));
     const compiled = own.filter(r => !r.refusal), refused = own.filter(r => r.refusal);
     const first = new Map();  // by hash
     for (const r of compiled)

@@ -3,16 +3,16 @@
 import {folded, h} from "../elements/elements.js";
 import {cell, numbers, table} from "../elements/tables.js";
 import {costKinds, howCounted} from "../study/costs.js";
-import {pointLabel, report} from "../study/data.js";
+import {changedRow, ofShot, pointLabel, report} from "../study/data.js";
 import {filteredRows} from "../study/points.js";
 import {countText, unique} from "../values.js";
 
 /// Those of a shot that the filter leaves, as rows of bars.
 export const costRows = (shot, kind) =>
-    filteredRows(report.costs.filter(c => c.shot === shot)).map(c => ({...c, value: costKinds[kind].of(c)}));
+    filteredRows(ofShot(report.costs, shot)).map(c => changedRow(c, {value: costKinds[kind].of(c)}));
 
 export function costTable(shot) {
-    const own = filteredRows(report.costs.filter(c => c.shot === shot));
+    const own = filteredRows(ofShot(report.costs, shot));
     if (!own.length) return "";
     const points = unique(own.map(pointLabel));
     const sorted = [...own].sort((a, b) => points.indexOf(pointLabel(a)) - points.indexOf(pointLabel(b)));

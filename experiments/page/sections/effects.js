@@ -1,15 +1,15 @@
 // What each change of a baseline does to an error: ratios over paired seeds, for all shots at once or one in detail.
 
 import {strip, stripAxis, stripScale} from "../charts/strips.js";
-import {legend, seriesStyle} from "../charts/styles.js";
+import {legend, mostStyles, seriesStyle} from "../charts/styles.js";
 import {at, choiceBox, h, scroller} from "../elements/elements.js";
 import {cell, countCell, numberCell, numbers, table, valueCell} from "../elements/tables.js";
-import {leaveOut} from "./parts.js";
+import {drawnPart, leaveOut} from "./parts.js";
 import {whyMissing} from "./temporal.js";
-import {isSamePoint, manifestShots, pointKey, pointLabel, report, shortShot} from "../study/data.js";
+import {byShot, manifestShots, ofShot, pointKey, pointLabel, report, shortShot} from "../study/data.js";
 import {headlineMetric, metricKey, metricName, otherMetric} from "../study/errors.js";
 import {isSingleChange} from "../study/points.js";
-import {interval, list, number, percent, preferred, unique} from "../values.js";
+import {grouped, interval, list, number, percent, preferred, unique} from "../values.js";
 
 const effectChoice = {
     against: null,
@@ -23,15 +23,16 @@ const hiddenShots = new Set();  // by the legend
 const errorParts = {bias_squared: "bias²", variance: "variance"};  // what a mean squared error is the sum of
 const scales = {all: "all ratios", "1.5": "2/3 to 1.5", "1.1": "0.91 to 1.1", "1.01": "0.99 to 1.01"};
 
-const effectsShown = () => report.effects.filter(e => e.technique === e.againstTechnique);
 const effectShots = () => unique([
-                              ...manifestShots().map(s => s.shot), ...effectsShown().map(e => e.shot)
-                          ]).filter(shot => effectsShown().some(e => e.shot === shot));
+                              ...manifestShots().map(s => s.shot), ...byShot(report.effects).keys()
+                          ]).filter(shot => ofShot(report.effects, shot).length);
 const againstLabel = e => e.against === "baseline" ? pointLabel({technique: e.againstTechnique, point: e.againstPoint}) :
                                                      `${e.technique} with ${e.against} and otherwise the same`;
+/// What effects on errors and times of the same points and shot share.
+const pairKey = e => [e.shot, pointKey(e), againstLabel(e)].join("|");
 
 export function showEffects() {
-    const rows = effectsShown();
+    const rows = report.effects;
     if (!rows.length) return leaveOut("effects");
     const options = {
         against: unique(rows.map(againstLabel)),
@@ -51,12 +52,13 @@ export function showEffects() {
     const box = (label, key, show = o => o) => options[key].length < 2 ?
         null :
         choiceBox(label, effectChoice, key, options[key].map(o => [o, show(o)]), drawEffects);
+    const place = h("div", {class: "strips", id: "effect-table"});
     at("effects").append(
         h("div", {class: "controls"}, box("Against", "against"), box("Shot", "shot"), box("Target", "target"),
           box("Metric", "metric", metricName), box("Mask", "mask"), box("Scale", "scale", o => scales[o])),
         h("p", {class: "note", id: "effect-family"}), h("div", {id: "effect-legend"}),
-        scroller(h("div", {class: "strips", id: "effect-table"})));
-    drawEffects();
+        scroller(place));
+    drawnPart(place, drawEffects);
 }
 
 const presetOf = point => point.split(" ").filter(word => !word.includes("=") && word !== "default").join(" ");
@@ -67,7 +69,7 @@ const isChangeOfBaseline = e =>
 /// [{label, doc, rows}] in the order of the study: single changes of a baseline first, then whole points.
 function effectGroups(rows) {
     const isBaseline = rows.some(e => e.against === "baseline");
-    const of = key => rows.filter(e => pointKey(e) === key);
+    const byPoint = grouped(rows, pointKey), of = key => byPoint.get(key) ?? [];
     const docs = report.manifest.parameter_docs ?? {};
     const singles = report.singleChanges.map(c => ({
                                                  label: `${c.parameter} = ${JSON.stringify(c.value)}`,
@@ -85,11 +87,11 @@ function effectGroups(rows) {
 
 /// [{name, rows}]: the ratios that are read beside those of the chosen metric. Beside a squared error stand its parts.
 function otherEffects() {
-    const other = otherMetric(effectChoice.metric, effectsShown());
+    const other = otherMetric(effectChoice.metric, report.effects);
     const hasParts = [effectChoice.metric, other].some(key => key?.startsWith("mse|"));
     const keys = [other, ...(hasParts ? Object.keys(errorParts).map(part => `${part}|seed_pairs`) : [])];
     const isShown = e => e.target === effectChoice.target && e.mask === effectChoice.mask;
-    return keys.map(key => effectsShown().filter(e => metricKey(e) === key && isShown(e)))
+    return keys.map(key => report.effects.filter(e => metricKey(e) === key && isShown(e)))
         .filter(rows => rows.length)
         .map(rows => ({name: errorParts[rows[0].metric] ?? rows[0].metric, rows}));
 }
@@ -99,20 +101,20 @@ const isChosen = e => againstLabel(e) === effectChoice.against && e.target === e
 
 function drawEffects() {
     const isAll = effectChoice.shot === "all shots", shots = effectShots();
-    const rows = effectsShown().filter(e => isChosen(e) && (isAll || e.shot === effectChoice.shot));
+    const rows = (isAll ? report.effects : ofShot(report.effects, effectChoice.shot)).filter(isChosen);
     const scale = effectScale(rows, !isAll);
-    at("effect-legend").replaceChildren(isAll ? shotLegend(shots) : "");
-    const hasTimes = totalTimeEffects(rows).length > 0;
-    const others = [...otherEffects(), ...(hasTimes ? [{name: "time", rows: totalTimeEffects(rows)}] : [])];
+    at("effect-legend").replaceChildren(isAll && shots.length <= mostStyles ? shotLegend(shots) : "");
+    const times = totalTimeEffects(rows);
+    const others = [...otherEffects(), ...(times.length ? [{name: "time", rows: times}] : [])]
+                       .map(({name, rows}) => ({name, byPair: grouped(rows, pairKey)}));
     at("effect-family").textContent = familyText(rows);
-    const isPair = (a, b) => isSamePoint(a, b) && againstLabel(a) === againstLabel(b);
     const cells = rows => {
-        const beside = others.map(o => o.rows.filter(r => rows.some(e => isPair(r, e))));
+        const beside = others.map(o => rows.flatMap(e => o.byPair.get(pairKey(e)) ?? []));
         return isAll ? pooledCells(rows, beside) : effectCells(rows[0], beside.map(found => found[0]));
     };
     const columns = (isAll ? pooledColumns : effectColumns)(others.map(o => o.name));
     const lines = effectGroups(rows).map(
-        g =>
+        g => () =>
             [h("div", {class: "change"}, h("b", {}, g.label), g.doc ? h("small", {}, g.doc) : null, repeatNote(g.rows)),
              strip(
                  scale,
@@ -120,8 +122,8 @@ function drawEffects() {
                      .map(e => effectMark(e, shots, isAll))),
              ...cells(g.rows)]);
     const label = `${metricName(effectChoice.metric)}: ratio, logarithmic`;
-    lines.push(["", stripAxis(scale, label), ...columns.slice(2).map(() => "")]);
-    at("effect-table").replaceChildren(table(columns, lines));
+    const last = ["", stripAxis(scale, label), ...columns.slice(2).map(() => "")];
+    at("effect-table").replaceChildren(table(columns, lines, {last}));
 }
 
 /// A button per shot: it shows and hides that shot's marks.
@@ -179,8 +181,10 @@ function whyNotRepeatable(e) {
 const isSignificant = e => e.verdict === "less" || e.verdict === "more";
 
 /// The times of the points that are compared, as ratios like the errors'.
-const totalTimeEffects = rows => report.timeEffects.filter(
-    t => t.stage === "total" && rows.some(e => isSamePoint(e, t) && againstLabel(e) === againstLabel(t)));
+function totalTimeEffects(rows) {
+    const pairs = new Set(rows.map(pairKey));
+    return report.timeEffects.filter(t => t.stage === "total" && pairs.has(pairKey(t)));
+}
 
 function repeatNote(rows) {
     const reasons = unique(rows.map(whyNotRepeatable).filter(Boolean));
@@ -224,8 +228,8 @@ function pooledCells(rows, others) {
 /// Why there is no ratio: no pairs, an error without a value, or one that is 0 or that the reference's noise hides.
 function whyNoRatio(e) {
     if (!e.seeds) return "no seed in common";
-    const error = (technique, point) => report.errors.find(
-        r => r.shot === e.shot && r.technique === technique && r.point === point && r.target === e.target &&
+    const error = (technique, point) => ofShot(report.errors, e.shot).find(
+        r => r.technique === technique && r.point === point && r.target === e.target &&
             metricKey(r) === metricKey(e) && r.mask === e.mask);
     const lacking = [error(e.technique, e.point), error(e.againstTechnique, e.againstPoint)].find(r => r?.value === null);
     return lacking ? `no value for ${lacking.point}: ${whyMissing(lacking)}` :

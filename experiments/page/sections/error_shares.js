@@ -5,7 +5,7 @@ import {at, folded, h} from "../elements/elements.js";
 import {showRaysOf, verdictLegend} from "./hits.js";
 import {leaveOut, shotParts} from "./parts.js";
 import {answerOf} from "../study/answers.js";
-import {isSamePoint, manifestShots, pointKey, pointLabel, report, shortShot} from "../study/data.js";
+import {byShot, isSamePoint, manifestShot, ofShot, pointKey, pointLabel, report, shortShot} from "../study/data.js";
 import {headline, metricKey, rowText, unitText} from "../study/errors.js";
 import {ladderOf} from "../study/ladder.js";
 import {filteredRows, mayShow} from "../study/points.js";
@@ -20,25 +20,29 @@ const sharedError = {
 
 const lastFrame = rows => String(Math.max(...rows.map(r => Number(r.frame))));
 
-/// By shot: [{row, error, by}] of its points: shares by verdict, and the error that they are shares of; undefined if
-/// it was not measured. Of several frames the last.
-const errorGroups = (() => {
-    const shares = report.hits.filter(r => r.stage === errorStage && r.quantity.startsWith("error: "));
-    const ofShot = (shot, all) => {
-        const mask = preferred(unique(all.map(r => r.mask)), headline.mask), frame = lastFrame(all);
-        const {metric, target} = sharedError, own = all.filter(r => r.mask === mask && r.frame === frame);
-        const errors = [...report.frames, ...report.errors].filter(
-            e => e.shot === shot && e.metric === metric && e.target === target && e.mask === mask && e.value > 0);
-        return [...grouped(own, pointKey)].map(([key, rows]) => {
-            const ofPoint = errors.filter(e => pointKey(e) === key);
-            const by = new Map(rows.map(r => [r.quantity.slice("error: ".length), r]));
-            return {row: rows[0], by, error: ofPoint.find(e => e.frame === frame) ?? ofPoint[0]};
-        });
-    };
-    return new Map([...grouped(shares, r => r.shot)].map(([shot, all]) => [shot, ofShot(shot, all)]));
-})();
-const errorShares = shot => (errorGroups.get(shot) ?? []).filter(g => filteredRows([g.row]).length);
-const errorGroupOf = row => errorGroups.get(row.shot)?.find(g => isSamePoint(g.row, row));
+const isShare = r => r.stage === errorStage && r.quantity.startsWith("error: ");
+const groupsOf = new Map();
+
+/// [{row, error, by}] of a shot's points: shares by verdict, and the error that they are shares of; undefined if it was
+/// not measured. Of several frames the last.
+function errorGroups(shot) {
+    if (!groupsOf.has(shot)) groupsOf.set(shot, errorGroupsOf(shot, ofShot(report.hits, shot).filter(isShare)));
+    return groupsOf.get(shot);
+}
+
+function errorGroupsOf(shot, all) {
+    const mask = preferred(unique(all.map(r => r.mask)), headline.mask), frame = lastFrame(all);
+    const {metric, target} = sharedError, own = all.filter(r => r.mask === mask && r.frame === frame);
+    const errors = [...ofShot(report.frames, shot), ...ofShot(report.errors, shot)].filter(
+        e => e.metric === metric && e.target === target && e.mask === mask && e.value > 0);
+    return [...grouped(own, pointKey)].map(([key, rows]) => {
+        const ofPoint = errors.filter(e => pointKey(e) === key);
+        const by = new Map(rows.map(r => [r.quantity.slice("error: ".length), r]));
+        return {row: rows[0], by, error: ofPoint.find(e => e.frame === frame) ?? ofPoint[0]};
+    });
+}
+const errorShares = shot => errorGroups(shot).filter(g => filteredRows([g.row]).length);
+const errorGroupOf = row => errorGroups(row.shot).find(g => isSamePoint(g.row, row));
 const leastShare = 0.01;  // smaller ones are not named
 
 /// [{key, value}] of what `of(verdict)` gives, the largest first.
@@ -58,7 +62,7 @@ export function shortWhy(row) {
 function comparisonText({row, by, error}) {
     if (!error?.standing) return "";
     const {metric} = sharedError;
-    const others = errorGroups.get(row.shot).filter(g => g.error?.standing && mayShow(g.row));
+    const others = errorGroups(row.shot).filter(g => g.error?.standing && mayShow(g.row));
     const least = others.reduce((a, b) => b.error.value < a.error.value ? b : a);
     const own = `Its ${metric}, ${number(error.value, 3)},`,
           best = `the least (${pointLabel(least.row)}, ${number(least.error.value, 3)})`;
@@ -74,7 +78,7 @@ function comparisonText({row, by, error}) {
 /// Which rays missed what the screen shows, and what their tracer said of them.
 function missesText({row, by}) {
     if (!(by.get("avoidable_miss")?.value >= leastShare)) return "";
-    const own = report.hits.filter(
+    const own = ofShot(report.hits, row.shot).filter(
         r => r.stage !== errorStage && isSamePoint(r, row) && r.mask === row.mask && r.frame === row.frame);
     const of = quantity => own.filter(r => r.quantity === quantity), missed = of("avoidable_miss"),
           all = missed.reduce((sum, r) => sum + r.rays, 0);
@@ -90,13 +94,13 @@ function missesText({row, by}) {
 
 /// "technique in scene, frame 3"
 function placeText(row) {
-    const hasFrames = list(manifestShots().find(s => s.shot === row.shot)?.frames).length > 1;
+    const hasFrames = list(manifestShot(row.shot)?.frames).length > 1;
     return `${pointLabel(row)} in ${shortShot(row.shot)}${hasFrames ? `, frame ${row.frame}` : ""}`;
 }
 
 /// Links to a point's rays and its images.
 function rayLinks(row) {
-    const hasRays = report.hits.some(r => r.stage !== errorStage && r.shot === row.shot);
+    const hasRays = ofShot(report.hits, row.shot).some(r => r.stage !== errorStage);
     const link = (text, href, act) => {
         const click = event => {
             event.preventDefault();
@@ -106,7 +110,7 @@ function rayLinks(row) {
     };
     return [
         ...(hasRays ? [link("Its\u00a0rays", "#hits", () => showRaysOf(row.shot)), " "] : []),
-        report.images.some(i => isSamePoint(i, row)) ? link("Its\u00a0images", "#viewer", () => openPoint(row)) : ""
+        ofShot(report.images, row.shot).some(i => isSamePoint(i, row)) ? link("Its\u00a0images", "#viewer", () => openPoint(row)) : ""
     ];
 }
 
@@ -155,14 +159,14 @@ function whyBars(group) {
 /// Empty where nobody asked what became of rays.
 function whyNoShares() {
     const {every} = report.manifest.config?.hits ?? {};
-    return every > 1 && !errorGroups.size ?
+    return every > 1 && !report.hits.some(isShare) ?
         `The causes of errors are unknown: this study judged the rays of one pixel in ${every} along each axis. ` +
             "Dividing the error by causes takes the rays of all pixels (\"hits\": {\"every\": 1})." :
         "";
 }
 
 export function showErrorShares() {
-    const shots = [...errorGroups.keys()];
+    const shots = [...byShot(report.hits)].filter(([, rows]) => rows.some(isShare)).map(([shot]) => shot);
     if (!shots.length) {
         const why = whyNoShares();
         return why ? at("error-shares").append(h("p", {class: "note"}, why)) : leaveOut("error-shares");
@@ -198,7 +202,7 @@ function errorSharesPart(shot) {
         null;
     const xLabel = isAbsolute ? `${metric}${unitText(metric)} of ${target}, ${mask}` :
                                 `share of the ${metric} of ${target}, ${mask}`;
-    const frames = list(manifestShots().find(s => s.shot === shot)?.frames);
+    const frames = list(manifestShot(shot)?.frames);
     why.append(...groups.filter(g => isSamePoint(g.row, {shot, ...answerOf(shot)?.best})).map(whyText));
     return [
         h("div", {class: "bars"}, stackedBars({
@@ -219,6 +223,6 @@ function errorSharesPart(shot) {
 
 /// For the first screen: why the chosen point errs; where no errors were shared out, what that takes.
 export function drawWhy(shot, point) {
-    const group = errorGroups.get(shot)?.find(g => pointKey(g.row) === pointKey(point ?? {}));
+    const group = errorGroups(shot).find(g => pointKey(g.row) === pointKey(point ?? {}));
     at("why-answer").replaceChildren(group ? whyBars(group) : whyNoShares());
 }

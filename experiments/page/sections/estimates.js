@@ -7,7 +7,7 @@ import {cell, numberCell, numbers, shareCell, table} from "../elements/tables.js
 import {chipPart, leaveOut, longList, refusalsNote} from "./parts.js";
 import {stackedStages, stageName} from "./stages.js";
 import {howEstimated} from "../study/costs.js";
-import {isSamePoint, pointKey, pointLabel, report, shotLabel} from "../study/data.js";
+import {isSamePoint, ofShot, pointKey, pointLabel, report, shotLabel} from "../study/data.js";
 import {filteredRows} from "../study/points.js";
 import {interval, microseconds, number, unique} from "../values.js";
 
@@ -38,7 +38,7 @@ function chipText(chip) {
 
 function estimatesPart() {
     const {chip, shot} = estimateChoice;
-    const own = filteredRows(report.estimates.filter(e => e.chip === chip && e.shot === shot));
+    const own = filteredRows(ofShot(report.estimates, shot).filter(e => e.chip === chip));
     const estimated = own.filter(e => !e.refusal), stages = estimated.filter(e => e.stage !== "total" && e.value > 0);
     const isStated = e => own.some(o => o.stage !== "total" && o.refusal && isSamePoint(o, e));  // by its stages
     const refused = own.filter(e => e.refusal && (e.stage !== "total" || !isStated(e)));

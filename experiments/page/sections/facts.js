@@ -1,6 +1,7 @@
 // Head, warnings and the tables that do not change: references, needs, parameters.
 
 import {at, folded, h, scroller} from "../elements/elements.js";
+import {foldedLater} from "../elements/later.js";
 import {numbers, table} from "../elements/tables.js";
 import {longTable} from "./parts.js";
 import {reloadInPlace} from "./start.js";
@@ -53,7 +54,7 @@ export function showReferences() {
             "Poses"),
         "Lit colour", "Hash"
     ];
-    const rows = list(manifestShots()).map(s => {
+    const rows = list(manifestShots()).map(s => () => {
         const r = s.reference ?? {}, e = r.relative_error ?? {};
         return [
             shotName(s.shot), number(r.samples_median), number(r.seconds, 3) + (r.from_cache ? " (cached)" : ""),
@@ -80,10 +81,12 @@ export function showNeeds() {
         const needs = list(shot.needs), leftOut = list(shot.left_out);
         if (!needs.length && !leftOut.length) continue;
         const skipped = leftOut.map(l => [l.what, known(l.fact), known(l.why), saved(l)]);
-        at("needs").append(folded(
+        at("needs").append(foldedLater(
             `${shot.shot}: ${leftOut.length ? leftOut.length + " parts skipped" : "nothing skipped"}`,
-            table(["Fact", "Value", "Why"], needs.map(n => [n.fact, String(n.value), n.why ?? ""])),
-            skipped.length ? table(["Skipped", "Serves only", "Why", ...numbers("Time saved")], skipped) : null));
+            () => [
+                table(["Fact", "Value", "Why"], needs.map(n => [n.fact, String(n.value), n.why ?? ""])),
+                skipped.length ? table(["Skipped", "Serves only", "Why", ...numbers("Time saved")], skipped) : ""
+            ]));
     }
 }
 
@@ -127,18 +130,18 @@ function parameterTables(points, technique) {
                               ["Parameter", ...numbers(...points.map(p => p.point))];
     const rows = areRows ? points.map(p => [p.point, ...differing.map(key => value(p, key))]) :
                            differing.map(key => [name(key), ...points.map(p => value(p, key))]);
-    const common = table(
+    const common = () => table(
         ["Parameter", ...numbers("Value")], equal.map(key => [name(key), value(points[0], key)]));
     const isLong = rows.length > longTable;
-    const shown = scroller(table(columns, rows));
+    const shown = () => [scroller(table(columns, rows))];
     return [
         ...(differing.length ?
-                [isLong ? folded(`${points.length} points, and the ${differing.length} parameters in which they differ`, shown) :
-                          shown] :
+                (isLong ? [foldedLater(`${points.length} points, and the ${differing.length} parameters in which they differ`, shown)] :
+                          shown()) :
                 []),
         ...(equal.length ?
-                [differing.length && equal.length > 3 ? folded(`${equal.length} more parameters, equal for all points`, common) :
-                                                        common] :
+                [differing.length && equal.length > 3 ? foldedLater(`${equal.length} more parameters, equal for all points`, () => [common()]) :
+                                                        common()] :
                 [])
     ];
 }

@@ -4,8 +4,8 @@ import {stackedBars} from "../charts/bars.js";
 import {legend} from "../charts/styles.js";
 import {at, h, scroller, swatch} from "../elements/elements.js";
 import {cell, numberCell, numbers, table} from "../elements/tables.js";
-import {choiceBoxes, leaveOut, longTable, pointsChanged, shotParts} from "./parts.js";
-import {pointLabel, report} from "../study/data.js";
+import {choiceBoxes, leaveOut, longTable, shotParts} from "./parts.js";
+import {ofShot, pointLabel, report} from "../study/data.js";
 import {filteredRows} from "../study/points.js";
 import {errorStage, verdicts} from "../study/verdicts.js";
 import {grouped, number, percent, percentInterval, unique} from "../values.js";
@@ -16,15 +16,14 @@ export const verdictLegend = some => legend(some.map(v => ({label: v.name, swatc
 export function showHits() {
     const rays = report.hits.filter(r => r.stage !== errorStage);
     if (!rays.length) return leaveOut("hits");
-    const boxes = choiceBoxes(hitChoice, ["mask"], rays, pointsChanged);
+    const boxes = choiceBoxes(hitChoice, ["mask"], rays, () => parts.redraw());
     const parts = shotParts(unique(rays.map(r => r.shot)), hitPart);
     at("hits").append(h("div", {class: "controls"}, boxes), verdictLegend(verdicts), parts);
 }
 
 /// Rows of one point, frame and pass, by quantity.
 function hitGroups(shot) {
-    const own = filteredRows(report.hits).filter(
-        r => r.shot === shot && r.mask === hitChoice.mask && r.stage !== errorStage);
+    const own = filteredRows(ofShot(report.hits, shot)).filter(r => r.mask === hitChoice.mask && r.stage !== errorStage);
     return [...grouped(own, r => [r.technique, r.point, r.stage, r.frame].join("|")).values()].map(
         rows => ({first: rows[0], by: new Map(rows.map(r => [r.quantity, r]))}));
 }

@@ -2,7 +2,8 @@
 
 import {legend, legendGroups} from "../charts/styles.js";
 import {at, choiceBox, h} from "../elements/elements.js";
-import {shotLabel} from "../study/data.js";
+import {drawLater, mostAtOnce} from "../elements/later.js";
+import {manifestShots, shotLabel} from "../study/data.js";
 import {headline, headlineMetric, metricKey, metricName} from "../study/errors.js";
 import {filteredRows, shownPoints} from "../study/points.js";
 import {preferred, unique} from "../values.js";
@@ -10,6 +11,16 @@ import {preferred, unique} from "../values.js";
 /// What draws anew when filter, legend or colours change.
 export const pointListeners = [];
 export const pointsChanged = () => pointListeners.forEach(f => f());
+const hasManyShots = manifestShots().length > mostAtOnce;
+
+/// draw() fills `place`, anew when the shown points change; in a study of many shots while the reader is near. Returns
+/// what fills it anew.
+export function drawnPart(place, draw) {
+    const update = () => hasManyShots ? drawLater(place, draw) : draw();
+    pointListeners.push(update);
+    update();
+    return update;
+}
 
 /// A button per series: it shows and hides the series in all charts.
 export function pointLegend(rows) {
@@ -41,7 +52,7 @@ export const choiceBoxes = (choice, keys, rows, changed) => keys.map(key => {
 });
 
 /// A folded part per shot, those of the first row open; `draw(shot)` gives its content when it is opened, and anew when
-/// the shown points change.
+/// the shown points change, or its `redraw()` is called.
 export function shotParts(shots, draw) {
     const columns = Math.max(1, Math.floor(innerWidth / 1200));  // as the style sheet's .shots
     const parts = shots.map((shot, i) => {
@@ -50,20 +61,22 @@ export function shotParts(shots, draw) {
                   h("details", {open: i < columns, "data-shot": shot, class: "shot"}, h("summary", {}, shotLabel(shot)),
                     body);
         let isDrawn = false;
-        const update = () => {
+        const update = part.drawNow = () => {  // printing does not wait for events
             if (part.open && !isDrawn) body.replaceChildren(...draw(shot));
             isDrawn = part.open;
         };
         part.addEventListener("toggle", update);
-        part.drawNow = update;  // printing does not wait for events
-        pointListeners.push(() => {
+        part.redraw = () => {
             isDrawn = false;
             update();
-        });
+        };
         update();
         return part;
     });
-    return h("div", {class: "shots"}, parts);
+    const all = h("div", {class: "shots"}, parts);
+    all.redraw = () => parts.forEach(part => part.redraw());
+    pointListeners.push(all.redraw);
+    return all;
 }
 
 /// Takes a section that a study has nothing for off the page, and the link to it.

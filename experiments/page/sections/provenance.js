@@ -1,6 +1,7 @@
 // Who made what: machines and versions of ssrlab, the clock, and which of them made each cell.
 
-import {at, factList, folded, h, scroller} from "../elements/elements.js";
+import {at, factList, h, scroller} from "../elements/elements.js";
+import {foldedLater} from "../elements/later.js";
 import {table} from "../elements/tables.js";
 import {known} from "./facts.js";
 import {report} from "../study/data.js";
@@ -29,7 +30,8 @@ export function showProvenance() {
         [c.what, known(c.started), known(c.finished), h("span", {class: "hash"}, String(c.cell ?? "").slice(0, 12))];
     const part = (maker, i) => {
         const cells = list(maker.cells), facts = factList(makerFacts(maker, makers.length > 1 ? i + 1 : 0));
-        const made = () => folded(`${cells.length} cells made by it`, scroller(table(columns, cells.map(cellRow))));
+        const made = () => foldedLater(
+            `${cells.length} cells made by it`, () => [scroller(table(columns, cells.map(c => () => cellRow(c))))]);
         return [h("div", {id: `maker-${i + 1}`}, facts), cells.length ? made() : ""];
     };
     at("provenance").append(...(makers.length ? makers : [{}]).flatMap(part), factList(times));

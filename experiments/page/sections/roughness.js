@@ -2,8 +2,9 @@
 
 import {lineChart} from "../charts/lines.js";
 import {at, h} from "../elements/elements.js";
-import {leaveOut, pointLegend, pointListeners} from "./parts.js";
-import {pointKey, report, shortShot} from "../study/data.js";
+import {drawnLater} from "../elements/later.js";
+import {drawnPart, leaveOut, pointLegend} from "./parts.js";
+import {ofShot, pointKey, report, shortShot} from "../study/data.js";
 import {better, framesText, headlineMetric, metricKey, otherMetric, rowText} from "../study/errors.js";
 import {chartedRows, pointText} from "../study/points.js";
 import {number, preferred, unique} from "../values.js";
@@ -19,9 +20,7 @@ export function showRoughness() {
     if (!rows.length) return leaveOut("roughness");
     const body = h("div");
     at("roughness").append(body);
-    const draw = () => body.replaceChildren(pointLegend(rows), ...roughnessParts(chartedRows(rows)));
-    pointListeners.push(draw);
-    draw();
+    drawnPart(body, () => body.replaceChildren(pointLegend(rows), ...roughnessParts(chartedRows(rows))));
 }
 
 /// Charts of both errors of the headline side by side, then those of the bias.
@@ -44,12 +43,11 @@ function roughnessParts(rows) {
     ];
 }
 
-const roughnessCharts = groups => h(
-    "div", {class: "grid"},
-    unique(groups.flat().map(r => r.shot))
-        .flatMap(
-            shot =>
-                groups.map(rows => rows.filter(r => r.shot === shot)).filter(rows => rows.length).map(roughnessChart)));
+function roughnessCharts(groups) {
+    const shots = unique(groups.flat().map(r => r.shot));
+    const charts = shots.flatMap(shot => groups.map(rows => ofShot(rows, shot))).filter(rows => rows.length);
+    return h("div", {class: "grid"}, drawnLater(charts, roughnessChart, 300));
+}
 
 function roughnessChart(rows) {
     const {metric, shot} = rows[0], isLog = better(metric) === "lower";

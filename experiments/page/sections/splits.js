@@ -4,7 +4,7 @@ import {strip, stripAxis, stripScale} from "../charts/strips.js";
 import {legend, seriesStyle} from "../charts/styles.js";
 import {at, h, scroller} from "../elements/elements.js";
 import {cell, countCell, numberCell, numbers, table} from "../elements/tables.js";
-import {choiceBoxes, leaveOut, pointListeners} from "./parts.js";
+import {choiceBoxes, drawnPart, leaveOut} from "./parts.js";
 import {pointLabel, report, shotName} from "../study/data.js";
 import {filteredRows, mayShow} from "../study/points.js";
 import {interval, number} from "../values.js";
@@ -13,12 +13,12 @@ const splitChoice = {};
 
 export function showSplits() {
     if (!report.splits.some(mayShow)) return leaveOut("splits");
+    const place = h("div", {class: "strips", id: "split-table"});
     at("splits").append(
         h("div", {class: "controls"}, choiceBoxes(splitChoice, ["target", "mask"], report.splits, drawSplits)),
         legend([{label: "bias²", style: splitStyles[0]}, {label: "variance", style: splitStyles[1], isHollow: true}]),
-        scroller(h("div", {class: "strips", id: "split-table"})));
-    pointListeners.push(drawSplits);
-    drawSplits();
+        scroller(place));
+    drawnPart(place, drawSplits);
 }
 
 const splitStyles = [seriesStyle(0), seriesStyle(1)];
@@ -31,7 +31,7 @@ function drawSplits() {
     const columns = [
         "Shot", "Point", "Bias² and variance", ...numbers("MSE", "Bias²", "Variance", "Seeds")
     ];
-    const lines = rows.map(s => {
+    const lines = rows.map(s => () => {
         const tip = (name, part) => `${pointLabel(s)}\n${name} ${number(part.value)} ${interval(part)}`;
         const marks = [
             {style: splitStyles[0], row: s.biasSquared, tip: tip("bias²", s.biasSquared), lane: 0},
@@ -43,8 +43,8 @@ function drawSplits() {
             countCell(s.seeds)
         ];
     });
-    lines.push(["", "", stripAxis(scale, "radiance², logarithmic"), "", "", "", ""]);
-    at("split-table").replaceChildren(table(columns, lines, {groupBy: 0}));
+    const last = ["", "", stripAxis(scale, "radiance², logarithmic"), "", "", "", ""];
+    at("split-table").replaceChildren(table(columns, lines, {groupBy: 0, last}));
 }
 
 /// A squared bias that is not distinguishable from 0.

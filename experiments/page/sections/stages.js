@@ -5,12 +5,12 @@ import {stageFill, textureLegend, textures, textureSwatch} from "../charts/textu
 import {at, choiceBox, folded, h} from "../elements/elements.js";
 import {cell, numberCell, numbers, table} from "../elements/tables.js";
 import {costRows, costTable} from "./costs.js";
-import {leaveOut, longList, longTable, pointsChanged, shotParts} from "./parts.js";
+import {leaveOut, longList, longTable, shotParts} from "./parts.js";
 import {aaFloor, costKinds, howCounted} from "../study/costs.js";
-import {manifestShots, pointKey, pointLabel, report} from "../study/data.js";
+import {changedRow, manifestShot, ofShot, pointKey, pointLabel, report} from "../study/data.js";
 import {badges, mistakesOfTime} from "../study/mistakes.js";
 import {filteredRows, isSingleChange} from "../study/points.js";
-import {countText, interval, list, number, percent, unique} from "../values.js";
+import {countText, grouped, interval, list, number, percent, unique} from "../values.js";
 
 const stageChoice = {bars: "times"};
 
@@ -23,8 +23,9 @@ export function showStages() {
     const note = h("p", {class: "note"});
     const bars = choiceBox("Bars show", stageChoice, "bars", [...ofTimes, ...ofCosts], () => {
         note.textContent = stagesText();
-        pointsChanged();
+        parts.redraw();
     });
+    const parts = shotParts(shots, stagesOf);
     if (ofCosts.length) {
         const title = ofTimes.length ? "Stage times and counted costs" : "Counted costs of stages";
         document.querySelector("#stages h2").textContent = title;
@@ -32,7 +33,7 @@ export function showStages() {
         note.textContent = stagesText();
         at("stage-shots").append(note);
     }
-    at("stage-shots").append(h("div", {class: "controls"}, bars), shotParts(shots, stagesOf));
+    at("stage-shots").append(h("div", {class: "controls"}, bars), parts);
 }
 
 /// What the switch shows, where there are counts.
@@ -43,7 +44,7 @@ function stagesText() {
 }
 
 function stagesOf(shot) {
-    const times = report.times.filter(t => t.shot === shot);
+    const times = ofShot(report.times, shot);
     const own = filteredRows(times.filter(t => t.technique !== "")), shared = times.filter(t => t.technique === "");
     const stages = unique(own.filter(t => t.stage !== "total").map(t => t.stage));
     const points = unique(own.map(pointLabel));
@@ -71,8 +72,8 @@ function stagesOf(shot) {
 }
 
 const lastPart = stage => stage.split("/").pop();
+const stageRows = [...report.times, ...report.costs.map(c => changedRow(c, {value: 0}))];  // looks go by times
 /// What two stages of one technique end in.
-const stageRows = [...report.times, ...report.costs.map(c => ({...c, value: 0}))];  // looks go by times
 const ambiguousParts = new Set(unique(stageRows.filter(t => t.stage !== "total").map(t => `${t.technique}|${t.stage}`))
                                    .map(key => [key.split("|")[0], lastPart(key.split("|")[1])].join("|"))
                                    .filter((key, i, all) => all.indexOf(key) !== i)
@@ -85,9 +86,10 @@ export const stageName = stage => (ambiguousParts.has(lastPart(stage)) ? stage :
 /// looks. The plain ones go to those that take longest.
 export function stageLooks(times) {
     const own = times.filter(t => t.stage !== "total" && t.technique !== ""), longest = new Map(), together = new Map();
-    for (const t of own) longest.set(stageName(t.stage), Math.max(longest.get(stageName(t.stage)) ?? 0, t.value));
-    for (const technique of unique(own.map(t => t.technique))) {
-        const names = unique(own.filter(t => t.technique === technique).map(t => stageName(t.stage)));
+    for (const [stage, rows] of grouped(own, t => t.stage))
+        longest.set(stageName(stage), rows.reduce((most, t) => Math.max(most, t.value), longest.get(stageName(stage)) ?? 0));
+    for (const [, rows] of grouped(own, t => t.technique)) {
+        const names = unique(unique(rows.map(t => t.stage)).map(stageName));
         for (const name of names) together.set(name, [...together.get(name) ?? [], ...names]);
     }
     const looks = new Map(), all = Array.from({length: 8 * textures.length}, (_, i) => i);
@@ -139,7 +141,7 @@ function stageBars(own) {
 function savedNote(shot) {
     const savings = list(report.manifest.clock?.savings).filter(s => s.shot === shot);
     if (!savings.length) return "";
-    const leftOut = list(manifestShots().find(s => s.shot === shot)?.left_out).length;
+    const leftOut = list(manifestShot(shot)?.left_out).length;
     const share = s => cell(s.share, `${percent(s.share)} `, h("small", {}, `[${percent(s.low)}, ${percent(s.high)}]`));
     return folded(
         `Work that can be skipped: time saved by leaving out ${leftOut} parts`,

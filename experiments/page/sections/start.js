@@ -2,6 +2,7 @@
 
 import {textureDefinitions} from "../charts/textures.js";
 import {scrollWatcher, tip} from "../elements/elements.js";
+import {drawAll} from "../elements/later.js";
 import {saveTools} from "../elements/save_tools.js";
 
 /// Shows the page, and marks it as ready.
@@ -24,10 +25,4 @@ function scrollToPlace() {
     if (history.state?.top !== undefined) scrollTo(0, history.state.top);
 }
 
-/// Paper cannot be unfolded; what is drawn on opening may hold further parts.
-addEventListener("beforeprint", () => {
-    for (let part; (part = document.querySelector("details:not([open])"));) {
-        part.open = true;
-        part.drawNow?.();
-    }
-});
+addEventListener("beforeprint", drawAll);

@@ -2,9 +2,10 @@
 
 import {lineChart} from "../charts/lines.js";
 import {at, h, scroller} from "../elements/elements.js";
+import {drawnLater} from "../elements/later.js";
 import {cell, numbers, table, valueCell} from "../elements/tables.js";
-import {choiceBoxes, leaveOut, pointLegend, pointListeners} from "./parts.js";
-import {manifestShots, pointKey, pointLabel, report, shortShot, shotLabel, shotName} from "../study/data.js";
+import {choiceBoxes, drawnPart, leaveOut, pointLegend} from "./parts.js";
+import {byShot, manifestShot, ofShot, pointKey, pointLabel, report, shortShot, shotLabel, shotName} from "../study/data.js";
 import {better, metricKey, otherMetric, rowText, unitText} from "../study/errors.js";
 import {chartedRows, comparedPoints, isSingleChange, pointText} from "../study/points.js";
 import {list, unique} from "../values.js";
@@ -26,7 +27,7 @@ export function showTemporal() {
         report.errors.filter(r => temporalTables.some(t => t.metrics.includes(r.metric)) && !isSingleChange(r));
     const frames = report.frames.filter(r => r.value !== null);
     if (!rows.length && !frames.length) return leaveOut("temporal");
-    const played = unique(report.images.map(i => i.shot)).filter(shot => framesOf(shot).length > 1);
+    const played = [...byShot(report.images).keys()].filter(shot => framesOf(shot).length > 1);
     if (played.length)
         at("temporal")
             .append(h("div", {class: "controls"},
@@ -40,7 +41,7 @@ function showTemporalTables(rows) {
     const draw = () => tables.replaceChildren(
         ...temporalTables.flatMap(t => temporalTable(t, rows.filter(r => r.mask === temporalChoice.mask))));
     at("temporal").append(h("div", {class: "controls"}, choiceBoxes(temporalChoice, ["mask"], rows, draw)), tables);
-    draw();
+    drawnPart(tables, draw);
 }
 
 const isDisoccluded = r =>
@@ -52,16 +53,16 @@ function temporalTable({title, metrics, hasDisoccluded}, all) {
           shown = metrics.filter(m => rows.some(r => r.metric === m));
     if (!rows.length) return [];
     const shots = unique(rows.map(r => r.shot));
-    const disoccluded = hasDisoccluded ? report.errors.filter(r => isDisoccluded(r) && shots.includes(r.shot)) : [];
+    const disoccluded = hasDisoccluded ? shots.flatMap(shot => ofShot(report.errors, shot)).filter(isDisoccluded) : [];
     const columns = [
         "Shot", "Point", ...numbers(...shown.map(m => m + unitText(m))),
         ...(disoccluded.length ? numbers("relmse, disoccluded") : [])
     ];
     const line = (shot, point) => {
-        const isOwn = r => r.shot === shot && pointKey(r) === pointKey(point), own = rows.filter(isOwn);
-        return own.length ? [[
+        const isOwn = r => pointKey(r) === pointKey(point), own = ofShot(rows, shot).filter(isOwn);
+        return own.length ? [() => [
             shotName(shot), pointLabel(point), ...shown.map(m => temporalCell(own.find(r => r.metric === m))),
-            ...(disoccluded.length ? [disoccludedCell(disoccluded.find(isOwn))] : [])
+            ...(disoccluded.length ? [disoccludedCell(ofShot(disoccluded, shot).find(isOwn))] : [])
         ]] : [];
     };
     const lines = shots.flatMap(shot => comparedPoints.flatMap(point => line(shot, point)));
@@ -91,13 +92,12 @@ export function whyMissing(row) {
 }
 
 function showFrames(rows) {
-    const draw = () => drawFrames(rows);
+    const draw = () => drawFrames(rows), charts = h("div", {class: "grid", id: "frame-charts"});
     at("temporal").append(
             h("h3", {}, "Frame by frame"),
             h("div", {class: "controls"}, choiceBoxes(frameChoice, ["metric", "mask"], rows, draw)),
-            h("div", {id: "frame-legend"}), h("div", {class: "grid", id: "frame-charts"}));
-    pointListeners.push(draw);
-    draw();
+            h("div", {id: "frame-legend"}), charts);
+    drawnPart(charts, draw);
 }
 
 /// Charts of the chosen metric and of the one beside it, shot by shot.
@@ -105,15 +105,15 @@ function drawFrames(all) {
     const own = metric => all.filter(r => metricKey(r) === metric && r.mask === frameChoice.mask);
     const groups = [frameChoice.metric, otherMetric(frameChoice.metric, all)].filter(Boolean).map(own);
     at("frame-legend").replaceChildren(pointLegend(groups[0]));
-    const charts = unique(groups[0].map(r => r.shot))
-                       .flatMap(shot => groups.map(rows => chartedRows(rows).filter(r => r.shot === shot)));
-    at("frame-charts").replaceChildren(...charts.filter(rows => rows.length).map(frameChart));
+    const shown = groups.map(chartedRows);
+    const charts = unique(groups[0].map(r => r.shot)).flatMap(shot => shown.map(rows => ofShot(rows, shot)));
+    at("frame-charts").replaceChildren(...drawnLater(charts.filter(rows => rows.length), frameChart, 300));
 }
 
 function frameChart(rows) {
     const frames = unique(rows.map(r => Number(r.frame))).sort((a, b) => a - b), {metric, shot} = rows[0];
     const step = Math.ceil(frames.length / 8), last = frames.at(-1), air = Math.max(0.4, 0.03 * (last - frames[0]));
-    const change = manifestShots().find(s => s.shot === shot)?.change;
+    const change = manifestShot(shot)?.change;
     return lineChart({
         title: `${metric} by frame, ${shot}`,
         caption:

@@ -1,6 +1,6 @@
 // What points take: measured times, and counted costs.
 
-import {manifestShots, pointKey, report} from "./data.js";
+import {manifestShot, ofShot, pointKey, report} from "./data.js";
 import {makers} from "./makers.js";
 import {list, unique} from "../values.js";
 
@@ -50,7 +50,7 @@ export const howCounted =
 /// Which machine and size the times of a shot are of: "llvmpipe (a CPU), 256x144"; its name, too, where others took the
 /// times of other shots.
 export function timedOn(shot) {
-    const {width, height} = manifestShots().find(s => s.shot === shot) ?? {};
+    const {width, height} = manifestShot(shot) ?? {};
     const devices = makers.map(m => m.device).filter(Boolean)
                         .map(d => d.name.split(" (")[0] + (d.type === "cpu" ? " (a CPU)" : ""));
     const loads = list(report.manifest.clock?.load), host = loads.find(l => l.shot === shot)?.host;
@@ -65,5 +65,5 @@ export const aaFloor = shot => report.manifest.clock?.aa_floors?.[shot];
 
 /// Total times of the points in a shot, by ascending time.
 export const timesOf = shot =>
-    report.times.filter(t => t.shot === shot && t.stage === "total" && t.technique && t.technique !== "none")
+    ofShot(report.times, shot).filter(t => t.stage === "total" && t.technique && t.technique !== "none")
         .sort((a, b) => a.value - b.value);

@@ -1,6 +1,6 @@
 // Rows of errors: their metrics, what is better, and what is compared first.
 
-import {manifestShots, report} from "./data.js";
+import {manifestShot, ofShot, report} from "./data.js";
 import {interval, list, number, preferred, unique} from "../values.js";
 
 /// What the page shows first: the error that a study compares by, and what an eye sees; manifests of other versions
@@ -9,15 +9,21 @@ export const headline = Object.fromEntries(
     Object.entries({metric: "mse", mask: "reflective", target: "specular", perceptual_metric: "flip", margin: 0.05})
         .map(([key, usual]) => [key, report.headline?.[key] || usual]));
 
+const keysOf = new WeakMap();  // of lists that were asked for
+function metricKeys(rows) {
+    if (!keysOf.has(rows)) keysOf.set(rows, unique(rows.map(metricKey)));
+    return keysOf.get(rows);
+}
+
 export const headlineMetric = rows => {
-    const keys = unique(rows.map(metricKey));
+    const keys = metricKeys(rows);
     return preferred(keys, keys.find(m => m.startsWith(headline.metric + "|")));
 };
 
 /// The metric that is read beside it: physical and perceptual errors order techniques differently. Undefined if `rows`
 /// have none.
 export const otherMetric = (key, rows) => {
-    const {metric, perceptual_metric: perceptual} = headline, keys = unique(rows.map(metricKey));
+    const {metric, perceptual_metric: perceptual} = headline, keys = metricKeys(rows);
     const others = key.startsWith(metric + "|") ? [perceptual, "mse", "relmse"] : [metric];
     return others.map(other => keys.find(k => k !== key && k.startsWith(other + "|"))).find(Boolean);
 };
@@ -34,7 +40,7 @@ export const unitText = metric => {
 
 /// Which frames a row of errors is of; empty for a shot of one frame.
 export function framesText(row) {
-    const frames = list(manifestShots().find(s => s.shot === row.shot)?.frames);
+    const frames = list(manifestShot(row.shot)?.frames);
     if (frames.length < 2) return "";
     return row.frame === "" ? "mean over frames" : `frame ${row.frame} alone`;
 }
@@ -46,8 +52,8 @@ export const metricKey = row => `${row.metric}|${row.formula}`;
 export const bestRows = rows => new Set(rows.filter(r => r.standing === "best"));
 
 /// The row of `none` over the same frames.
-const noneLike = (row, rows) => [...rows, ...report.frames].find(
-    r => r.shot === row.shot && r.technique === "none" && r.frame === row.frame && r.target === row.target &&
+const noneLike = (row, rows) => [...ofShot(rows, row.shot), ...ofShot(report.frames, row.shot)].find(
+    r => r.technique === "none" && r.frame === row.frame && r.target === row.target &&
         r.mask === row.mask && metricKey(r) === metricKey(row));
 
 /// value / none with the worst case of both intervals; only where a quotient of errors makes sense.
@@ -64,7 +70,7 @@ export function againstNone(row, rows) {
 /// Rows of the shot of the headline's target and mask, by the name of a metric.
 export const headlineRows = (shot, metric) => {
     const {target, mask} = headline;
-    const of = report.errors.filter(r => r.shot === shot && r.metric === metric && r.value !== null);
+    const of = ofShot(report.errors, shot).filter(r => r.metric === metric && r.value !== null);
     const narrow = (rows, key, wanted) => rows.filter(r => r[key] === preferred(unique(rows.map(r => r[key])), wanted));
     return narrow(narrow(of, "target", target), "mask", mask);
 };

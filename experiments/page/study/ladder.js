@@ -1,6 +1,6 @@
 // Rungs of the truth ladder: where targets, and their own errors, which bound what one frame shows.
 
-import {manifestShots} from "./data.js";
+import {manifestShot, manifestShots, ofShot} from "./data.js";
 import {better, metricKey} from "./errors.js";
 import {choice} from "./points.js";
 import {list, unique} from "../values.js";
@@ -9,7 +9,7 @@ export const isLadderRung = target => target === "camera_radiance" || target ===
 
 /// Errors of the rungs in one shot, of its last frame.
 export const ladderOf = (shot, {target, metricKey: key, mask}) =>
-    list(manifestShots().find(s => s.shot === shot)?.truth_ladder)
+    list(manifestShot(shot)?.truth_ladder)
         .filter(r => r.target === target && metricKey(r) === key && r.mask === mask);
 
 /// Errors of the rungs against the chosen target, under the chosen mask, as rows like those of techniques; of the last
@@ -34,4 +34,4 @@ export function ladderRows(key) {
 
 /// The rows of each shot, and then its rungs.
 export const besideTheirShots = (rows, ladder) =>
-    unique(rows.map(r => r.shot)).flatMap(shot => [rows, ladder].flatMap(part => part.filter(r => r.shot === shot)));
+    unique(rows.map(r => r.shot)).flatMap(shot => [rows, ladder].flatMap(part => ofShot(part, shot)));

@@ -2,14 +2,18 @@
 
 import {badge} from "../elements/elements.js";
 import {aaFloor} from "./costs.js";
-import {isSamePoint, report} from "./data.js";
+import {isSamePoint, ofShot, report} from "./data.js";
 import {list, number, percent} from "../values.js";
 
 const mostLitNoise = 0.1;  // share of an error, as in report_warnings.cpp
 const mostFloors = 2;      // two copies of one point are far apart where they differ by more than that many floors
 
-const seedsOf = row =>
-    Math.max(0, ...report.errors.filter(r => r.shot === row.shot && r.metric === row.metric).map(r => r.seeds ?? 0));
+const mostSeeds = new Map();  // by shot and metric
+function seedsOf({shot, metric}) {
+    const key = `${shot}|${metric}`, own = () => ofShot(report.errors, shot).filter(r => r.metric === metric);
+    if (!mostSeeds.has(key)) mostSeeds.set(key, Math.max(0, ...own().map(r => r.seeds ?? 0)));
+    return mostSeeds.get(key);
+}
 
 /// [{text, why}] of a row of errors.
 export function mistakesOfError(row) {
@@ -35,7 +39,7 @@ export function mistakesOfError(row) {
 /// The same of the times of `row`'s point.
 export function mistakesOfTime(row) {
     const {aa_pairs: pairs, load} = report.manifest.clock ?? {}, floor = aaFloor(row.shot), found = [];
-    const pair = list(pairs).find(p => p.shot === row.shot && isSamePoint(p, row));
+    const pair = ofShot(list(pairs), row.shot).find(p => isSamePoint(p, row));
     if (pair && pair.floor > mostFloors * floor)
         found.push({
             text: `copies differ ${percent(pair.floor)}`,

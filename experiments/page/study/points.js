@@ -66,14 +66,23 @@ export function parameterLines(row) {
 }
 /// What the point is, for tips: its name, and those parameters.
 export const pointText = row => [pointLabel(row), ...parameterLines(row)].join("\n");
-export const mayShow = row => shownPoints.hasSingleChanges || !isSingleChange(row);
+export const showsAll = () => shownPoints.hasSingleChanges || singleChangeKeys.size === 0;
+export const mayShow = row => showsAll() || !isSingleChange(row);
 /// By what is read, and by what results are keyed by.
-const matchesFilter = row => {
-    const names = `${pointLabel(row)} ${row.technique} ${row.point} ${groupOf(row)}`.toLowerCase();
-    return shownPoints.filter.toLowerCase().split(/\s+/).every(word => names.includes(word));
-};
+function matchesFilter(row) {
+    const {filter} = shownPoints, key = pointKey(row);
+    if (matches.filter !== filter) matches = {filter, byPoint: new Map()};
+    if (!matches.byPoint.has(key)) {
+        const names = `${pointLabel(row)} ${row.technique} ${row.point} ${groupOf(row)}`.toLowerCase();
+        matches.byPoint.set(key, filter.toLowerCase().split(/\s+/).every(word => names.includes(word)));
+    }
+    return matches.byPoint.get(key);
+}
+let matches = {};  // of the last filter
 /// Rows of the points that the reader has not filtered out.
-export const filteredRows = rows => rows.filter(r => mayShow(r) && matchesFilter(r));
+export const filteredRows = rows =>
+    showsAll() && !shownPoints.filter ? rows : rows.filter(r => mayShow(r) && matchesFilter(r));
 /// Those of them that no legend switched off: what charts draw.
-export const chartedRows = rows => filteredRows(rows).filter(r => !shownPoints.hidden.has(pointKey(r)));
+export const chartedRows = rows =>
+    shownPoints.hidden.size ? filteredRows(rows).filter(r => !shownPoints.hidden.has(pointKey(r))) : filteredRows(rows);
 export const choice = {};

@@ -1,7 +1,7 @@
 // Which images: shot, target, frame, and any number of methods, grouped by technique.
 
 import {at, choiceBox, h, select} from "../elements/elements.js";
-import {report} from "../study/data.js";
+import {byShot, report} from "../study/data.js";
 import {unique} from "../values.js";
 import {crops, toggleCropMode} from "./crops.js";
 import {showInPlace} from "./input.js";
@@ -20,7 +20,7 @@ export function showChoiceOfImages(targets) {
     const beside = () => select(
         "Beside it", [["", "no other shot"], ...others], viewer.beside ?? "", shot => chooseBeside(shot || null));
     at("viewer-choice").replaceChildren(
-        select("Shot", unique(report.images.map(i => i.shot)), viewer.shot, chooseShot),
+        select("Shot", [...byShot(report.images).keys()], viewer.shot, chooseShot),
         others.length ? beside() : "", choiceBox("Target", viewer, "target", targets, chooseTarget),
         h("span", {class: "button-row", role: "group", "aria-label": "Layout"},
           layouts.map(([key, name]) => h("button", {id: "layout-" + key, click: () => setLayout(key)}, name))),

@@ -1,7 +1,7 @@
 // What the viewer shows: which images of which methods, and how.
 
 import {scalarModes} from "../images/differences.js";
-import {pointKey, pointLabel, report, shotLabel} from "../study/data.js";
+import {byShot, ofShot, pointKey, pointLabel, report, shotLabel} from "../study/data.js";
 import {isLadderRung} from "../study/ladder.js";
 import {unique} from "../values.js";
 import {loadedImages} from "./page_images.js";
@@ -68,8 +68,9 @@ export const frameOf = image => image.frame ?? 0;
 /// point, results: {target: index}, confidence: index, verdicts: [{stage, index}], roughness: index}.
 export function methodsOf(shot, frame) {
     const methods = new Map();
-    report.images.forEach((image, index) => {
-        if (image.shot !== shot || frameOf(image) !== frame) return;
+    for (const image of ofShot(report.images, shot)) {
+        if (frameOf(image) !== frame) continue;
+        const {index} = image;
         const isTruth = image.technique === truthKey;
         const key = isTruth ? truthKey : pointKey(image);
         if (!methods.has(key))
@@ -92,14 +93,14 @@ export function methodsOf(shot, frame) {
             method.roughness = index;
         else
             method.results[image.target] = index;
-    });
+    }
     return [...methods.values()].sort((a, b) => (b.key === truthKey) - (a.key === truthKey));
 }
 
-const firstImage = shot => report.images.find(i => i.shot === shot);
+const firstImage = shot => ofShot(report.images, shot)[0];
 
 /// The shots whose images fit beside those of `shot`.
-export const shotsBeside = shot => unique(report.images.map(i => i.shot)).filter(other => {
+export const shotsBeside = shot => [...byShot(report.images).keys()].filter(other => {
     const [a, b] = [firstImage(shot), firstImage(other)];
     return other !== shot && a.width === b.width && a.height === b.height;
 });
@@ -124,5 +125,5 @@ export function allMethods(frame) {
     return [...own.flatMap(m => [m, ...others.filter(o => o.own === m.own)]), ...alone];
 }
 
-export const framesOf = shot => unique(report.images.filter(i => i.shot === shot).map(frameOf)).sort((a, b) => a - b);
+export const framesOf = shot => unique(ofShot(report.images, shot).map(frameOf)).sort((a, b) => a - b);
 export const targetsOf = methods => unique(methods.flatMap(m => Object.keys(m.results)));

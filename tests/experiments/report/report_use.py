@@ -47,7 +47,7 @@ def answered(data):
 def test_without_truth(page, folder):
     """A capture has no errors: its pictures and times come first."""
     def capture(data):
-        data["errors"]["rows"] = data["frames"]["rows"] = []
+        data["errors"]["count"] = data["frames"]["count"] = 0
 
     page.get(changed_report(folder, capture))
     until_ready(page)
@@ -295,7 +295,7 @@ def test_mistakes(page):
             wanted.append("disturbed: ")
         equal([b.split(":")[0] + ": " for b in badges], wanted, f"mistakes of {shot} {point}")
     found = page.execute_script(
-        """const row = report.errors[0], of = changes => mistakesOfError({...row, ...changes}).map(m => m.text);
+        """const row = report.errors[0], of = changes => mistakesOfError(changedRow(row, changes)).map(m => m.text);
         return [of({}), of({litNoise: 0.25 * row.value}), of({litNoise: 0.09 * row.value}), of({interval: "none: 1 seed"}),
             of({interval: "reference and seeds", seeds: 1}), [0, 0.03].map(t => mistakesOfReference({reached_share: 1, target_relative_error: t}).length)]"""
     )

@@ -4,6 +4,7 @@
 #include "experiments/report/report.h"
 #include "metrics/flip.h"
 #include "tests/experiments/report/report_fixture.h"
+#include "tests/experiments/report/report_shots_fixture.h"
 #include "tests/experiments/report/report_stability_fixture.h"
 #include "tests/experiments/report/report_study_fixture.h"
 
@@ -24,6 +25,7 @@ static HostImage exposed_halves(const char* file, float gain) {
 /// report_page --link DIR              the same with its images beside the page
 /// report_page --study DIR             the same with the made-up study of changes, and a run of `ssrlab stability`
 /// report_page --stability DIR         the same with the latter alone
+/// report_page --shots COUNT DIR       the same with a made-up study of so many shots
 /// report_page --diff OLD NEW FILE.html writes the page of what changed from one to another of such folders
 /// report_page --halves FILE.exr X Y   prints R G B of a pixel, rounded to half floats
 /// report_page --flip REF.exr TEST.exr EV   prints LDR-FLIP at this exposure, pixel by pixel, of both rounded to half
@@ -43,6 +45,9 @@ int main(int argc, char** argv) {
         } else if (argc == 3 && argv[1] == std::string("--stability")) {
             write_stability_fixture(argv[2]);
             write_report(argv[2]);
+        } else if (argc == 4 && argv[1] == std::string("--shots")) {
+            write_shots_fixture(argv[3], size_t(std::atoi(argv[2])));
+            write_report(argv[3]);
         } else if (argc == 5 && argv[1] == std::string("--diff")) {
             diff_command({.before = argv[2], .after = argv[3], .csv = {}, .page = argv[4]});
         } else if (argc == 5 && argv[1] == std::string("--halves")) {
@@ -55,11 +60,11 @@ int main(int argc, char** argv) {
                 flip_map(exposed_halves(argv[2], gain), exposed_halves(argv[3], gain), default_pixels_per_degree);
             for (const double value : map.values) std::printf("%.9g\n", value);
         } else {
-            std::fprintf(
-                stderr,
-                "usage: report_page DIR | --link DIR | --study DIR | --stability DIR | --diff OLD NEW FILE.html | "
-                "--halves FILE.exr X Y | "
-                "--flip REF.exr TEST.exr EV\n");
+            std::fprintf(stderr,
+                         "usage: report_page DIR | --link DIR | --study DIR | --stability DIR | --shots COUNT DIR | "
+                         "--diff OLD NEW FILE.html | "
+                         "--halves FILE.exr X Y | "
+                         "--flip REF.exr TEST.exr EV\n");
             return 2;
         }
     } catch (const Error& e) {
