@@ -389,11 +389,11 @@ void do_cells(StudySession& study, const PlannedShot& shot, const CellSelection&
     }
     say_scene_warnings(study, shot, *planned.front());
     rehearse_once(study);
+    const bool is_told = study.plan.shots.size() <= most_told_shots;
+    if (is_told) study.progress.say(shot.name);
     const std::unique_ptr<OpenShot> open = opened(study, shot);
     const std::string truth = open->truth.content_hash();
     const size_t before = study.finished.size();
-    const bool is_told = study.plan.shots.size() <= most_told_shots;
-    if (is_told) study.progress.say(shot.name);
     std::vector<bool> is_done(planned.size());
     for (const bool waits : {false, true})
         for (size_t i = 0; i < planned.size(); ++i) {

@@ -253,7 +253,7 @@ TEST_F(CommandLine, SaysAtCtrlCThatTheSameCommandContinues) {
     write_text(folder / "stop.sh", "cd '" + folder.string() + R"('
 rm -f log  # of the signal before, in which the loop would find its words too early
 SSRLAB_CACHE="$PWD/cache" env --default-signal=INT ')" SSRLAB_PROGRAM R"(' run study.json > log 2>&1 &
-while kill -0 $! && ! grep -qs 'fence, camera' log; do sleep 0.05; done
+while kill -0 $! && ! grep -qs '^fence.main.96x54$' log; do sleep 0.05; done
 kill -"$1" $!
 wait $!
 )");
