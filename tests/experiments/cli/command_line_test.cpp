@@ -83,8 +83,9 @@ TEST_F(CommandLine, TakesNoOptionForAFileOrAName) {
         EXPECT_TRUE(o.code == 2 || o.text.find("Usage:") != std::string::npos) << arguments << ": " << o.text;
         EXPECT_TRUE(fs::is_empty(folder)) << arguments << ": " << o.text;
     }
-    expect_mistake("shaders mcguire_dda --assembly --help",
-                   "'--help' is an option; for a file of this name write './--help'");
+    const Outcome o = ssrlab("shaders mcguire_dda --assembly --help");
+    EXPECT_NE(o.text.find("'--help' is an option; for a file of this name write './--help'"), std::string::npos)
+        << o.text;
 }
 
 TEST_F(CommandLine, NamesMistakesOfUnpackedMesas) {
