@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/in_flight.h"
 #include "core/shown_text.h"
+#include "core/signal_actions.h"
 
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -26,28 +27,6 @@ void hand_on(int signal, siginfo_t* info, void*) {
     if (info->si_code <= 0) kill(child, signal);
 }
 
-/// While it lives, requests to end go to the child, unless whoever started this process ignores them.
-class HandedOn {
-public:
-    HandedOn() {
-        struct sigaction action {};
-        action.sa_sigaction = hand_on;
-        action.sa_flags = SA_SIGINFO | SA_RESTART;
-        for (size_t i = 0; i < requests.size(); ++i) {
-            sigaction(requests[i], nullptr, &before_[i]);
-            if (before_[i].sa_handler != SIG_IGN) sigaction(requests[i], &action, nullptr);
-        }
-    }
-    ~HandedOn() {
-        for (size_t i = 0; i < requests.size(); ++i) sigaction(requests[i], &before_[i], nullptr);
-    }
-    HandedOn(const HandedOn&) = delete;
-    HandedOn& operator=(const HandedOn&) = delete;
-
-private:
-    std::array<struct sigaction, requests.size()> before_{};
-};
-
 /// How `work` ended in a process of its own, as waitpid() says it.
 int status_of_child(const std::function<int()>& work) {
     // Requests wait until it is known whom they go to.
@@ -69,7 +48,10 @@ int status_of_child(const std::function<int()>& work) {
         sigprocmask(SIG_SETMASK, &before, nullptr);
         std::exit(work());
     }
-    const HandedOn handed_on;
+    struct sigaction action {};
+    action.sa_sigaction = hand_on;
+    action.sa_flags = SA_SIGINFO | SA_RESTART;
+    const SignalActions handed_on(requests, action);
     sigprocmask(SIG_SETMASK, &before, nullptr);
     int status = 0;
     while (waitpid(child, &status, 0) < 0)

@@ -1,11 +1,13 @@
 // ssrlab watch: a technique's folder, rendered and judged on every save.
 #include "core/shown_text.h"
+#include "core/signal_actions.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/frame_numbers.h"
 #include "experiments/live/watch/watch_session.h"
 
 #include <unistd.h>
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <cstdio>
 
@@ -22,27 +24,15 @@ struct WatchOptions {
 
 volatile std::sig_atomic_t is_ended = 0;
 
-/// While it lives, Ctrl-C and SIGTERM set is_ended; the second ends the process, and with it what it started.
-class EndingSignals {
-public:
-    EndingSignals() {
-        struct sigaction end {};
-        end.sa_handler = [](int signal) {
-            if (is_ended) _exit(128 + signal);
-            is_ended = 1;
-        };
-        for (size_t i = 0; i < 2; ++i) sigaction(signals[i], &end, &before_[i]);
-    }
-    ~EndingSignals() {
-        for (size_t i = 0; i < 2; ++i) sigaction(signals[i], &before_[i], nullptr);
-    }
-    EndingSignals(const EndingSignals&) = delete;
-    EndingSignals& operator=(const EndingSignals&) = delete;
-
-private:
-    static constexpr int signals[] = {SIGINT, SIGTERM};
-    struct sigaction before_[2];
-};
+/// Sets is_ended; a second signal ends the process, and with it what it started.
+struct sigaction ending() {
+    struct sigaction end {};
+    end.sa_handler = [](int signal) {
+        if (is_ended) _exit(128 + signal);
+        is_ended = 1;
+    };
+    return end;
+}
 
 /// A scene's name, or what its path ends with, as a part of a folder's name: "hall" for "a/hall/scene.json", "room_5".
 std::string plain_name(const std::string& scene) {
@@ -66,7 +56,7 @@ static void watch_command(const WatchOptions& options, const std::vector<std::st
     constexpr size_t most_frames = 1000;
     const std::filesystem::path folder =
         std::filesystem::weakly_canonical(std::filesystem::absolute(options.folder));  // "my_ssr/", ".", a link
-    const EndingSignals signals;
+    const SignalActions signals(std::array{SIGINT, SIGTERM}, ending(), SignalActions::Ignored::too);
     WatchSession session(
         {.folder = folder,
          .preset = options.preset,

@@ -5,6 +5,7 @@
 #include "core/files.h"
 #include "core/json.h"
 #include "core/scene/load_scene.h"
+#include "core/signal_actions.h"
 #include "experiments/results/answers/answers.h"
 #include "experiments/results/cells/finished_run.h"
 #include "experiments/results/cells/host_info.h"
@@ -182,32 +183,17 @@ private:
     bool has_said_where_ = false;                             ///< the report of a study that is not done yet
 };
 
-/// While it lives Ctrl-C, and SIGTERM as batch systems send it at a job's time limit, end the program with a sentence,
-/// unless whoever started it ignores them. Nothing is lost: cells are written as a whole.
-class ExplainedInterrupt {
-public:
-    ExplainedInterrupt() {
-        struct sigaction explain {};
-        explain.sa_handler = [](int signal) {
-            constexpr char text[] = "\nstopped; the same command continues where it was\n";
-            [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text, sizeof text - 1);
-            _exit(128 + signal);
-        };
-        for (size_t i = 0; i < signals.size(); ++i) {
-            sigaction(signals[i], nullptr, &before_[i]);
-            if (before_[i].sa_handler != SIG_IGN) sigaction(signals[i], &explain, nullptr);
-        }
-    }
-    ~ExplainedInterrupt() {
-        for (size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &before_[i], nullptr);
-    }
-    ExplainedInterrupt(const ExplainedInterrupt&) = delete;
-    ExplainedInterrupt& operator=(const ExplainedInterrupt&) = delete;
-
-private:
-    static constexpr std::array signals = {SIGINT, SIGTERM};
-    std::array<struct sigaction, signals.size()> before_{};
-};
+/// The end by Ctrl-C, and by SIGTERM as batch systems send it at a job's time limit, with a sentence. Nothing is lost:
+/// cells are written as a whole.
+struct sigaction explained_end() {
+    struct sigaction explain {};
+    explain.sa_handler = [](int signal) {
+        constexpr char text[] = "\nstopped; the same command continues where it was\n";
+        [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text, sizeof text - 1);
+        _exit(128 + signal);
+    };
+    return explain;
+}
 
 Config without_ended(Config config, const std::vector<EndedPoint>& ended) {
     for (const EndedPoint& point : ended)
@@ -260,7 +246,7 @@ std::string command_line(const std::string& command, const Config& config, const
 }
 
 void run_study(const Config& asked, const RunSettings& settings) {
-    const ExplainedInterrupt explained;
+    const SignalActions explained(std::array{SIGINT, SIGTERM}, explained_end());
     const CellSelection selection(settings.cells);
     const Config config = without_ended(asked, settings.ended);
     StudySession study(config, settings);
@@ -277,5 +263,5 @@ void run_study(const Config& asked, const RunSettings& settings) {
     Runner(study, selection).run();
     if (!settings.ended.empty())
         fail_machine("the study has no results of ", listed(settings.ended),
-                     "; the same command tries again, once the shader or the driver is mended");
+                     "; the same command tries again, once the shader or the driver is corrected");
 }
