@@ -68,7 +68,11 @@ std::string page_text(const std::string& script, const std::string& body, const 
     const size_t place = frame.find(tag);
     if (place == std::string::npos) fail("a template of pages is malformed: frame.html has no ", tag);
     std::string page = filled(frame.substr(0, place));
+    const std::string end = filled(frame.substr(place + tag.size()));
+    size_t bytes = page.size() + end.size();
+    for (const PageElement& e : elements) bytes += e.text.size() + 200;
+    page.reserve(bytes);
     for (const PageElement& e : elements)
-        page += "<script type=\"" + e.type + "\" id=\"" + e.id + "\">" + e.text + "</script>\n";
-    return page + filled(frame.substr(place + tag.size()));
+        page.append("<script type=\"" + e.type + "\" id=\"" + e.id + "\">").append(e.text).append("</script>\n");
+    return page.append(end);
 }

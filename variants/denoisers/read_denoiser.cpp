@@ -38,7 +38,7 @@ void take_passes(json& denoiser, const std::string& where) {
         }
         const size_t before = passes.size();
         for (const json& one : base["passes"])
-            if (stage_of(one) == pass) passes.push_back(one);
+            if (pass == stage_of(one)) passes.push_back(one);
         if (passes.size() == before) fail(where, ": '", technique, "' has no pass ", shown(pass));
     }
     denoiser["passes"] = passes;

@@ -67,7 +67,7 @@ std::map<std::string, std::vector<json>> values_that_matter(const Declaration& d
         } else if (initial.is_string()) {
             values[name] = {initial};
             for (const std::string& choice : parameter->choices)
-                if (choice != initial) values[name].push_back(choice);
+                if (initial != choice) values[name].push_back(choice);
         } else {
             values[name] = sides_of(compared, initial, parameter);
         }

@@ -57,11 +57,9 @@ std::string csv_header() {
 }
 
 template <class Row>
-std::string csv_row(const Row& row) {
-    std::string line;
-    for_each_column<Row>([&](const auto& column) { line += csv_field(row.*column.member) + ","; });
-    line.back() = '\n';
-    return line;
+void append_csv_row(std::string& text, const Row& row) {
+    for_each_column<Row>([&](const auto& column) { (text += csv_field(row.*column.member)) += ','; });
+    text.back() = '\n';
 }
 
 /// Writes a table with its header; the header alone if there are no rows.
@@ -69,7 +67,7 @@ template <class Rows>
 void write_rows(const std::filesystem::path& file, const Rows& rows) {
     using Row = std::remove_cvref_t<decltype(*std::begin(rows))>;
     std::string text = csv_header<Row>();
-    for (const Row& row : rows) text += csv_row(row);
+    for (const Row& row : rows) append_csv_row(text, row);
     write_text(file, text);
 }
 
@@ -92,6 +90,7 @@ std::vector<Row> read_rows(const std::filesystem::path& file) {
     CsvReader csv(file);
     std::vector<size_t> places;
     for_each_column<Row>([&](const auto& column) { places.push_back(csv.place(column.name)); });
+    rows.reserve(csv.most_records());
     while (csv.next()) {
         Row& row = rows.emplace_back();
         auto place = places.begin();

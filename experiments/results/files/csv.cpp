@@ -43,6 +43,11 @@ bool CsvReader::next() {
     return true;
 }
 
+size_t CsvReader::most_records() const {
+    const auto lines = size_t(std::ranges::count(content_, '\n'));
+    return std::min(lines, content_.size() / columns_.size());  // a record has a separator or line feed a column
+}
+
 bool CsvReader::read_record() {
     if (at_ == content_.size()) return false;
     read_fields();

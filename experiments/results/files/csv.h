@@ -13,7 +13,8 @@ class CsvReader {
 public:
     explicit CsvReader(std::filesystem::path file);
 
-    bool next();  ///< false at the end of the file
+    bool next();                  ///< false at the end of the file
+    size_t most_records() const;  ///< not fewer than the file has, without its header
 
     /// A column of the file, for the functions below: who reads many rows looks it up once.
     size_t place(const std::string& column) const;

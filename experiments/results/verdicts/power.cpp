@@ -30,12 +30,14 @@ struct NamedRatio {
 
 std::optional<VisibleDifference> visible_of_pairs(const std::vector<NamedRatio>& pairs, size_t comparisons) {
     if (pairs.empty()) return {};
-    std::map<double, double> effects;  // by degrees of freedom, of which a study has few
+    // By degrees of freedom and level, of which a study has few, whatever the number of its shots.
+    thread_local std::map<std::pair<double, double>, double> effects;
     std::vector<double> seen;
     VisibleDifference visible{.comparisons = comparisons};
+    const double level = adjusted_level(comparisons);
     for (const NamedRatio& pair : pairs) {
-        const auto [found, is_new] = effects.try_emplace(pair.ratio.degrees);
-        if (is_new) found->second = effects_seen(pair.ratio.degrees, adjusted_level(comparisons));
+        const auto [found, is_new] = effects.try_emplace({pair.ratio.degrees, level});
+        if (is_new) found->second = effects_seen(pair.ratio.degrees, level);
         seen.push_back(std::expm1(found->second * pair.ratio.standard_error()));
         if (seen.back() >= visible.largest) visible.largest = seen.back(), visible.of_largest = pair.name;
     }

@@ -342,9 +342,9 @@ TEST(StabilityResults, ComeBackAsTheyWereWritten) {
     write_rows(folder / "stability_stages.csv", stage_rows({row}, true));
     const StabilityResults tables = read_stability_results(folder);
     ASSERT_EQ(tables.rows.size(), 1u);
-    EXPECT_EQ(csv_row(tables.rows[0]), csv_row(row));
+    EXPECT_EQ(row_json(tables.rows[0]), row_json(row));
     EXPECT_EQ(tables.rows[0].verdict, Verdict::spreads);
-    EXPECT_EQ(csv_row(tables.cases.at(0)), csv_row(what));
+    EXPECT_EQ(row_json(tables.cases.at(0)), row_json(what));
     ASSERT_EQ(tables.stages.size(), 2u);
     EXPECT_EQ(stage_failures(tables).size(), 1u) << "where all is finite nothing fails";
     EXPECT_EQ(stage_rows({row}, false).size(), 1u);
