@@ -12,8 +12,8 @@
 #include "tests/fuzz/targets.h"
 
 #include <zlib.h>
+#include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <fstream>
 
 namespace fs = std::filesystem;
@@ -54,7 +54,7 @@ void correct_checksums(const fs::path& file) {
 void read_spirv(const fs::path& file) {
     const std::string bytes = read_text(file);
     std::vector<unsigned> words(bytes.size() / sizeof(unsigned));
-    std::memcpy(words.data(), bytes.data(), words.size() * sizeof(unsigned));
+    std::copy_n(bytes.data(), words.size() * sizeof(unsigned), reinterpret_cast<char*>(words.data()));
     for (const std::string& name : foreign_capabilities(words)) fail(name);
 }
 

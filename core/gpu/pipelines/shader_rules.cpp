@@ -3,14 +3,14 @@
 #include <SPIRV/doc.h>
 #include <SPIRV/spirv.hpp>
 #include <algorithm>
-#include <array>
 #include <cstring>
+#include <iterator>
 
 namespace {
 
 /// What needed_features() and Vulkan 1.3 have; Float16 and Float64 where the device has them. Subgroups: all that one
 /// operation needs, since a device says which it has.
-constexpr std::array allowed = {
+constexpr unsigned allowed[] = {
     spv::CapabilityShader,
     spv::CapabilityMatrix,
     spv::CapabilityFloat16,
@@ -43,7 +43,7 @@ std::vector<std::string> foreign_capabilities(std::span<const unsigned> spirv) {
             found.push_back("an instruction without its words");
             break;
         }
-        if (op == spv::OpCapability && std::ranges::find(allowed, spv::Capability(rest[1])) == allowed.end())
+        if (op == spv::OpCapability && std::ranges::find(allowed, rest[1]) == std::end(allowed))
             found.push_back(spv::CapabilityString(int(rest[1])));
         if (op == spv::OpExtension) {
             const char* const name = reinterpret_cast<const char*>(&rest[1]);
