@@ -119,6 +119,10 @@ void add_reference(Commands& line) {
            "Largest number of samples per pixel, rounded up to 16 x 2^k; default: " +
                std::to_string(ReferenceSettings::default_samples) + ", or no limit with --seconds or --target")
         ->check(CLI::Range(16, 1 << 24));
+    option(command, "--adaptive-share", reference.settings.adaptive_share,
+           "Further samples, as a share of --samples on average over the image, for the pixels whose noise decides the "
+           "interval of mse, for example 0.25; not with --seconds or --target")
+        ->check(real_in(0, ReferenceSettings::most_adaptive_share, "a number from 0 to 8"));
     option(command, "--lit-samples", reference.settings.lit_samples,
            "Largest number of these samples that also trace diffuse light. The others trace specular light only. "
            "Default: all")

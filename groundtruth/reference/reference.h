@@ -86,7 +86,7 @@ struct Reference {
     /// nothing.
     float reached_share = 1.0f;
     /// Samples per pixel of each pass, "256+256+512". With a target: the samples that all pixels got, then the most
-    /// that a pixel had after each pass, "256, to 1024, to 4096".
+    /// that a pixel had after each pass, "256, to 1024, to 4096"; the same for the last pass with an adaptive share.
     std::string passes;
     std::string stream;       ///< hash of all that decides the samples and their values
     std::string hash;         ///< the key of the cache: stream and stop rule
@@ -106,12 +106,17 @@ struct Reference {
 /// time limit is kept within 5 %, if necessary by leaving pixels out of the last pass.
 struct ReferenceSettings {
     static constexpr unsigned default_samples = 256;
+    static constexpr float most_adaptive_share = 8;
 
     /// Per pixel, at most; rounded up to 16 * 2^k <= 2^24. 0: no such limit, or default_samples if there is no other.
     unsigned max_samples = 0;
     /// Per pixel of `diffuse`, at most, rounded up as max_samples. Techniques read `diffuse`, but are judged by the
     /// specular light: further samples trace that alone. 0: as many as for the specular light.
     unsigned lit_samples = 0;
+    /// Further samples, as a share of `max_samples` on average over the image, for the pixels that decide the noise of
+    /// an MSE (adaptive_samples.h), at most most_adaptive_share. Not with a time limit or a target, nor of the lit
+    /// colour alone.
+    float adaptive_share = 0;
     /// Wall clock, over all continued runs, without the guide's; 0: unlimited. At least one pass of 16 is made.
     double max_seconds = 0;
     float target_relative_error =
@@ -165,7 +170,7 @@ std::string reference_request(const Scene& scene, const ScenePose& pose, const C
 std::string reference_stream(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,
                              const ReferenceSettings& settings);
 
-/// `stream` and the stop rule: "<32 hex digits>-n1024", "...-n65536-e0.03-t600".
+/// `stream` and the stop rule: "<32 hex digits>-n1024", "...-n128-a0.25", "...-n65536-e0.03-t600".
 std::string reference_key(const std::string& stream, const ReferenceSettings& settings);
 
 /// The limits in a key, if the key belongs to `stream`. Settings that decide no stop have their defaults.

@@ -82,6 +82,7 @@ std::map<std::string, std::string> attributes(const Reference& reference, const 
         {"ssrlab.non_finite_samples", shortest_digits(reference.non_finite_samples)},
         {"ssrlab.reached_share", shortest_digits(reference.reached_share)},
         {"ssrlab.max_samples", shortest_digits(settings.max_samples)},
+        {"ssrlab.adaptive_share", shortest_digits(settings.adaptive_share)},
         {"ssrlab.max_seconds", shortest_digits(settings.max_seconds)},
         {"ssrlab.target_relative_error", shortest_digits(settings.target_relative_error)},
         {"ssrlab.max_depth", shortest_digits(settings.max_depth)},
@@ -203,6 +204,7 @@ ReferenceState read_reference_state(const std::filesystem::path& file) {
     header.read("non_finite_samples", reference.non_finite_samples);
     header.read("reached_share", reference.reached_share);
     header.read("max_samples", state.settings.max_samples);
+    header.read("adaptive_share", state.settings.adaptive_share);
     header.read("max_seconds", state.settings.max_seconds);
     header.read("target_relative_error", state.settings.target_relative_error);
     header.read("max_depth", state.settings.max_depth);

@@ -8,7 +8,7 @@ struct ReferenceState {
     HostImage sample_goal;  ///< one channel: sample_count at the end of the pass under way
     /// Samples of the pixels with the most of them, at the end of the pass under way.
     uint64_t level = 0;
-    HostImage guide_variance;  ///< RGB, of reference.guide.specular; only with a target
+    HostImage guide_variance;  ///< RGB, of reference.guide.specular; only with a target or an adaptive share
     // For a render with a target, once its pixels have different goals:
     HostImage earlier;  ///< two channels: before each pixel's last pass, sample_count and the variance of `specular`
     HostImage rays_per_sample;  ///< one channel, of each pixel's last pass; only with a time limit

@@ -106,6 +106,59 @@ TEST_F(References, StoppedByTheirErrorAreUnbiased) {
     EXPECT_GT(stopped.reached_share, 0.8f);
 }
 
+TEST_F(References, WithAnAdaptiveShareHaveTheBitsOfTheirKey) {
+    const ReferenceSettings settings{.max_samples = 256, .lit_samples = 64, .adaptive_share = 0.5f, .seed = 1};
+    const Reference whole = render(settings);
+    EXPECT_GT(std::ranges::max(whole.sample_count.values), 256.0f);
+    EXPECT_EQ(std::ranges::min(whole.sample_count.values), 256.0f);
+    EXPECT_EQ(reference_key("s", settings), "s-n256-a0.5");
+    EXPECT_EQ(settings_of_key("s", "s-n256-a0.5")->adaptive_share, 0.5f);
+    const auto expect_same = [&](const Reference& other, const char* what) {
+        EXPECT_EQ(other.specular.mean.values, whole.specular.mean.values) << what;
+        EXPECT_EQ(other.image.variance.values, whole.image.variance.values) << what;
+        EXPECT_EQ(other.sample_count.values, whole.sample_count.values) << what;
+    };
+    Reference one;
+    tbb::task_arena(1).execute([&] { one = render(settings); });
+    expect_same(one, "one thread");
+
+    struct Stop {};
+    ReferenceRun run;
+    fs::create_directories(folder);
+    run.state_file = folder / "state.exr";
+    run.seconds_between_reports = run.seconds_between_saves = 0;
+    const double uniform_share = 256 * double(whole.sample_count.pixel_count()) / [&] {
+        double sum = 0;
+        for (const float samples : whole.sample_count.values) sum += samples;
+        return sum;
+    }();
+    run.progress = [&, reports = 0](double fraction, double, double) mutable {
+        if (fraction > uniform_share && fraction < 1 && ++reports > 2) throw Stop{};
+    };
+    // The pass of all pixels reports up to 1 as well, and ends; the second one is stopped.
+    EXPECT_THROW(render(settings, run), Stop);
+    run.progress = {};
+    expect_same(render(settings, run), "stopped and continued");
+
+    const auto cached = [&](const ReferenceSettings& wanted) {
+        return cached_reference(scene, pose, camera, extent, wanted, folder);
+    };
+    ReferenceSettings plain = settings;
+    plain.adaptive_share = 0;
+    cached(plain);
+    expect_same(cached(settings), "samples added to a file");
+    EXPECT_TRUE(cached(settings).from_cache);
+    plain.max_samples = 512;
+    EXPECT_EQ(cached(plain).specular.mean.values, render(plain).specular.mean.values) << "nothing is added to it";
+
+    for (ReferenceSettings wrong : {ReferenceSettings{.adaptive_share = -1},
+                                    {.adaptive_share = 9},
+                                    {.adaptive_share = 0.5f, .max_seconds = 1},
+                                    {.adaptive_share = 0.5f, .target_relative_error = 0.1f},
+                                    {.adaptive_share = 0.5f, .lit_only = true}})
+        EXPECT_THROW(render(wrong), Error);
+}
+
 TEST_F(References, AreNotStoppedByALimitThatNobodySet) {
     EXPECT_EQ(reference_key("s", {}), "s-n256");
     EXPECT_EQ(reference_key("s", {.max_seconds = 2}), "s-n16777216-t2");

@@ -1,7 +1,8 @@
 // What the path tracer gains by what it learns, and what a reference costs: variance of the specular light times rays,
 // and times processor time, with each thing that is learnt over neither (`learning`), and the rays of a reference whose
 // median pixel has an error of 3 % (`rays_to_3_percent`). `truth_benchmark --table` prints the first as a table of
-// groundtruth/measurements.md. Scenes are found as by `ssrlab`; what is nowhere is left out with a note.
+// groundtruth/measurements.md, and `--adaptive-table` what samples for the noisiest pixels gain. Scenes are found as by
+// `ssrlab`; what is nowhere is left out with a note.
 #include "core/error.h"
 #include "core/scene/load_scene.h"
 #include "groundtruth/paths/path_tracer.h"
@@ -129,7 +130,7 @@ struct Ratio {
 };
 
 /// Geometric mean over the seeds with its 95 % interval (Student's t of the logarithms).
-template <class Cost>
+template <class Spent, class Cost>
 Ratio ratio_of(const std::vector<Spent>& with, const std::vector<Spent>& without, Cost cost) {
     double sum = 0, squares = 0;
     for (unsigned i = 0; i < seeds; ++i) {
@@ -201,6 +202,54 @@ std::string text_of(const Ratio& ratio) {
     return text;
 }
 
+/// What a reference has and costs, as rooms are judged in studies.
+struct Noise {
+    double mse = 0, relmse = 0, rays = 0;  ///< the first two: variances of pixels, of their radiance and relative to it
+};
+
+Noise noise_of(const Reference& r) {
+    Noise noise{.rays = r.rays};
+    const double least = floor_share / relative_error_floor * radiance_floor(r, r.specular);
+    for (size_t i = 0; i < r.specular.mean.pixel_count(); ++i) {
+        const glm::dvec3 variance = r.specular.variance.rgb(i);
+        const double sum = variance.x + variance.y + variance.z;
+        noise.mse += sum;
+        noise.relmse += sum / std::pow(std::max(luminance_of(r.guide.specular.rgb(i)), least), 2);
+    }
+    return noise;
+}
+
+/// Noise times rays with an adaptive share of 1/4 over the same without one.
+int print_adaptive_table() {
+    std::printf("| Scene | noise of `mse` | noise of `relmse` | rays |\n|---|---|---|---|\n");
+    constexpr const char* more_rooms[] = {"room:10001", "room:10007", "street:10004"};
+    std::vector<const char*> names(std::begin(scene_names), std::end(scene_names));
+    names.insert(names.end(), std::begin(more_rooms), std::end(more_rooms));
+    for (const char* name : names) try {
+            const Scene scene = load_scene(name, scene_search_path());
+            const ScenePose pose = pose_scene(scene, 0);
+            const CameraPose camera = pose_camera(scene.cameras.front(), pose, 0);
+            std::vector<Noise> with, without;
+            for (unsigned seed = 1; seed <= seeds; ++seed)
+                for (const float share : {0.0f, 0.25f})
+                    (share > 0 ? with : without)
+                        .push_back(noise_of(render_reference(scene, pose, camera, {192, 108},
+                                                             {.max_samples = 128,
+                                                              .lit_samples = 32,
+                                                              .adaptive_share = share,
+                                                              .seed = seed,
+                                                              .guide_samples = few_guide_samples})));
+            std::printf("| `%s` | %s | %s | %s |\n", name,
+                        text_of(ratio_of(with, without, [](const Noise& n) { return n.mse * n.rays; })).c_str(),
+                        text_of(ratio_of(with, without, [](const Noise& n) { return n.relmse * n.rays; })).c_str(),
+                        text_of(ratio_of(with, without, [](const Noise& n) { return n.rays; })).c_str());
+            std::fflush(stdout);
+        } catch (const Error& error) {
+            std::fprintf(stderr, "%s is left out: %s\n", name, error.what());
+        }
+    return 0;
+}
+
 int print_table() {
     const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
     std::printf(
@@ -226,6 +275,7 @@ int print_table() {
 
 int main(int argc, char** argv) {
     if (argc == 2 && std::strcmp(argv[1], "--table") == 0) return print_table();
+    if (argc == 2 && std::strcmp(argv[1], "--adaptive-table") == 0) return print_adaptive_table();
     for (const char* scene : scene_names)
         for (size_t i = 1; i < std::size(learnt); ++i)
             benchmark::RegisterBenchmark((std::string("learning/") + scene + "/" + learnt[i].name).c_str(),

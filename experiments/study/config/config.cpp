@@ -36,6 +36,10 @@ Keys reference_keys() {
              otherwise(std::to_string(ReferenceSettings::default_samples) +
                        "; no limit if `seconds` or `target_relative_error` is set"),
              "Largest number of samples per pixel, rounded up to 16 x 2^k"},
+            {"adaptive_share", number(0, ReferenceSettings::most_adaptive_share), plain.adaptive_share,
+             "Further samples of a frame that is compared with the truth, as a share of `samples` on average over the "
+             "image. They go to the pixels whose noise decides the interval of `mse`. 0.25 is a good value; not with "
+             "`seconds` or `target_relative_error`"},
             {"lit_samples", whole(16, 1 << 24),
              otherwise("`samples`; at most " + std::to_string(ReferenceSettings::default_samples) +
                        " for frames without other samples and with `target_relative_error`"),
@@ -176,6 +180,7 @@ void read_reference(ConfigObject& study, Config& config) {
     ReferenceSettings& settings = config.reference;
     if (object.has("samples")) settings.max_samples = object.get<unsigned>("samples");
     if (object.has("lit_samples")) settings.lit_samples = object.get<unsigned>("lit_samples");
+    settings.adaptive_share = object.get<float>("adaptive_share");
     config.measures_lit_noise = object.get<bool>("lit_noise");
     config.filters_lit = object.get<bool>("lit_filter");
     settings.guide_samples = object.get<unsigned>("guide_samples");

@@ -86,6 +86,7 @@ ReferenceSettings settings_of(const Config& config, ReferenceUse use, bool keep_
     settings.ladder = use.is_of_last && needs_ladder(config);
     if (use.is_compared) return settings;
     settings.lit_only = true;
+    settings.adaptive_share = 0;
     const bool has_target = std::exchange(settings.target_relative_error, 0.0f) > 0;
     if (const unsigned lit = std::exchange(settings.lit_samples, 0u); lit > 0)
         settings.max_samples = lit;

@@ -313,7 +313,8 @@ private:
         // How many samples an error takes is not known: then those that a reference has by default.
         const unsigned of_specular = samples > 0 ? samples : ReferenceSettings::default_samples;
         const unsigned of_both = settings.lit_samples > 0 ? std::min(settings.lit_samples, of_specular) : of_specular;
-        const double traced = rates_.per_sample * pixels * (of_both + specular_share * (of_specular - of_both));
+        const double of_specular_alone = of_specular * (1.0 + settings.adaptive_share) - of_both;
+        const double traced = rates_.per_sample * pixels * (of_both + specular_share * of_specular_alone);
         return seconds > 0 ? std::min(traced, double(seconds)) : traced;
     }
 

@@ -1,0 +1,77 @@
+#include "groundtruth/reference/adaptive_samples.h"
+
+#include "groundtruth/reference/reference_pixel.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace {
+
+/// The guide has few samples: a pixel's own variance, and the means in windows around it. Shares and radii hardly
+/// matter: others move the sum of variances by a tenth.
+struct Window {
+    int radius;  ///< pixels
+    double weight;
+};
+constexpr Window windows[] = {{0, 0.25}, {1, 0.5}, {3, 0.25}};
+
+constexpr double most_growth = 64;  ///< of a pixel's samples: keeps a wrong estimate affordable
+
+double mean_in_window(const HostImage& variance, const HostImage& material_id, glm::ivec2 at, int radius) {
+    const glm::ivec2 extent(variance.extent);
+    double sum = 0, count = 0;
+    for (int y = std::max(at.y - radius, 0); y <= std::min(at.y + radius, extent.y - 1); ++y)
+        for (int x = std::max(at.x - radius, 0); x <= std::min(at.x + radius, extent.x - 1); ++x) {
+            if (*material_id.pixel(unsigned(x), unsigned(y)) == 0) continue;
+            const glm::vec3 v = variance.rgb(size_t(y) * size_t(extent.x) + size_t(x));
+            sum += double(v.x) + double(v.y) + double(v.z), ++count;
+        }
+    return count > 0 ? sum / (3 * count) : 0;
+}
+
+std::vector<double> deviations(const HostImage& variance, const HostImage& material_id) {
+    std::vector<double> deviations(variance.pixel_count());
+    for (size_t i = 0; i < deviations.size(); ++i) {
+        if (material_id.values[i] == 0) continue;
+        double smooth = 0;
+        for (const Window& window : windows)
+            smooth +=
+                window.weight * mean_in_window(variance, material_id,
+                                               {int(i % variance.extent.x), int(i / variance.extent.x)}, window.radius);
+        deviations[i] = std::sqrt(smooth);
+    }
+    return deviations;
+}
+
+/// What a pixel gets if `wanted` samples are best, in batches of a power of two.
+double extra_samples(double wanted, double uniform) {
+    const double extra = std::min(wanted, most_growth * uniform) - uniform;
+    return extra < batch_count ? 0 : double(batch_count * std::bit_floor(uint64_t(extra / batch_count)));
+}
+
+}  // namespace
+
+HostImage adaptive_samples(const HostImage& guide_variance, const HostImage& material_id, uint64_t uniform,
+                           double share) {
+    const std::vector<double> deviation = deviations(guide_variance, material_id);
+    const auto surfaces = double(std::ranges::count_if(material_id.values, [](float id) { return id != 0; }));
+    const double budget = share * double(uniform) * surfaces, largest = std::ranges::max(deviation);
+    HostImage extra(guide_variance.extent, 1);
+    if (!(largest > 0)) return extra;
+
+    const auto sum_at = [&](double samples_per_deviation) {
+        double sum = 0;
+        for (const double d : deviation) sum += extra_samples(samples_per_deviation * d, double(uniform));
+        return sum;
+    };
+    constexpr int steps = 48;
+    double low = 0, high = most_growth * double(uniform) * double(deviation.size()) / largest;
+    for (int step = 0; step < steps; ++step) {
+        const double middle = 0.5 * (low + high);
+        (sum_at(middle) <= budget ? low : high) = middle;
+    }
+    for (size_t i = 0; i < deviation.size(); ++i)
+        extra.values[i] = float(extra_samples(low * deviation[i], double(uniform)));
+    return extra;
+}
