@@ -137,6 +137,8 @@ void add_reference(Commands& line) {
     option(command, "--target", reference.settings.target_relative_error,
            "Relative standard error of the specular light at a pixel at which the render stops, for example 0.03")
         ->check(real_in(1e-4, 1, "a number from 0.0001 to 1"));
+    for (const char* other : {"--seconds", "--target"})
+        command.get_option("--adaptive-share")->excludes(command.get_option(other));
     option(command, "--max-depth", reference.settings.max_depth,
            "Largest number of reflections of a path; the camera ray does not count")
         ->check(CLI::Range(1, 1024))

@@ -186,6 +186,9 @@ void read_reference(ConfigObject& study, Config& config) {
     settings.guide_samples = object.get<unsigned>("guide_samples");
     settings.max_seconds = object.get<float>("seconds");
     settings.target_relative_error = object.get<float>("target_relative_error");
+    if (settings.adaptive_share > 0 && (settings.max_seconds > 0 || settings.target_relative_error > 0))
+        fail(object.at("adaptive_share"),
+             ": 'adaptive_share' adds to a fixed number of samples; leave out 'seconds' and 'target_relative_error'");
     settings.max_depth = object.get<unsigned>("max_depth");
     settings.seed = object.get<unsigned>("seed");
     object.finish();
