@@ -8,8 +8,8 @@
 
 namespace {
 
-/// The guide has few samples: a pixel's own variance, and the means in windows around it. Shares and radii hardly
-/// matter: others move the sum of variances by a tenth.
+/// The guide has few samples. A pixel's own variance alone misses bright paths that the guide did not meet, and wide
+/// windows alone spread the samples of a thin reflection.
 struct Window {
     int radius;  ///< pixels
     double weight;
