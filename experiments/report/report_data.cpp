@@ -8,7 +8,6 @@
 #include "metrics/temporal.h"
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <ranges>
 #include <set>
@@ -39,17 +38,6 @@ constexpr bool is_text<std::string Row::*> = true;
 template <class Row>
 constexpr bool is_text<std::string Row::*const> = true;
 
-/// A number of the page, which draws it or shows four digits. Seven take half of the space of all: browsers read the
-/// page of 400 shots in 1.8 s in place of 2.5 s. The files of tables have all digits.
-json page_number(const json& value) {
-    if (!value.is_number_float()) return value;
-    char digits[32];
-    const auto end = std::to_chars(digits, std::end(digits), value.get<double>(), std::chars_format::general, 7).ptr;
-    double rounded = 0;
-    std::from_chars(digits, end, rounded);
-    return rounded;
-}
-
 /// Equal values as one of them.
 json column_values(json::array_t values) {
     const bool are_equal =
@@ -71,7 +59,7 @@ json table(const Rows& rows, Texts& code, std::span<const std::string_view> unre
             if constexpr (is_text<decltype(column.member)>)
                 values.push_back(code(value));
             else
-                values.push_back(page_number(column_json(value)));
+                values.push_back(column_json(value));
         }
         columns[column.name] = column_values(std::move(values));
     });
@@ -90,7 +78,7 @@ json error_table(const Errors& errors, Texts& code) {
     json::array_t badness;
     for (const MetricSummary& e : errors) {
         const std::optional<Better> better = direction_of(e.metric);
-        badness.push_back(better && e.value ? page_number(shortfall(*better, *e.value)) : json());
+        badness.push_back(better && e.value ? json(shortfall(*better, *e.value)) : json());
     }
     all["columns"]["badness"] = column_values(std::move(badness));
     return all;
@@ -121,7 +109,7 @@ json cost_table(const std::vector<CostRow>& costs, Texts& code) {
             for (size_t i = 0; i < key.size(); ++i) values[texts[i]].push_back(key[i]);
             for (const CostQuantity& quantity : cost_quantities) values[quantity.name].push_back(0);
         }
-        if (values.contains(row.quantity)) values[row.quantity][at->second] = page_number(row.value);
+        if (values.contains(row.quantity)) values[row.quantity][at->second] = row.value;
     }
     json columns = json::object();
     for (auto& [name, column] : values) columns[name] = column_values(std::move(column));

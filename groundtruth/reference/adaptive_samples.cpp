@@ -1,6 +1,7 @@
 #include "groundtruth/reference/adaptive_samples.h"
 
 #include "groundtruth/reference/reference_pixel.h"
+#include "groundtruth/reference/reference_stopping.h"
 
 #include <algorithm>
 #include <bit>
@@ -46,7 +47,7 @@ std::vector<double> deviations(const HostImage& variance, const HostImage& mater
 
 /// What a pixel gets if `wanted` samples are best, in batches of a power of two.
 double extra_samples(double wanted, double uniform) {
-    const double extra = std::min(wanted, most_growth * uniform) - uniform;
+    const double extra = std::min({wanted, most_growth * uniform, double(max_sample_limit)}) - uniform;
     return extra < batch_count ? 0 : double(batch_count * std::bit_floor(uint64_t(extra / batch_count)));
 }
 

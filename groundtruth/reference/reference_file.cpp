@@ -204,7 +204,8 @@ ReferenceState read_reference_state(const std::filesystem::path& file) {
     header.read("non_finite_samples", reference.non_finite_samples);
     header.read("reached_share", reference.reached_share);
     header.read("max_samples", state.settings.max_samples);
-    header.read("adaptive_share", state.settings.adaptive_share);
+    if (layers.attributes.contains("ssrlab.adaptive_share"))
+        header.read("adaptive_share", state.settings.adaptive_share);
     header.read("max_seconds", state.settings.max_seconds);
     header.read("target_relative_error", state.settings.target_relative_error);
     header.read("max_depth", state.settings.max_depth);

@@ -73,6 +73,12 @@ TEST(AdaptiveSamples, AreAlikeForPixelsThatAreAlike) {
     EXPECT_EQ(sum_of(adaptive_samples(HostImage(extent, 3, 1.0f), sky, uniform, 1)), 0) << "no surface";
 }
 
+TEST(AdaptiveSamples, AreNoMoreThanCountsHoldExactly) {
+    const HostImage materials(extent, 1, 1.0f),
+        extra = adaptive_samples(block_of_noise(1000), materials, max_sample_limit / 2, 8);
+    EXPECT_EQ(std::ranges::max(extra.values), float(max_sample_limit / 2));
+}
+
 TEST(AdaptiveSamples, BringNoBias) {
     // One path in 200 carries half of the light of a pixel, whose mean is 1; the guide of 64 paths sees none in 3 of 4
     // pixels. If a pixel's own samples decided, those that met bright paths would get more, which are then diluted: the

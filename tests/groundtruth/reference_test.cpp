@@ -396,6 +396,15 @@ TEST_F(References, WithFewGuideSamplesAreUnbiased) {
     EXPECT_THROW(render({.max_samples = 16, .guide_samples = 0}), Error);
 }
 
+TEST_F(References, OfVersionsWithoutAnAdaptiveShareHaveNone) {
+    Reference r = render(samples(16));
+    write_reference(folder / "new.exr", r, samples(16));
+    LayeredImage layers = read_exr(folder / "new.exr");
+    EXPECT_EQ(layers.attributes.erase("ssrlab.adaptive_share"), 1u);
+    write_exr(folder / "old.exr", layers);
+    EXPECT_EQ(read_reference_state(folder / "old.exr").settings.adaptive_share, 0);
+}
+
 TEST_F(References, WithoutAGuideSayWhatToDo) {
     Reference r = render(samples(16));
     write_reference(folder / "new.exr", r, samples(16));
