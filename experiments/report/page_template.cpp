@@ -70,7 +70,7 @@ std::string page_text(const std::string& script, const std::string& body, const 
     std::string page = filled(frame.substr(0, place));
     const std::string end = filled(frame.substr(place + tag.size()));
     size_t bytes = page.size() + end.size();
-    for (const PageElement& e : elements) bytes += e.text.size() + 200;
+    for (const PageElement& e : elements) bytes += e.text.size() + 200;  // with room for its tags
     page.reserve(bytes);
     for (const PageElement& e : elements)
         page.append("<script type=\"" + e.type + "\" id=\"" + e.id + "\">").append(e.text).append("</script>\n");

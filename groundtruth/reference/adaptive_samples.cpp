@@ -19,29 +19,31 @@ constexpr Window windows[] = {{0, 0.25}, {1, 0.5}, {3, 0.25}};
 
 constexpr double most_growth = 64;  ///< of a pixel's samples: keeps a wrong estimate affordable
 
+/// Of `variance` (one channel), over the pixels with a surface.
 double mean_in_window(const HostImage& variance, const HostImage& material_id, glm::ivec2 at, int radius) {
     const glm::ivec2 extent(variance.extent);
     double sum = 0, count = 0;
     for (int y = std::max(at.y - radius, 0); y <= std::min(at.y + radius, extent.y - 1); ++y)
-        for (int x = std::max(at.x - radius, 0); x <= std::min(at.x + radius, extent.x - 1); ++x) {
-            if (*material_id.pixel(unsigned(x), unsigned(y)) == 0) continue;
-            const glm::vec3 v = variance.rgb(size_t(y) * size_t(extent.x) + size_t(x));
-            sum += double(v.x) + double(v.y) + double(v.z), ++count;
-        }
-    return count > 0 ? sum / (3 * count) : 0;
+        for (int x = std::max(at.x - radius, 0); x <= std::min(at.x + radius, extent.x - 1); ++x)
+            if (*material_id.pixel(unsigned(x), unsigned(y)) != 0)
+                sum += double(*variance.pixel(unsigned(x), unsigned(y))), ++count;
+    return count > 0 ? sum / count : 0;
 }
 
-std::vector<double> deviations(const HostImage& variance, const HostImage& material_id) {
-    std::vector<double> deviations(variance.pixel_count());
-    for (size_t i = 0; i < deviations.size(); ++i) {
-        if (material_id.values[i] == 0) continue;
-        double smooth = 0;
-        for (const Window& window : windows)
-            smooth +=
-                window.weight * mean_in_window(variance, material_id,
-                                               {int(i % variance.extent.x), int(i / variance.extent.x)}, window.radius);
-        deviations[i] = std::sqrt(smooth);
-    }
+/// Of the mean over RGB; 0 where there is no surface.
+std::vector<double> deviations(const HostImage& guide_variance, const HostImage& material_id) {
+    HostImage variance(guide_variance.extent, 1);
+    for (size_t i = 0; i < variance.values.size(); ++i)
+        variance.values[i] = glm::dot(guide_variance.rgb(i), glm::vec3(1.0f / 3));
+    std::vector<double> deviations(variance.values.size());
+    for (unsigned y = 0; y < variance.extent.y; ++y)
+        for (unsigned x = 0; x < variance.extent.x; ++x) {
+            if (*material_id.pixel(x, y) == 0) continue;
+            double smooth = 0;
+            for (const auto& [radius, weight] : windows)
+                smooth += weight * mean_in_window(variance, material_id, {x, y}, radius);
+            deviations[y * variance.extent.x + x] = std::sqrt(smooth);
+        }
     return deviations;
 }
 

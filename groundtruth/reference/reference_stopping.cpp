@@ -51,6 +51,12 @@ Limits uniform_limit(const ReferenceSettings& settings) {
     return {std::min(uniform_samples, samples), settings.max_seconds * uniform_share_of_time};
 }
 
+/// Samples of all pixels at the end of a render without a target, if each has a surface.
+double expected_samples(const ReferenceState& state) {
+    return double(uniform_limit(state.settings).samples) * (1.0 + double(state.settings.adaptive_share)) *
+           double(state.reference.sample_count.pixel_count());
+}
+
 /// False if nothing is left to do.
 bool plan_uniform_pass(ReferenceState& state, RenderClock& clock, Limits limit) {
     Reference& reference = state.reference;
@@ -59,7 +65,7 @@ bool plan_uniform_pass(ReferenceState& state, RenderClock& clock, Limits limit) 
     state.level += samples;
     state.sample_goal = HostImage(reference.extent, 1, float(state.level));
     reference.passes += (reference.passes.empty() ? "" : "+") + std::to_string(samples);
-    clock.all_samples = double(limit.samples) * double(reference.sample_count.pixel_count());
+    clock.all_samples = expected_samples(state);
     clock.time_limit = limit.seconds;
     clock.cuts_pass = false;
     return true;
@@ -130,7 +136,7 @@ void spend_time_left(const ReferenceState& state, HostImage& needed, Limits limi
 
 /// The next pass of a render with a target: pixels below the level that need more go up to it, or to what they need. So
 /// where time ends first, those that need most have had as many samples as a uniform render would have given them.
-bool plan_adaptive_pass(ReferenceState& state, RenderClock& clock, Limits limit) {
+bool plan_target_pass(ReferenceState& state, RenderClock& clock, Limits limit) {
     Reference& reference = state.reference;
     HostImage needed = needed_samples(state);
     if (limit.seconds > 0) spend_time_left(state, needed, limit);
@@ -186,12 +192,12 @@ bool plan_extra_pass(ReferenceState& state, RenderClock& clock) {
 /// For a pass that was stopped midway: its plan's estimates for the clock, as far as the state has them.
 void resume_plan(const ReferenceState& state, RenderClock& clock) {
     const Limits uniform = uniform_limit(state.settings);
-    const bool has_target = !state.earlier.values.empty(), has_goals = has_target || state.settings.adaptive_share > 0;
+    const bool has_target = !state.earlier.values.empty();
     clock.cuts_pass = has_target;
     clock.time_limit = has_target ? state.settings.max_seconds : uniform.seconds;
-    clock.all_samples = has_goals
+    clock.all_samples = has_target
                             ? std::accumulate(state.sample_goal.values.begin(), state.sample_goal.values.end(), 0.0)
-                            : double(uniform.samples) * double(state.sample_goal.pixel_count());
+                            : expected_samples(state);
 }
 
 bool plan_pass(ReferenceState& state, RenderClock& clock) {
@@ -205,7 +211,7 @@ bool plan_pass(ReferenceState& state, RenderClock& clock) {
         state.rays_per_sample = HostImage(state.reference.extent, 1, float(state.reference.rays / samples));
     }
     return (state.earlier.values.empty() && plan_uniform_pass(state, clock, uniform)) ||
-           plan_adaptive_pass(state, clock, limit);
+           plan_target_pass(state, clock, limit);
 }
 
 }  // namespace

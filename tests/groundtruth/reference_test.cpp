@@ -135,8 +135,9 @@ TEST_F(References, WithAnAdaptiveShareHaveTheBitsOfTheirKey) {
     run.progress = [&, reports = 0](double fraction, double, double) mutable {
         if (fraction > uniform_share && fraction < 1 && ++reports > 2) throw Stop{};
     };
-    // The pass of all pixels reports up to 1 as well, and ends; the second one is stopped.
     EXPECT_THROW(render(settings, run), Stop);
+    EXPECT_GT(std::ranges::max(read_reference_state(run.state_file).sample_goal.values), 256.0f)
+        << "stopped in the pass of all pixels, not in that of a few";
     run.progress = {};
     expect_same(render(settings, run), "stopped and continued");
 

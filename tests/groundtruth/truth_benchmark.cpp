@@ -53,8 +53,8 @@ double cpu_seconds() {
 /// A scene's first view, with about what each pixel holds.
 class View {
 public:
-    explicit View(const std::string& name)
-        : scene_(load_scene(name, scene_search_path())),
+    explicit View(Scene scene)
+        : scene_(std::move(scene)),
           pose_(pose_scene(scene_, 0)),
           camera_(pose_camera(scene_.cameras.front(), pose_, 0)) {
         const PathTracer tracer(scene_, pose_, camera_, extent, {});
@@ -146,13 +146,18 @@ double by_rays(const Spent& s) { return s.variance * s.rays; }
 double by_cpu(const Spent& s) { return s.variance * s.cpu_seconds; }
 
 /// None where the scene is not on this machine.
-std::optional<View> view_of(const std::string& name) {
+std::optional<Scene> scene_of(const std::string& name) {
     try {
-        return std::optional<View>(std::in_place, name);
+        return load_scene(name, scene_search_path());
     } catch (const Error& error) {
         std::fprintf(stderr, "%s is left out: %s\n", name.c_str(), error.what());
         return {};
     }
+}
+
+std::optional<View> view_of(const std::string& name) {
+    std::optional<Scene> scene = scene_of(name);
+    return scene ? std::optional<View>(std::in_place, std::move(*scene)) : std::nullopt;
 }
 
 void measure_learning(benchmark::State& state, const std::string& scene, const Learnt& what) {
@@ -182,19 +187,15 @@ double mean_square_error(const Reference& r) {
 /// is wanted, and until the root of the mean square is; of each the median of three seeds.
 void measure_rays(benchmark::State& state, const std::string& name) {
     constexpr double wanted = 0.03;
-    Scene scene;
-    try {
-        scene = load_scene(name, scene_search_path());
-    } catch (const Error& error) {
-        return state.SkipWithError(error.what());
-    }
-    const ScenePose pose = pose_scene(scene, 0);
-    const CameraPose camera = pose_camera(scene.cameras.front(), pose, 0);
+    const std::optional<Scene> scene = scene_of(name);
+    if (!scene) return state.SkipWithError("the scene is not on this machine");
+    const ScenePose pose = pose_scene(*scene, 0);
+    const CameraPose camera = pose_camera(scene->cameras.front(), pose, 0);
     for (auto _ : state) {
         std::vector<double> needed, needed_of_mean;
         double rays = 0, seconds = 0;
         for (unsigned seed = 1; seed <= 3; ++seed) {
-            const Reference r = render_reference(scene, pose, camera, {192, 108},
+            const Reference r = render_reference(*scene, pose, camera, {192, 108},
                                                  {.max_samples = 256, .lit_samples = 16, .seed = seed});
             needed.push_back(r.rays * std::pow(relative_error_summary(r, r.specular).median / wanted, 2));
             needed_of_mean.push_back(r.rays * mean_square_error(r) / (wanted * wanted));
@@ -238,28 +239,29 @@ int print_adaptive_table() {
     constexpr const char* more_rooms[] = {"room:10001", "room:10007", "street:10004"};
     std::vector<const char*> names(std::begin(scene_names), std::end(scene_names));
     names.insert(names.end(), std::begin(more_rooms), std::end(more_rooms));
-    for (const char* name : names) try {
-            const Scene scene = load_scene(name, scene_search_path());
-            const ScenePose pose = pose_scene(scene, 0);
-            const CameraPose camera = pose_camera(scene.cameras.front(), pose, 0);
-            std::vector<Noise> with, without;
+    for (const char* name : names) {
+        const std::optional<Scene> scene = scene_of(name);
+        if (!scene) continue;
+        const ScenePose pose = pose_scene(*scene, 0);
+        const CameraPose camera = pose_camera(scene->cameras.front(), pose, 0);
+        const auto noises = [&](float share) {
+            std::vector<Noise> of_seeds;
             for (unsigned seed = 1; seed <= seeds; ++seed)
-                for (const float share : {0.0f, 0.25f})
-                    (share > 0 ? with : without)
-                        .push_back(noise_of(render_reference(scene, pose, camera, {96, 54},
+                of_seeds.push_back(noise_of(render_reference(*scene, pose, camera, {96, 54},
                                                              {.max_samples = 128,
                                                               .lit_samples = 32,
                                                               .adaptive_share = share,
                                                               .seed = seed,
                                                               .guide_samples = few_guide_samples})));
-            std::printf("| `%s` | %s | %s | %s |\n", name,
-                        text_of(ratio_of(with, without, [](const Noise& n) { return n.mse * n.rays; })).c_str(),
-                        text_of(ratio_of(with, without, [](const Noise& n) { return n.relmse * n.rays; })).c_str(),
-                        text_of(ratio_of(with, without, [](const Noise& n) { return n.rays; })).c_str());
-            std::fflush(stdout);
-        } catch (const Error& error) {
-            std::fprintf(stderr, "%s is left out: %s\n", name, error.what());
-        }
+            return of_seeds;
+        };
+        const std::vector<Noise> with = noises(0.25f), without = noises(0);
+        std::printf("| `%s` | %s | %s | %s |\n", name,
+                    text_of(ratio_of(with, without, [](const Noise& n) { return n.mse * n.rays; })).c_str(),
+                    text_of(ratio_of(with, without, [](const Noise& n) { return n.relmse * n.rays; })).c_str(),
+                    text_of(ratio_of(with, without, [](const Noise& n) { return n.rays; })).c_str());
+        std::fflush(stdout);
+    }
     return 0;
 }
 
