@@ -1,16 +1,7 @@
 #pragma once
-#include <cstddef>
+#include "metrics/float_plane.h"
+
 #include <vector>
-
-/// A rectangle of float32 values: FLIP works on tiles that fit the cache.
-struct FloatPlane {
-    unsigned width = 0, height = 0;
-    std::vector<float> values;
-
-    FloatPlane(unsigned width, unsigned height) : width(width), height(height), values(std::size_t(width) * height) {}
-    float* row(unsigned y) { return &values[std::size_t(y) * width]; }
-    const float* row(unsigned y) const { return &values[std::size_t(y) * width]; }
-};
 
 /// One-dimensional taps of 2 radius + 1 values; tap(-u) = tap(u), or -tap(u) if `is_odd`.
 struct Kernel {
