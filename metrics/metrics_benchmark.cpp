@@ -1,5 +1,6 @@
 // Prints the time of metrics on two 1920x1080 images, and of their scores with and without the intervals that halves of
 // the reference give: `metrics_benchmark`.
+#include "metrics/cvvdp/cvvdp.h"
 #include "metrics/score.h"
 
 #include <benchmark/benchmark.h>
@@ -49,6 +50,22 @@ void measure_score(benchmark::State& state, const std::string& name, bool has_ha
     for (auto _ : state) benchmark::DoNotOptimize(score(reference, pair.test, masks));
 }
 
+void measure_cvvdp_still(benchmark::State& state, const std::string& display) {
+    const ImagePair& pair = full_hd_pair();
+    const Viewing viewing{.display = display_named(display)};
+    CvvdpStills stills(pair.reference.extent, viewing);
+    for (auto _ : state) benchmark::DoNotOptimize(stills.score(pair.reference, pair.test));
+}
+
+/// One frame more, when the window of the filters is full.
+void measure_cvvdp_frame(benchmark::State& state, double frames_per_second) {
+    const ImagePair& pair = full_hd_pair();
+    const Viewing viewing{.display = display_named("standard_hdr_linear")};
+    CvvdpVideo video(pair.reference.extent, viewing, frames_per_second, TemporalPadding::warm_up);
+    for (unsigned frame = 0; frame + 1 < video.window(); ++frame) video.add(pair.reference, pair.test);
+    for (auto _ : state) video.add(pair.reference, pair.test);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -64,5 +81,13 @@ int main(int argc, char** argv) {
                                          measure_score, name, has_halves)
                 ->Unit(benchmark::kMillisecond)
                 ->UseRealTime();
+    for (const std::string display : {"standard_hdr_linear", "standard_4k"})
+        benchmark::RegisterBenchmark(("cvvdp_0_5_6/still/" + display).c_str(), measure_cvvdp_still, display)
+            ->Unit(benchmark::kMillisecond)
+            ->MeasureProcessCPUTime();
+    for (const int rate : {30, 60})
+        benchmark::RegisterBenchmark(("cvvdp_0_5_6/frame/" + std::to_string(rate)).c_str(), measure_cvvdp_frame, rate)
+            ->Unit(benchmark::kMillisecond)
+            ->MeasureProcessCPUTime();
     benchmark::RunSpecifiedBenchmarks();
 }
