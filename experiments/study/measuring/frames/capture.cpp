@@ -5,6 +5,7 @@
 #include "core/gbuffer/camera_file.h"
 #include "core/gbuffer/gbuffer_checks.h"
 #include "core/gbuffer/pixel_position.h"
+#include "core/numbered_files.h"
 #include "core/path_inside.h"
 #include "experiments/study/config/shots/capture_folder.h"
 #include "groundtruth/reference/reference_file.h"
@@ -243,15 +244,9 @@ CaptureContents inspect_capture(const Shot& shot, Capture& capture) {
 }
 
 fs::path capture_reference_file(const ShotConfig& config, unsigned frame) {
-    std::string name = config.reference.string();
-    const size_t last = name.find_last_of('#');
-    if (last == std::string::npos || last < config.reference_pattern_at) return config.reference;
-    if (std::error_code error; fs::exists(config.reference, error)) return config.reference;
-    const size_t before = name.find_last_not_of('#', last);
-    const size_t first = before == std::string::npos ? 0 : before + 1;
-    std::string number = std::to_string(frame);
-    number.insert(0, std::max(last + 1 - first, number.size()) - number.size(), '0');
-    return name.replace(first, last + 1 - first, number);
+    const auto name = numbered_name(config.reference.string(), frame, config.reference_pattern_at);
+    if (std::error_code error; !name || fs::exists(config.reference, error)) return config.reference;
+    return *name;
 }
 
 Reference read_capture_reference(const Shot& shot, Capture& capture, unsigned frame, bool needs_ladder) {
