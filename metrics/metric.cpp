@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/near_miss.h"
 #include "core/png.h"
+#include "metrics/cvvdp_metric.h"
 #include "metrics/pixel_metrics.h"
 #include "metrics/pooling.h"
 #include "metrics/ssim.h"
@@ -45,6 +46,7 @@ std::vector<Metric> make_table() {
                      "radiance (Andersson et al. 2021)",
                      hdr_flip_layers, pooled_mean});
     for (Metric& metric : std::span(table).subspan(first_of_most_one)) metric.greatest = 1;
+    table.push_back(cvvdp_metric());
     return table;
 }
 

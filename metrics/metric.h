@@ -1,4 +1,5 @@
 #pragma once
+#include "metrics/cvvdp/display.h"
 #include "metrics/flip.h"
 #include "metrics/plane.h"
 #include "metrics/tone_map.h"
@@ -17,6 +18,8 @@ struct MetricSettings {
     ToneMap hdr_flip_tone_map = ToneMap::aces;
     /// For hdr_flip only: flip_exposure_range() of the scene's full reference image.
     std::optional<FlipExposures> flip_exposures;
+    /// For cvvdp_0_5_6 only, which looks at radiance x 2^exposure_ev on a linear display, at sRGB codes on others.
+    Viewing viewing{.display = display_named("standard_hdr_linear")};
 };
 
 /// Numbers of pixels with a NaN, infinite or negative channel. Each pixel counts once, for the first that applies.
@@ -47,7 +50,7 @@ enum class Better { lower, higher, near_zero, near_one };
 
 /// One measure of the difference between a test image and its reference. `layers` computes the values of all pixels
 /// once; `pool` reduces them to one number per mask, NaN if no pixel is inside. Windowed metrics (ssim, flip) average
-/// their map inside the mask: their windows reach beyond its border.
+/// their map inside the mask: their windows reach beyond its border. cvvdp_0_5_6 has a number for the mask `all` alone.
 struct Metric {
     std::string name;
     std::string formula;  ///< id of the exact formula: tools disagree on what a name means

@@ -62,7 +62,7 @@ TEST(Metric, EqualImagesAreTheBestOfAll) {
     for (const Metric& metric : all_metrics()) {
         const double v = measure(metric, pair);
         const bool is_error = metric.better == Better::lower || metric.better == Better::near_zero;
-        const double best = metric.name == "psnr" ? INFINITY : is_error ? 0 : 1;
+        const double best = metric.name == "psnr" ? INFINITY : is_error ? 0 : metric.name == "cvvdp_0_5_6" ? 10 : 1;
         EXPECT_TRUE(v == best || std::abs(v - best) < rounding) << metric.name << " " << v;
     }
 }
@@ -95,6 +95,38 @@ TEST(Metric, MasksSplitWindowedMapsIntoMeans) {
     // Both halves have as many windows, 85 columns of them for SSIM.
     for (const char* name : {"flip", "ssim"})
         EXPECT_NEAR(value(name, pair), (value(name, pair, &left) + value(name, pair, &right)) / 2, rounding) << name;
+}
+
+TEST(Metric, VisibilityIsThatOfTheWholeImage) {
+    const ImagePair pair = image_pair(noise({40, 30}, 3, 1), noise({40, 30}, 4, 1), {});
+    const double all = value("cvvdp_0_5_6", pair);
+    EXPECT_LT(all, 9);
+    Mask mask = full_mask({40, 30});
+    mask.inside[7] = 0;
+    EXPECT_EQ(value("cvvdp_0_5_6", pair, &mask), all);
+    mask.name = "reflective";
+    EXPECT_TRUE(std::isnan(value("cvvdp_0_5_6", pair, &mask)));
+    mask = full_mask({40, 30});
+    std::ranges::fill(mask.inside, uint8_t(0));
+    EXPECT_TRUE(std::isnan(value("cvvdp_0_5_6", pair, &mask)));
+}
+
+TEST(Metric, VisibilitySeesTheExposureOfLinearDisplaysAndTheCodesOfOthers) {
+    const HostImage a = noise({40, 30}, 3, 1), b = noise({40, 30}, 4, 1);
+    HostImage half_a = a, half_b = b;
+    for (float& v : half_a.values) v /= 2;
+    for (float& v : half_b.values) v /= 2;
+    const auto jod = [](const HostImage& a, const HostImage& b, float ev, const std::string& display) {
+        return value("cvvdp_0_5_6",
+                     image_pair(a, b, {.exposure_ev = ev, .viewing = {.display = display_named(display)}}));
+    };
+    for (const char* display : {"standard_hdr_linear", "standard_4k"}) {
+        EXPECT_EQ(jod(a, b, 0, display), jod(half_a, half_b, 1, display));
+        EXPECT_NE(jod(a, b, 0, display), jod(a, b, 1, display));
+    }
+    const MetricSettings coded{.viewing = {.display = display_named("standard_4k")}};
+    const HostImage codes_a = display_codes(a, 0, ToneMap::none), codes_b = display_codes(b, 0, ToneMap::none);
+    EXPECT_EQ(value("cvvdp_0_5_6", image_pair(half_a, half_b, codes_a, codes_b, coded)), jod(a, b, 0, "standard_4k"));
 }
 
 TEST(Metric, NonFinitePixelsAreCountedAndLeftOut) {
