@@ -3,56 +3,21 @@
 #include "core/digits.h"
 #include "core/error.h"
 #include "core/exr/exr.h"
-#include "core/exr/radiance_file.h"
 #include "core/files.h"
-#include "core/image_format.h"
-#include "core/near_miss.h"
+#include "core/list_text.h"
+#include "core/number_text.h"
 #include "core/png.h"
 #include "core/reading_limits.h"
 #include "core/shown_text.h"
 #include "metrics/color_map.h"
+#include "metrics/compare_video.h"
+#include "metrics/compared_files.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <ostream>
 
 namespace {
-
-struct Source {
-    HostImage linear, codes;
-    bool is_radiance = true;  ///< else display codes
-};
-
-/// linear_from_srgb() of each code. Those of 8 bits, which most are, by a table: the curve takes longer than all else
-/// of reading.
-HostImage decoded(HostImage codes) {
-    static const std::array<float, 256> table = [] {
-        std::array<float, 256> values{};
-        for (size_t code = 0; code < values.size(); ++code) values[code] = linear_from_srgb(float(code) / 255.0f);
-        return values;
-    }();
-    for (float& v : codes.values) {
-        const auto code = v >= 0.0f && v <= 1.0f ? size_t(v * 255.0f + 0.5f) : 0;
-        v = v == float(code) / 255.0f ? table[code] : linear_from_srgb(v);
-    }
-    return codes;
-}
-
-/// Of radiance, whose codes are not made yet, or of codes, whichever the file's bytes say.
-Source read_source(const std::filesystem::path& file, const CompareOptions& options,
-                   std::vector<std::string>& warnings) {
-    check_regular_file(file);
-    const std::vector<uint8_t> bytes = first_bytes(file);
-    if (const std::string why = why_unreadable(bytes, file.string(), ImageUse::comparison); !why.empty())
-        fail("cannot read ", file.string(), ": it ", why);
-    if (image_format(bytes) != ImageFormat::png) return {.linear = read_radiance(file, options.layer, warnings)};
-    Source source{.is_radiance = false};
-    source.codes = read_png_codes(file, warnings);
-    source.linear = decoded(source.codes);
-    for (float& v : source.codes.values) v = std::clamp(v, 0.0f, 1.0f);  // as a display shows what it has not
-    return source;
-}
 
 /// What each comparison should show; SSIM and HDR-FLIP only where the image allows them.
 std::vector<std::string> default_metrics(glm::uvec2 extent, bool has_flip_exposures) {
@@ -64,33 +29,22 @@ std::vector<std::string> default_metrics(glm::uvec2 extent, bool has_flip_exposu
     return names;
 }
 
-void choose_flip_exposures(Comparison& comparison, const Source& reference) {
+bool is_asked_for(const CompareOptions& options, const std::string& metric) {
+    return std::ranges::find(options.metrics, metric) != options.metrics.end();
+}
+
+void choose_flip_exposures(Comparison& comparison, const ComparedImage& reference) {
     CompareOptions& options = comparison.options;
     if (options.settings.flip_exposures) return;
-    const bool is_asked_for = std::ranges::find(options.metrics, "hdr_flip") != options.metrics.end();
+    const bool is_needed = is_asked_for(options, "hdr_flip");
     const bool is_default = options.metrics.empty() && reference.is_radiance;
-    if (!is_asked_for && !is_default) return;
+    if (!is_needed && !is_default) return;
     try {
         options.settings.flip_exposures = flip_exposure_range(reference.linear, options.settings.hdr_flip_tone_map);
     } catch (const Error& error) {
-        if (is_asked_for) throw;
+        if (is_needed) throw;
         comparison.warnings.push_back(std::string("hdr_flip is left out: ") + error.what());
     }
-}
-
-void report_bad_pixels(Comparison& comparison) {
-    const auto report = [&](const PixelCounts& counts, const std::filesystem::path& file) {
-        if (counts.non_finite() + counts.negative == 0) return;
-        std::string text = file.string() + ": " + std::to_string(counts.nan) + " pixels with NaN, " +
-                           std::to_string(counts.infinite) + " with Inf, " + std::to_string(counts.negative) +
-                           " negative";
-        if (counts.non_finite() > 0) text += "; NaN and Inf are left out of every metric";
-        if (counts.non_finite() > 0 && comparison.options.fail_on_non_finite)
-            fail(text.substr(0, text.find(';')), "; NaN and Inf must not occur");
-        comparison.warnings.push_back(text);
-    };
-    report(comparison.reference_counts, comparison.options.reference);
-    report(comparison.test_counts, comparison.options.test);
 }
 
 void write_map(const CompareOptions& options, const std::vector<CompareResult>& results) {
@@ -122,31 +76,37 @@ nlohmann::json to_json(const PixelCounts& counts) {
     return {{"nan", counts.nan}, {"infinite", counts.infinite}, {"negative", counts.negative}};
 }
 
+void check_visibility_options(const CompareOptions& options) {
+    if (!options.display.empty()) display_named(options.display);
+    if (!is_asked_for(options, "cvvdp_0_5_6") && (!options.display.empty() || options.nits_per_unit))
+        fail("a display and nits per unit are for the metric cvvdp_0_5_6; add --metric cvvdp_0_5_6, or leave them out");
+    if (options.video && options.metrics != std::vector<std::string>{"cvvdp_0_5_6"})
+        fail("videos are compared by cvvdp_0_5_6 alone: give --metric cvvdp_0_5_6 and no other metric");
+}
+
 void check(const CompareOptions& options) {
     for (const std::string& name : options.metrics) metric_named(name);
+    check_visibility_options(options);
     if (!options.map.empty() && lower_case_extension(options.map) != ".exr" &&
         lower_case_extension(options.map) != ".png")
         fail("cannot write the error map ", options.map.string(), ": its name must end in .exr or .png");
     if (!(options.map_max > 0)) fail("the scale of the error map is ", options.map_max, ", but must be above 0");
 }
 
-}  // namespace
-
-Comparison compare(const CompareOptions& options) {
-    check(options);
+Comparison compare_images(const CompareOptions& options) {
     Comparison comparison{.options = options};
-    Source reference = read_source(options.reference, options, comparison.warnings);
+    ComparedImage reference = read_compared_image(options.reference, options, comparison.warnings);
     constexpr double bytes_per_pixel = 300;  // of both images and all maps, as measured with the default metrics
     MemoryShare memory;
     memory.add(double(reference.linear.pixel_count()) * bytes_per_pixel,
                options.reference.string() + ": the comparison of its " +
                    std::to_string(reference.linear.pixel_count()) + " pixels");
-    Source test = read_source(options.test, options, comparison.warnings);
+    ComparedImage test = read_compared_image(options.test, options, comparison.warnings);
     if (reference.linear.extent != test.linear.extent)
         fail(options.reference.string(), " has ", reference.linear.extent.x, "x", reference.linear.extent.y,
              " pixels, but ", options.test.string(), " has ", test.linear.extent.x, "x", test.linear.extent.y,
              ": both must be of one size");
-    for (Source* source : {&reference, &test})  // of which the memory is set aside
+    for (ComparedImage* source : {&reference, &test})  // of which the memory is set aside
         if (source->is_radiance)
             source->codes = display_codes(source->linear, options.settings.exposure_ev, options.settings.tone_map);
     comparison.extent = reference.linear.extent;
@@ -156,6 +116,12 @@ Comparison compare(const CompareOptions& options) {
 
     choose_flip_exposures(comparison, reference);
     CompareOptions& used = comparison.options;
+    if (is_asked_for(used, "cvvdp_0_5_6")) {
+        choose_display(used, reference.is_radiance);
+        warn_of_clipped(count_clipped(reference.linear, used.settings), used.reference, used.settings,
+                        comparison.warnings);
+        warn_of_clipped(count_clipped(test.linear, used.settings), used.test, used.settings, comparison.warnings);
+    }
     if (used.metrics.empty())
         used.metrics = default_metrics(comparison.extent, used.settings.flip_exposures.has_value());
     const ImagePair pair = image_pair(reference.linear, test.linear, reference.codes, test.codes, used.settings);
@@ -169,14 +135,52 @@ Comparison compare(const CompareOptions& options) {
         const double value = metric.pool(layers, pair.finite);
         comparison.results.push_back({&metric, value, std::move(layers.front())});
     }
-    if (!options.map.empty()) write_map(used, comparison.results);
+    return comparison;
+}
+
+/// What a JOD of this comparison depends on.
+nlohmann::json viewing_json(const Comparison& comparison) {
+    const CompareOptions& options = comparison.options;
+    const Viewing& viewing = options.settings.viewing;
+    nlohmann::json json = {{"display", viewing.display.name},
+                           {"pixels_per_degree", viewing.display.pixels_per_degree},
+                           {"version", cvvdp_0_5_6_calibration().version}};
+    if (viewing.display.transfer == Transfer::linear) json["nits_per_unit"] = viewing.nits_per_unit;
+    if (!options.video) return json;
+    json["frames_per_second"] = options.video->frames_per_second;
+    json["padding"] = name_of(options.video->padding);
+    json["frames"] = comparison.frames;
+    json["pooled_frames"] = comparison.pooled_frames;
+    return json;
+}
+
+std::string viewing_text(const Comparison& comparison) {
+    const CompareOptions& options = comparison.options;
+    const Viewing& viewing = options.settings.viewing;
+    std::string text = viewing.display.name;
+    if (viewing.display.transfer == Transfer::linear)
+        text += ", " + number_text(viewing.nits_per_unit, 6) + " nits per unit";
+    text += ", " + number_text(viewing.display.pixels_per_degree, 6) + " pixels per degree";
+    if (options.video)
+        text += ", " + number_text(options.video->frames_per_second, 6) + " frames per second, padding " +
+                name_of(options.video->padding) + ", " + counted(comparison.pooled_frames, "frame") + " pooled";
+    return text + ", version " + cvvdp_0_5_6_calibration().version;
+}
+
+}  // namespace
+
+Comparison compare(const CompareOptions& options) {
+    check(options);
+    Comparison comparison = options.video ? compare_videos(options) : compare_images(options);
+    if (!options.map.empty()) write_map(comparison.options, comparison.results);
     return comparison;
 }
 
 void print(const Comparison& comparison, std::ostream& out, std::ostream& warnings) {
     for (const std::string& warning : comparison.warnings) warnings << "warning: " << shown_text(warning) << '\n';
     for (const CompareResult& result : comparison.results)
-        out << result.metric->name << ' ' << shortest_digits(result.value) << '\n';
+        out << result.metric->name << ' ' << shortest_digits(result.value)
+            << (result.metric->name == "cvvdp_0_5_6" ? " (" + viewing_text(comparison) + ")\n" : "\n");
 }
 
 nlohmann::json to_json(const Comparison& comparison) {
@@ -188,6 +192,7 @@ nlohmann::json to_json(const Comparison& comparison) {
         settings["flip_exposures"] = {exposures->start, exposures->stop, exposures->count};
         settings["hdr_flip_tone_map"] = name_of(options.settings.hdr_flip_tone_map);
     }
+    if (is_asked_for(options, "cvvdp_0_5_6")) settings["viewing"] = viewing_json(comparison);
     nlohmann::json results = nlohmann::json::array();
     for (const CompareResult& r : comparison.results)
         results.push_back({{"metric", r.metric->name},

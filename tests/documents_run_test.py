@@ -180,7 +180,8 @@ class Reader:
         self.must_run("ssrlab run my_study.json")
         self.must_run(f"ssrlab gbuffer fence --size {SIZE[0]} {SIZE[1]} --out my_capture")
         self.must_run(f"ssrlab reference fence --size {SIZE[0]} {SIZE[1]} --samples {SAMPLES} --out truth.exr")
-        for name in ("reference.exr", "test.exr"):
+        frames = [f"{name}_{number:04}.exr" for name in ("reference", "test") for number in (0, 1)]
+        for name in ("reference.exr", "test.exr", *frames):
             shutil.copy(self.folder / "truth.exr", self.folder / name)
         self.save_frames("my_frames", "earlier_frames", "fence_frames")
 

@@ -1,6 +1,7 @@
 #include "metrics/cvvdp/cvvdp.h"
 
 #include "core/error.h"
+#include "core/near_miss.h"
 #include "metrics/cvvdp/temporal_filters.h"
 
 #include <tbb/parallel_for.h>
@@ -60,6 +61,15 @@ CvvdpScore CvvdpStills::score(const HostImage& reference, const HostImage& test,
     score.jod = jod(score.pooled, calibration_);
     return score;
 }
+
+TemporalPadding temporal_padding_named(const std::string& name) {
+    const auto found = std::ranges::find(temporal_padding_names, name);
+    if (found == temporal_padding_names.end())
+        fail("no padding named '", name, "'", suggestion(name, temporal_padding_names));
+    return TemporalPadding(found - temporal_padding_names.begin());
+}
+
+std::string name_of(TemporalPadding padding) { return temporal_padding_names.at(size_t(padding)); }
 
 CvvdpVideo::CvvdpVideo(glm::uvec2 extent, const Viewing& viewing, double frames_per_second, TemporalPadding padding,
                        bool has_map, const CvvdpCalibration& calibration)

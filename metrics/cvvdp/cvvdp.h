@@ -48,6 +48,12 @@ enum class TemporalPadding {
     warm_up     ///< nothing: only frames with a full window are pooled
 };
 
+inline const std::vector<std::string> temporal_padding_names = {"replicate", "symmetric", "warm_up"};
+
+/// Fails with Error on a name outside temporal_padding_names.
+TemporalPadding temporal_padding_named(const std::string& name);
+std::string name_of(TemporalPadding padding);
+
 /// Compares two videos frame by frame. Holds the window of its filters: 24 bytes per pixel and tap, so 850 MB for
 /// 1920x1080 pixels at 60 frames per second.
 class CvvdpVideo {

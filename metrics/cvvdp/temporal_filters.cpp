@@ -17,11 +17,16 @@ double response(unsigned channel, double hertz, const CvvdpCalibration& c) {
 
 }  // namespace
 
-PerCvvdpChannel<std::vector<float>> temporal_filters(double frames_per_second, const CvvdpCalibration& calibration) {
+unsigned filter_window(double frames_per_second) {
     if (!(frames_per_second >= least_frame_rate && frames_per_second <= greatest_frame_rate))
         fail("frames per second = ", frames_per_second, " is outside [", least_frame_rate, ", ", greatest_frame_rate,
              "]");
-    const int half = int(std::ceil(0.25 * frames_per_second / 2)), taps = 2 * half + 1;
+    constexpr double half_seconds = 0.125;
+    return 2 * unsigned(std::ceil(half_seconds * frames_per_second)) + 1;
+}
+
+PerCvvdpChannel<std::vector<float>> temporal_filters(double frames_per_second, const CvvdpCalibration& calibration) {
+    const int taps = int(filter_window(frames_per_second)), half = taps / 2;
     PerCvvdpChannel<std::vector<float>> filters;
     for (unsigned channel = 0; channel < cvvdp_channels; ++channel)
         for (int j = 0; j < taps; ++j) {

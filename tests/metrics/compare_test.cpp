@@ -226,3 +226,130 @@ TEST_F(Compare, MistakesAreNamed) {
     EXPECT_NE(message({.reference = a, .test = a, .map = "map.txt"}).find("must end in .exr or .png"),
               std::string::npos);
 }
+
+TEST_F(Compare, VisibilityNamesItsDisplay) {
+    const HostImage reference = noise({40, 30}, 1), test = noise({40, 30}, 2);
+    const auto a = exr("a.exr", reference), b = exr("b.exr", test);
+    const Comparison c = compare({.reference = a, .test = b, .metrics = {"cvvdp_0_5_6"}, .nits_per_unit = 100.0});
+    const Viewing viewing{.display = display_named("standard_hdr_linear"), .nits_per_unit = 100};
+    EXPECT_EQ(value(c, "cvvdp_0_5_6"), CvvdpStills({40, 30}, viewing).score(reference, test).jod);
+    std::ostringstream out, warnings;
+    print(c, out, warnings);
+    EXPECT_NE(out.str().find(" (standard_hdr_linear, 100 nits per unit, 75.4024 pixels per degree, version 0.5.6)\n"),
+              std::string::npos)
+        << out.str();
+    const nlohmann::json json = to_json(c)["settings"]["viewing"];
+    EXPECT_EQ(json["display"], "standard_hdr_linear");
+    EXPECT_EQ(json["nits_per_unit"], 100);
+    EXPECT_FALSE(to_json(compare({.reference = a, .test = b, .metrics = {"mse"}}))["settings"].contains("viewing"));
+
+    // Codes as they are, on the display for codes.
+    write_png(folder / "a.png", reference), write_png(folder / "b.png", test);
+    const Comparison coded =
+        compare({.reference = folder / "a.png", .test = folder / "b.png", .metrics = {"cvvdp_0_5_6"}});
+    EXPECT_EQ(coded.options.settings.viewing.display.name, "standard_4k");
+    EXPECT_EQ(value(coded, "cvvdp_0_5_6"),
+              CvvdpStills({40, 30}, {.display = display_named("standard_4k")})
+                  .score(read_png_codes(folder / "a.png"), read_png_codes(folder / "b.png"))
+                  .jod);
+}
+
+TEST_F(Compare, VisibilityWarnsOfWhatADisplayCannotShow) {
+    HostImage bright = noise({40, 30}, 1);
+    bright.set_rgb(3, {7.5f, 0, 0});  // 1500 cd/m2 are 7.389 at 203 per unit
+    bright.set_rgb(4, {1, 1, 7.3f});
+    const auto a = exr("a.exr", bright);
+    const auto warnings = [&](const CompareOptions& options) { return compare(options).warnings; };
+    const CompareOptions options{.reference = a, .test = a, .metrics = {"cvvdp_0_5_6"}};
+    ASSERT_EQ(warnings(options).size(), 2u);
+    EXPECT_NE(warnings(options)[0].find("a.exr: 1 pixel brighter than the 1500 cd/m2 of standard_hdr_linear;"),
+              std::string::npos)
+        << warnings(options)[0];
+    CompareOptions others = options;
+    others.metrics = {"mse"};
+    EXPECT_TRUE(warnings(others).empty());
+    others = options, others.display = "standard_4k";
+    EXPECT_TRUE(warnings(others).empty());
+}
+
+TEST_F(Compare, NumberedFramesAreAVideo) {
+    std::vector<HostImage> reference, test;
+    for (unsigned f = 0; f < 4; ++f) {
+        reference.push_back(noise({30, 20}, f)), test.push_back(noise({30, 20}, 10 + f));
+        exr("r_" + std::to_string(98 + f) + ".exr", reference[f]);
+        exr("t_0" + std::to_string(f) + ".exr", test[f]);
+    }
+    CompareOptions options{.reference = folder / "r_##.exr",
+                           .test = folder / "t_##.exr",
+                           .metrics = {"cvvdp_0_5_6"},
+                           .map = folder / "map.exr",
+                           .video = VideoOptions{.frames_per_second = 24}};
+    const Comparison c = compare(options);
+    CvvdpVideo video({30, 20}, {.display = display_named("standard_hdr_linear")}, 24, TemporalPadding::replicate, true);
+    for (unsigned f = 0; f < 4; ++f) video.add(reference[f], test[f]);
+    const CvvdpScore expected = video.score();
+    EXPECT_EQ(value(c, "cvvdp_0_5_6"), expected.jod);
+    EXPECT_EQ(c.results[0].map.values, expected.map.values);
+    EXPECT_EQ(read_exr_rgb(folder / "map.exr").extent, glm::uvec2(30, 20));
+    EXPECT_EQ(c.pooled_frames, 4u);
+    std::ostringstream out, warnings;
+    print(c, out, warnings);
+    EXPECT_NE(out.str().find("24 frames per second, padding replicate, 4 frames pooled, version 0.5.6)"),
+              std::string::npos)
+        << out.str();
+    EXPECT_EQ(to_json(c)["settings"]["viewing"]["padding"], "replicate");
+
+    const auto says = [&](const std::string& text) {
+        EXPECT_NE(message(options).find(text), std::string::npos) << message(options);
+    };
+    options.video->padding = TemporalPadding::warm_up;
+    says("need 7 frames before one can be scored, but there are 4");
+    options.video->padding = TemporalPadding::symmetric;
+    options.video->frames_per_second = 1000;
+    says("frames per second = 1000 is outside [1, 240]");
+    options.video->frames_per_second = 24;
+    options.metrics = {"mse"};
+    says("videos are compared by cvvdp_0_5_6 alone");
+    options.metrics = {"cvvdp_0_5_6"};
+    exr("t_02.exr", noise({30, 21}, 1));
+    says("all frames must be of one size");
+    std::filesystem::remove(folder / "t_03.exr");
+    says("r_##.exr has 4 frames, but ");
+    options.reference = options.test = folder / "t_#3.exr";
+    exr("t_03.exr", test[0]);
+    says("as stills");
+}
+
+TEST_F(Compare, BadPixelsOfVideosAreCountedOnAllDisplays) {
+    for (unsigned f = 0; f < 2; ++f) {
+        HostImage image = noise({30, 20}, f);
+        exr("a_" + std::to_string(f) + ".exr", image);
+        image.set_rgb(7, {1, NAN, 1});
+        exr("b_" + std::to_string(f) + ".exr", image);
+    }
+    for (const char* display : {"standard_4k", "standard_hdr_linear"}) {
+        CompareOptions options{.reference = folder / "a_#.exr",
+                               .test = folder / "b_#.exr",
+                               .metrics = {"cvvdp_0_5_6"},
+                               .display = display,
+                               .video = VideoOptions{.frames_per_second = 30}};
+        const Comparison c = compare(options);
+        EXPECT_EQ(c.test_counts.nan, 2u);
+        EXPECT_EQ(c.pixels, 2u * 600 - 2);
+        EXPECT_EQ(value(c, "cvvdp_0_5_6"), 10) << display;  // black in both
+        options.fail_on_non_finite = true;
+        EXPECT_NE(message(options).find("NaN and Inf must not occur"), std::string::npos);
+    }
+}
+
+TEST_F(Compare, OptionsOfVisibilityMustBeOfUse) {
+    const auto a = exr("a.exr", noise({40, 30}, 1)), small = exr("small.exr", noise({40, 3}, 1));
+    CompareOptions options{.reference = a, .test = a, .metrics = {"flip"}, .display = "standard_4k"};
+    EXPECT_NE(message(options).find("add --metric cvvdp_0_5_6"), std::string::npos);
+    options.metrics = {"cvvdp_0_5_6"}, options.nits_per_unit = 100;
+    EXPECT_NE(message(options).find("standard_4k shows codes"), std::string::npos);
+    options.display = "standard_hdr_linea";
+    EXPECT_NE(message(options).find("did you mean 'standard_hdr_linear'?"), std::string::npos);
+    EXPECT_NE(message({.reference = small, .test = small, .metrics = {"cvvdp_0_5_6"}}).find("at least 4x4 pixels"),
+              std::string::npos);
+}

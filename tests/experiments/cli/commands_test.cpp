@@ -22,6 +22,40 @@ TEST_F(CommandLine, ComparesByOneNumberPerLine) {
     EXPECT_NEAR(read_exr_rgb(folder / "m.exr").values[0], 0.0625f, 1e-7f);
 }
 
+TEST_F(CommandLine, ComparesVisibility) {
+    for (const char* name : {"r_0.exr", "r_1.exr"}) write_exr(folder / name, HostImage({16, 16}, 3, 0.5f));
+    for (const char* name : {"t_0.exr", "t_1.exr"}) {
+        HostImage image({16, 16}, 3, 0.5f);
+        image.set_rgb(100, {1, 1, 1});
+        write_exr(folder / name, image);
+    }
+    const Outcome still = ssrlab("compare r_0.exr t_0.exr --metric cvvdp_0_5_6 --nits-per-unit 100");
+    EXPECT_EQ(still.code, 0);
+    EXPECT_TRUE(std::regex_match(still.text, std::regex(R"(cvvdp_0_5_6 [0-9.]+ \(standard_hdr_linear, 100 nits per )"
+                                                        R"(unit, 75\.4024 pixels per degree, version 0\.5\.6\)\n)")))
+        << still.text;
+    const Outcome video =
+        ssrlab("compare r_#.exr t_#.exr --metric cvvdp_0_5_6 --display standard_fhd --fps 30 --padding symmetric");
+    EXPECT_EQ(video.code, 0);
+    EXPECT_TRUE(
+        std::regex_match(video.text, std::regex(R"(cvvdp_0_5_6 [0-9.]+ \(standard_fhd, 37\.8425 pixels per degree, 30 )"
+                                                R"(frames per second, padding symmetric, 2 frames pooled, version )"
+                                                R"(0\.5\.6\)\n)")))
+        << video.text;
+    EXPECT_EQ(ssrlab("compare r_0.exr r_0.exr --metric cvvdp_0_5_6").text.substr(0, 15), "cvvdp_0_5_6 10 ");
+
+    const std::string as_video = "compare r_#.exr t_#.exr --metric cvvdp_0_5_6";
+    expect_mistake(as_video, "give --fps");
+    expect_mistake(as_video + " --fps 0", "from 1 to 240");
+    expect_mistake(as_video + " --fps 1000", "from 1 to 240");
+    expect_mistake(as_video + " --fps 30 --padding warm_up", "need 9 frames");
+    expect_mistake("compare r_#.exr t_0.exr --metric cvvdp_0_5_6 --fps 30", "give two of one kind");
+    expect_mistake("compare r_0.exr t_0.exr --metric cvvdp_0_5_6 --fps 30", "for videos");
+    expect_mistake("compare r_0.exr t_0.exr --metric mse --display standard_4k", "add --metric cvvdp_0_5_6");
+    expect_mistake("compare r_0.exr t_0.exr --metric cvvdp_0_5_6 --display standard_4", "did you mean 'standard_4k'?");
+    expect_mistake("compare x_#.exr t_#.exr --metric cvvdp_0_5_6 --fps 30", "no file has a name of this pattern");
+}
+
 TEST_F(CommandLine, ComparesLayersOfReferences) {
     const std::string small = "reference roughness_gradient --size 16 9 --samples ";
     const Outcome few = ssrlab(small + "16 --out few.exr");

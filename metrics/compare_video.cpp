@@ -1,0 +1,103 @@
+#include "metrics/compare_video.h"
+
+#include "core/error.h"
+#include "core/list_text.h"
+#include "core/numbered_files.h"
+#include "core/reading_limits.h"
+#include "metrics/compared_files.h"
+#include "metrics/cvvdp/temporal_filters.h"
+#include "metrics/cvvdp_metric.h"
+
+namespace {
+
+void add(PixelCounts& sum, const PixelCounts& counts) {
+    sum.nan += counts.nan, sum.infinite += counts.infinite, sum.negative += counts.negative;
+}
+
+/// Both patterns' files, as many of one as of the other.
+struct VideoFiles {
+    std::vector<std::filesystem::path> reference, test;
+
+    explicit VideoFiles(const CompareOptions& options)
+        : reference(numbered_files(options.reference)), test(numbered_files(options.test)) {
+        if (reference.size() != test.size())
+            fail(options.reference.string(), " has ", counted(reference.size(), "frame"), ", but ",
+                 options.test.string(), " has ", counted(test.size(), "frame"), ": both must have as many");
+        if (reference.size() < 2)
+            fail(options.reference.string(), " has one frame, and a video needs two; compare ", reference[0].string(),
+                 " and ", test[0].string(), " as stills");
+    }
+};
+
+/// Fails unless the image is as the first of the reference.
+void check_frame(const ComparedImage& image, const std::filesystem::path& file, glm::uvec2 extent, bool is_radiance,
+                 const std::filesystem::path& first) {
+    if (image.linear.extent != extent)
+        fail(file.string(), " has ", image.linear.extent.x, "x", image.linear.extent.y, " pixels, but ", first.string(),
+             " has ", extent.x, "x", extent.y, ": all frames must be of one size");
+    if (image.is_radiance != is_radiance)
+        fail(file.string(), " holds ", image.is_radiance ? "radiance" : "display codes", ", but ", first.string(),
+             " does not: all frames must be of one kind");
+}
+
+/// Sets aside what a comparison takes: the filters' window, pyramids, and two frames while they are read.
+void reserve(MemoryShare& memory, glm::uvec2 extent, unsigned window, const std::filesystem::path& file) {
+    const double bytes_per_pixel = 24.0 * window + 300;
+    memory.add(double(extent.x) * extent.y * bytes_per_pixel, file.string() + ": the comparison of videos of " +
+                                                                  std::to_string(extent.x) + "x" +
+                                                                  std::to_string(extent.y) + " pixels");
+}
+
+HostImage shown_values(ComparedImage image, const MetricSettings& settings) {
+    if (settings.viewing.display.transfer == Transfer::linear) return std::move(image.linear);
+    if (!image.is_radiance) return std::move(image.codes);
+    // Bad pixels become black in both images later, and must still be found then.
+    HostImage codes = display_codes(image.linear, settings.exposure_ev, settings.tone_map);
+    for (size_t i = 0; i < codes.values.size(); ++i)
+        if (!std::isfinite(image.linear.values[i])) codes.values[i] = NAN;
+    return codes;
+}
+
+}  // namespace
+
+Comparison compare_videos(const CompareOptions& options) {
+    Comparison comparison{.options = options};
+    CompareOptions& used = comparison.options;
+    const VideoFiles files(options);
+    std::vector<std::string>& warnings = comparison.warnings;
+    std::optional<CvvdpVideo> video;
+    bool is_radiance = true;
+    MemoryShare memory;
+    size_t clipped_reference = 0, clipped_test = 0, pixels = 0;
+    for (size_t f = 0; f < files.reference.size(); ++f) {
+        std::vector<std::string> same_notes;  // as of the first frame
+        std::vector<std::string>& notes = f == 0 ? warnings : same_notes;
+        ComparedImage reference = read_compared_image(files.reference[f], options, notes);
+        ComparedImage test = read_compared_image(files.test[f], options, notes);
+        if (!video) {
+            comparison.extent = reference.linear.extent;
+            is_radiance = reference.is_radiance;
+            choose_display(used, is_radiance);
+            const unsigned window = filter_window(options.video->frames_per_second);
+            reserve(memory, comparison.extent, window, options.reference);
+            video.emplace(comparison.extent, exposed_viewing(used.settings), options.video->frames_per_second,
+                          options.video->padding, !options.map.empty());
+        }
+        check_frame(reference, files.reference[f], comparison.extent, is_radiance, files.reference[0]);
+        check_frame(test, files.test[f], comparison.extent, is_radiance, files.reference[0]);
+        add(comparison.reference_counts, count_bad_pixels(reference.linear));
+        add(comparison.test_counts, count_bad_pixels(test.linear));
+        clipped_reference += count_clipped(reference.linear, used.settings);
+        clipped_test += count_clipped(test.linear, used.settings);
+        pixels += reference.linear.pixel_count();
+        video->add(shown_values(std::move(reference), used.settings), shown_values(std::move(test), used.settings));
+    }
+    report_bad_pixels(comparison);
+    warn_of_clipped(clipped_reference, options.reference, used.settings, warnings);
+    warn_of_clipped(clipped_test, options.test, used.settings, warnings);
+    CvvdpScore score = video->score();
+    comparison.pixels = pixels - score.non_finite;
+    comparison.frames = files.reference.size(), comparison.pooled_frames = score.frames.size();
+    comparison.results.push_back({&metric_named("cvvdp_0_5_6"), score.jod, std::move(score.map)});
+    return comparison;
+}
