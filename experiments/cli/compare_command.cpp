@@ -43,6 +43,8 @@ std::optional<VideoOptions> video_of(const CompareCommandOptions& options) {
 }  // namespace
 
 static void compare_images_command(const CompareCommandOptions& options) {
+    // Not among the initialisers: where one of them throws, GCC 12 destroys earlier ones twice.
+    const std::optional<VideoOptions> video = video_of(options);
     const Comparison result =
         compare({.reference = options.reference,
                  .test = options.test,
@@ -53,7 +55,7 @@ static void compare_images_command(const CompareCommandOptions& options) {
                  .settings = {.exposure_ev = options.exposure_ev, .tone_map = tone_map_named(options.tone_map)},
                  .display = options.display,
                  .nits_per_unit = options.nits_per_unit,
-                 .video = video_of(options),
+                 .video = video,
                  .fail_on_non_finite = options.fail_on_non_finite});
     if (options.as_json)
         std::cout << to_json(result).dump(2, ' ', /*ensure_ascii=*/true) << '\n';
