@@ -13,10 +13,10 @@
 
 /// A score, and what it was pooled from.
 struct CvvdpScore {
-    double jod = 10;                      ///< jod() of `pooled`
-    double pooled = 0;                    ///< pooled_difference()
-    std::vector<FrameDifference> frames;  ///< of the frames that were pooled
-    size_t non_finite = 0;                ///< pixels, of all frames, that were black because of NaN or Inf
+    double jod = 10;                         ///< jod() of `pooled`
+    double pooled = 0;                       ///< pooled_difference()
+    std::vector<VisibleDifferences> frames;  ///< of the frames that were pooled
+    size_t non_finite = 0;                   ///< pixels, of all frames, that were black because of NaN or Inf
     /// 10 minus the JOD that each pixel's difference would have, the mean over the frames. No share of the score: bands
     /// are added, and nothing is averaged over pixels. Empty unless asked for.
     Plane map;

@@ -16,7 +16,8 @@ FrameComparison::FrameComparison(glm::uvec2 extent, double pixels_per_degree, un
         coarser_levels_.push_back({float_planes(channels, size.x, size.y), float_planes(channels, size.x, size.y)});
 }
 
-FrameDifference FrameComparison::compare(const FrameChannels& frame, FloatPlane* map, std::vector<BandStages>* stages) {
+VisibleDifferences FrameComparison::compare(const FrameChannels& frame, FloatPlane* map,
+                                            std::vector<BandStages>* stages) {
     const size_t base = bands_.size() - 1;
     const auto level = [&](size_t b) -> const FrameChannels& { return b == 0 ? frame : coarser_levels_[b - 1]; };
     for (size_t b = 0; b < base; ++b)
@@ -25,7 +26,7 @@ FrameDifference FrameComparison::compare(const FrameChannels& frame, FloatPlane*
 
     if (stages) stages->assign(bands_.size(), {});
     std::vector<FloatPlane> maps;
-    FrameDifference differences;
+    VisibleDifferences differences;
     for (size_t b = 0; b <= base; ++b) {
         PerCvvdpChannel<double> map_weights = calibration_.channel_weights;
         for (unsigned c = 0; c < cvvdp_channels; ++c)

@@ -16,8 +16,8 @@ public:
 
     /// `map`, if not nullptr, gets what is noticed at each pixel, on the scale of pooled_difference(). `stages`, if not
     /// nullptr, gets the values inside of each band.
-    FrameDifference compare(const FrameChannels& frame, FloatPlane* map = nullptr,
-                            std::vector<BandStages>* stages = nullptr);
+    VisibleDifferences compare(const FrameChannels& frame, FloatPlane* map = nullptr,
+                               std::vector<BandStages>* stages = nullptr);
 
     const std::vector<double>& frequencies() const { return frequencies_; }  ///< of the bands, cycles per degree
 

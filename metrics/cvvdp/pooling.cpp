@@ -9,10 +9,10 @@ double safe_power(double v, double e, double epsilon) { return std::pow(v + epsi
 
 }  // namespace
 
-double pooled_difference(const std::vector<FrameDifference>& frames, unsigned channels, bool is_still,
+double pooled_difference(const std::vector<VisibleDifferences>& frames, unsigned channels, bool is_still,
                          const CvvdpCalibration& c) {
     double over_frames = 0;
-    for (const FrameDifference& frame : frames) {
+    for (const VisibleDifferences& frame : frames) {
         double over_channels = 0;
         for (unsigned channel = 0; channel < channels; ++channel) {
             double over_bands = 0;
