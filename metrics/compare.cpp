@@ -76,10 +76,17 @@ nlohmann::json to_json(const PixelCounts& counts) {
     return {{"nan", counts.nan}, {"infinite", counts.infinite}, {"negative", counts.negative}};
 }
 
+bool needs_display(const CompareOptions& options) {
+    return std::ranges::any_of(options.metrics,
+                               [](const std::string& name) { return metric_named(name).is_of_display; });
+}
+
 void check_visibility_options(const CompareOptions& options) {
     if (!options.display.empty()) display_named(options.display);
-    if (!is_asked_for(options, "cvvdp_0_5_6") && (!options.display.empty() || options.nits_per_unit))
-        fail("a display and nits per unit are for the metric cvvdp_0_5_6; add --metric cvvdp_0_5_6, or leave them out");
+    if (!needs_display(options) && (!options.display.empty() || options.nits_per_unit))
+        fail(
+            "a display and nits per unit are for metrics of displayed light; add --metric cvvdp_0_5_6, psnr_pu21 or "
+            "ssim_pu21, or leave them out");
     if (options.video && options.metrics != std::vector<std::string>{"cvvdp_0_5_6"})
         fail("videos are compared by cvvdp_0_5_6 alone: give --metric cvvdp_0_5_6 and no other metric");
 }
@@ -116,7 +123,7 @@ Comparison compare_images(const CompareOptions& options) {
 
     choose_flip_exposures(comparison, reference);
     CompareOptions& used = comparison.options;
-    if (is_asked_for(used, "cvvdp_0_5_6")) {
+    if (needs_display(used)) {
         choose_display(used, reference.is_radiance);
         warn_of_clipped(count_clipped(reference.linear, used.settings), used.reference, used.settings,
                         comparison.warnings);
@@ -138,7 +145,7 @@ Comparison compare_images(const CompareOptions& options) {
     return comparison;
 }
 
-/// What a JOD of this comparison depends on.
+/// What a JOD of this comparison depends on; PU21 codes depend on the light alone.
 nlohmann::json viewing_json(const Comparison& comparison) {
     const CompareOptions& options = comparison.options;
     const Viewing& viewing = options.settings.viewing;
@@ -154,12 +161,13 @@ nlohmann::json viewing_json(const Comparison& comparison) {
     return json;
 }
 
-std::string viewing_text(const Comparison& comparison) {
+std::string viewing_text(const Comparison& comparison, const Metric& metric) {
     const CompareOptions& options = comparison.options;
     const Viewing& viewing = options.settings.viewing;
     std::string text = viewing.display.name;
     if (viewing.display.transfer == Transfer::linear)
         text += ", " + number_text(viewing.nits_per_unit, 6) + " nits per unit";
+    if (metric.name != "cvvdp_0_5_6") return text;
     text += ", " + number_text(viewing.display.pixels_per_degree, 6) + " pixels per degree";
     if (options.video)
         text += ", " + number_text(options.video->frames_per_second, 6) + " frames per second, padding " +
@@ -180,7 +188,7 @@ void print(const Comparison& comparison, std::ostream& out, std::ostream& warnin
     for (const std::string& warning : comparison.warnings) warnings << "warning: " << shown_text(warning) << '\n';
     for (const CompareResult& result : comparison.results)
         out << result.metric->name << ' ' << shortest_digits(result.value)
-            << (result.metric->name == "cvvdp_0_5_6" ? " (" + viewing_text(comparison) + ")\n" : "\n");
+            << (result.metric->is_of_display ? " (" + viewing_text(comparison, *result.metric) + ")\n" : "\n");
 }
 
 nlohmann::json to_json(const Comparison& comparison) {
@@ -192,7 +200,7 @@ nlohmann::json to_json(const Comparison& comparison) {
         settings["flip_exposures"] = {exposures->start, exposures->stop, exposures->count};
         settings["hdr_flip_tone_map"] = name_of(options.settings.hdr_flip_tone_map);
     }
-    if (is_asked_for(options, "cvvdp_0_5_6")) settings["viewing"] = viewing_json(comparison);
+    if (needs_display(options)) settings["viewing"] = viewing_json(comparison);
     nlohmann::json results = nlohmann::json::array();
     for (const CompareResult& r : comparison.results)
         results.push_back({{"metric", r.metric->name},

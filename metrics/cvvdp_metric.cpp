@@ -42,5 +42,6 @@ Metric cvvdp_metric() {
                 "standard_hdr_linear (Mantiuk et al. 2024)",
             .layers = cvvdp_layers,
             .pool = score_of_all,
-            .greatest = 10};
+            .greatest = 10,
+            .is_of_display = true};
 }

@@ -6,6 +6,7 @@
 #include "metrics/cvvdp_metric.h"
 #include "metrics/pixel_metrics.h"
 #include "metrics/pooling.h"
+#include "metrics/pu21.h"
 #include "metrics/ssim.h"
 
 #include <algorithm>
@@ -46,6 +47,7 @@ std::vector<Metric> make_table() {
                      "radiance (Andersson et al. 2021)",
                      hdr_flip_layers, pooled_mean});
     for (Metric& metric : std::span(table).subspan(first_of_most_one)) metric.greatest = 1;
+    for (Metric& metric : pu21_metrics()) table.push_back(std::move(metric));
     table.push_back(cvvdp_metric());
     return table;
 }

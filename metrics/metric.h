@@ -18,7 +18,8 @@ struct MetricSettings {
     ToneMap hdr_flip_tone_map = ToneMap::aces;
     /// For hdr_flip only: flip_exposure_range() of the scene's full reference image.
     std::optional<FlipExposures> flip_exposures;
-    /// For cvvdp_0_5_6 only, which looks at radiance x 2^exposure_ev on a linear display, at sRGB codes on others.
+    /// For metrics with is_of_display only, which look at radiance x 2^exposure_ev on a linear display, at sRGB codes
+    /// on others.
     Viewing viewing{.display = display_named("standard_hdr_linear")};
 };
 
@@ -72,6 +73,7 @@ struct Metric {
     Plane (*mean_map)(std::span<const Plane> layers, const Mask& mask) = nullptr;
     double (*of_mean)(double mean) = nullptr;  ///< monotonic; nullptr: the mean itself
     double greatest = INFINITY;                ///< upper bound
+    bool is_of_display = false;                ///< its value depends on MetricSettings::viewing
 };
 
 /// All metrics, in the order of lists and tables.

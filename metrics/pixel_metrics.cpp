@@ -68,11 +68,6 @@ std::vector<Plane> outlier_flags(const ImagePair& pair) {
     return sums;
 }
 
-double decibels(double mean) { return -10 * std::log10(mean); }
-double decibels_of_mean(std::span<const Plane> layers, const Mask& mask) {
-    return decibels(masked_mean(layers[0], mask));
-}
-
 double sum(std::span<const Plane> layers, const Mask& mask) {
     const double count = double(pooled_count(layers[0], mask));
     return count > 0 ? std::round(masked_mean(layers[0], mask) * count) : std::numeric_limits<double>::quiet_NaN();
@@ -81,8 +76,6 @@ double sum(std::span<const Plane> layers, const Mask& mask) {
 double ratio_of_means(std::span<const Plane> layers, const Mask& mask) {
     return masked_mean(layers[0], mask) / masked_mean(layers[1], mask);
 }
-
-Plane first_layer(std::span<const Plane> layers, const Mask&) { return layers[0]; }
 
 Plane times_pixels(std::span<const Plane> layers, const Mask& mask) {
     Plane map = layers[0];

@@ -2,6 +2,7 @@
 #include "metrics/plane.h"
 #include "metrics/statistics/summation.h"
 
+#include <cmath>
 #include <span>
 
 /// The number of pixels inside the mask where the plane carries values.
@@ -21,3 +22,12 @@ inline double masked_mean(const Plane& plane, const Mask& mask) {
 
 /// How most metrics pool their one layer.
 inline double pooled_mean(std::span<const Plane> layers, const Mask& mask) { return masked_mean(layers[0], mask); }
+
+/// Of a mean of squares that are relative to the square of the largest value.
+inline double decibels(double mean_square) { return -10 * std::log10(mean_square); }
+inline double decibels_of_mean(std::span<const Plane> layers, const Mask& mask) {
+    return decibels(masked_mean(layers[0], mask));
+}
+
+/// Metric::mean_map of metrics whose first layer it is.
+inline Plane first_layer(std::span<const Plane> layers, const Mask&) { return layers[0]; }

@@ -84,8 +84,8 @@ std::vector<ImagePair> noisier_pairs(const MetricReference& reference, const Hos
 }
 
 /// Windows of SSIM weigh noise against the scene's own contrast: how its means grow says too little of what they would
-/// be without (metrics/coverage.md: in a dark room no interval of SSIM held that).
-constexpr std::string_view not_extrapolated[] = {"ssim"};
+/// be without (metrics/coverage.md: in a dark room no interval of SSIM held that). Of PU21 codes this was not measured.
+constexpr std::string_view not_extrapolated[] = {"ssim", "psnr_pu21", "ssim_pu21"};
 
 /// Means of absolute differences grow by neither law where rare bright paths make the noise: then they have no
 /// interval.

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int radius = 5;
 constexpr unsigned window = 2 * radius + 1;
-constexpr double c1 = 0.01 * 0.01, c2 = 0.03 * 0.03;  // (K L)^2 with L = 1, the range of codes
+constexpr double k1 = 0.01, k2 = 0.03;
 
 const std::array<double, window>& taps() {
     static const auto values = [] {
@@ -56,8 +56,9 @@ Plane product(const Plane& a, const Plane& b) {
     return out;
 }
 
-/// (2 mu_x mu_y + C1) / (mu_x^2 + mu_y^2 + C1) times (2 s_xy + C2) / (s_xx + s_yy + C2).
-Plane similarity(const Plane& x, const Plane& y) {
+/// (2 mu_x mu_y + C1) / (mu_x^2 + mu_y^2 + C1) times (2 s_xy + C2) / (s_xx + s_yy + C2), with C = (K range)^2.
+Plane similarity(const Plane& x, const Plane& y, double range) {
+    const double c1 = k1 * range * (k1 * range), c2 = k2 * range * (k2 * range);
     if (x.extent.x < window || x.extent.y < window)
         fail("ssim needs images of at least ", window, "x", window, " pixels, but these have ", x.extent.x, "x",
              x.extent.y);
@@ -80,16 +81,20 @@ Plane channel(const HostImage& image, int c) {
 }
 
 std::vector<Plane> channel_mean_map(const ImagePair& pair) {
-    Plane map(pair.reference_codes.extent);
-    map.margin = radius;
-    for (int c = 0; c < 3; ++c) {
-        const Plane of_channel = similarity(channel(pair.reference_codes, c), channel(pair.test_codes, c));
-        for (size_t i = 0; i < map.values.size(); ++i) map.values[i] += of_channel.values[i] / 3;
-    }
-    return {std::move(map)};
+    return {mean_similarity(pair.reference_codes, pair.test_codes, 1)};
 }
 
 }  // namespace
+
+Plane mean_similarity(const HostImage& x, const HostImage& y, double range) {
+    Plane map(x.extent);
+    map.margin = radius;
+    for (int c = 0; c < 3; ++c) {
+        const Plane of_channel = similarity(channel(x, c), channel(y, c), range);
+        for (size_t i = 0; i < map.values.size(); ++i) map.values[i] += of_channel.values[i] / 3;
+    }
+    return map;
+}
 
 std::vector<Metric> ssim_metrics() {
     using enum Better;

@@ -93,10 +93,11 @@ void add_compare(Commands& line) {
         ->check(CLI::IsMember(tone_map_names))
         ->capture_default_str();
     option(command, "--display NAME", compare.display,
-           "Display on which cvvdp_0_5_6 looks at the images: " + joined(names_of(displays(), &Display::name)) +
+           "Display that shows the images to cvvdp_0_5_6, psnr_pu21 and ssim_pu21: " +
+               joined(names_of(displays(), &Display::name)) +
                ". Default: standard_hdr_linear for radiance, standard_4k for .png");
     option(command, "--nits-per-unit N", compare.nits_per_unit,
-           "Light of radiance 1 on a linear display (cd/m2), for cvvdp_0_5_6. Default: 203, the white of ITU-R BT.2408")
+           "Light of radiance 1 on a linear display (cd/m2). Default: 203, the white of ITU-R BT.2408")
         ->check(positive());
     option(command, "--fps N", compare.frames_per_second,
            "Frames per second of a video, from 1 to 240. Videos have no default")
