@@ -14,8 +14,7 @@ build_packages=(
     esbuild  # bundles the scripts of pages
     nlohmann-json3-dev libcli11-dev libkainjow-mustache-dev libxxhash-dev zlib1g-dev libbenchmark-dev libgtest-dev
     python3 python3-numpy python3-matplotlib python3-pil
-    python3-scipy  # distributions of `ssrlab tables` and `ssrlab tune`
-    python3-optuna  # the optimiser of `ssrlab tune`: several objectives, mixed and conditional parameters
+    python3-scipy  # distributions of `ssrlab tables` and `ssrlab tune`, and the fit of the latter's optimiser
 )
 # What only the tests need: the validation layer, a browser for the report, Snakemake for studies in parallel, pandas for the example that
 # reads results, Node.js for the adapters of engines, and readers of Markdown and LaTeX (40 MB to fetch), which say what names in tables do there.

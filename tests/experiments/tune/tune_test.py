@@ -12,8 +12,9 @@ import tempfile
 import types
 import zlib
 
+import numpy as np
 import ssrlab.tune.__main__ as tune
-from ssrlab.tune import program, race, space, studies
+from ssrlab.tune import gaussian_process, program, proposals, race, space, studies
 
 RAYS = {"default": 1, "type": "integer"}
 DECLARED = {"rays": RAYS, "blur": {"default": 1.0, "type": "number"}, "march": {"default": "linear", "enum": ["linear", "tree"]},
@@ -30,7 +31,7 @@ def truth(p, shot):
     of_scene = 1 + 0.1 * math.sin(zlib.crc32(f"{shot} {p['march']} {p['clamp']}".encode()))
     error = (1 + 0.5 * math.log2(p["blur"] / 2) ** 2) * p["rays"] ** -0.5 * (1.3 if p["clamp"] else 1.0) * of_scene
     if p["march"] == "linear":
-        return error * (1.2 + 0.1 * p["step"]), 1000 * p["rays"] * (1 + 2 / p["step"])
+        return error * (1.2 + 0.1 * p["step"]), round(1000 * p["rays"] * (1 + 2 / p["step"]))
     return error, 2000 * p["rays"]
 
 
@@ -84,7 +85,7 @@ class FakeSsrlab:
                     row = {"target": "specular", "metric": "mse", "mask": "all", "seed": seed, "represents_shot": 1, "value": value}
                     results.append(key | row | {"low": value * 0.999, "high": value * 1.001})
                 if study["costs"]:
-                    costs.append(key | {"stage": "total", "quantity": "operations", "value": round(operations)})
+                    costs.append(key | {"stage": "total", "quantity": "operations", "value": operations})
                     is_refused = self.refuses(p["parameters"])
                     estimate = {"microseconds": "" if is_refused else operations / 100, "refusal": "trace: it ended" if is_refused else ""}
                     estimates += [key | {"stage": "total", "chip": "navi21"} | estimate, key | {"stage": "trace", "chip": "navi21", "microseconds": 1, "refusal": ""}]
@@ -190,7 +191,8 @@ def test_search(folder):
     judged = 4 * 2 * (2 + len(presets))
     check(spent + judged == fake.runs, f"{spent} runs are reported and {judged} judge, but there were {fake.runs}")
     check(1000 - 16 < spent <= 1000, f"{spent} runs of a budget of 1000")
-    check(spent < 0.6 * full, f"stopping saved little: {spent} runs of {full}")
+    # Most proposed points are near the front, and run in full.
+    check(spent < 0.95 * full, f"stopping saved little: {spent} runs of {full}")
     values = {json.dumps({k: r[k] for k in AXES}) for r in tried}
     check(len(values) == len(tried), "a point was tried twice")
     check(all((r["step"] == "") == (r["march"] == "tree") for r in tried), "steps count with the march `linear` alone")
@@ -364,40 +366,79 @@ def test_times_protect():
     check(runners.beaten_by(simulated(rng, "alike", 1.0, 0.97, 0.0)) is not None, "its time is not distinguishable from the rival's")
 
 
-def batches(**more):
-    """The points of six batches, answered by truth(); `more`: options that Proposals' sampler gets beside its own."""
-    made, sampler = [], space.optuna.samplers.TPESampler
-
-    def recorded(**options):
-        made.append(options)
-        return sampler(**options | more)
-
-    space.optuna.samplers.TPESampler = recorded
-    try:
-        proposals = space.Proposals(space.Space(AXES, DECLARED, DEFAULTS), 7)
-    finally:
-        space.optuna.samplers.TPESampler = sampler
-    found = []
-    for _ in range(6):
-        batch = proposals.ask(5)
-        for trial, values in batch:
-            error, operations = truth({**DEFAULTS, **values}, "floor")
-            proposals.tell(trial, math.log(error), math.log(operations), math.log(4000))
-        found += [values for _, values in batch]
-    return made[0], found
+def proposals_after(batches, seed=7):
+    """An optimiser that was told the truth of so many batches."""
+    tuned = proposals.Proposals(space.Space(AXES, DECLARED, DEFAULTS), seed, math.log(2))
+    for _ in range(batches):
+        for values in tuned.ask(5):
+            error, operations = truth(DEFAULTS | values, "floor")
+            tuned.tell(values, math.log(error), math.log(operations / truth(DEFAULTS, "floor")[1]))
+    return tuned
 
 
-def test_options_have_an_effect():
-    """Optuna 3.1.0 takes constant_liar with several objectives and ignores it: the same points, to the last bit. So it is not set; where a
-    newer Optuna minds it, this test says so."""
-    options, plain = batches()
-    check("constant_liar" not in options, "an option without an effect is set")
-    check(batches(constant_liar=True)[1] == plain, "constant_liar has an effect with two objectives: set it in space.py")
-    check(batches(seed=8)[1] != plain, "other options have one")
+def nearest_in(batch, tuned):
+    """The least distance of two points of a batch, in the coordinates of the space, which are from 0 to 1."""
+    places = [np.array(tuned.space.coordinates(values)) for values in batch]
+    return min(float(np.linalg.norm(a - b)) for i, a in enumerate(places) for b in places[:i])
+
+
+def test_batches_are_apart():
+    """No two points of a batch are nearer than APART, and none comes twice. What keeps them apart otherwise, that each is believed to be as
+    predicted, spreads them more: without it, they are on average nearer."""
+    kept = gaussian_process.GaussianProcess.believing
+    near = {True: [], False: []}
+    for believes in near:
+        gaussian_process.GaussianProcess.believing = kept if believes else lambda self, point: self
+        for seed in range(12):
+            tuned = proposals_after(3, seed)
+            batch = tuned.ask(5)
+            check(len({proposals.key_of(values) for values in batch}) == 5, f"{batch} repeats a point")
+            near[believes].append(nearest_in(batch, tuned))
+    gaussian_process.GaussianProcess.believing = kept
+    least = min(near[True] + near[False])
+    check(least >= proposals.APART, f"two points of a batch are {least} apart")
+    means = {believes: sum(found) / len(found) for believes, found in near.items()}
+    check(means[True] > means[False], f"nearest points are {means[True]} apart with belief, {means[False]} without")
+
+
+def test_gaussian_process():
+    """Predictions agree with the formula for two points, and with the slope of what is measured; an axis that changes nothing is found."""
+    GP = gaussian_process.GaussianProcess
+    base = types.SimpleNamespace(mean=0.0, scale=1.0, logs=np.array([0.0, -20.0]), variance=1.0)
+    process = GP(np.array([[0.0], [1.0]]), np.array([1.0, -1.0]), like=base)
+    k, half = math.exp(-0.5), math.exp(-0.125)  # covariances at distances 1 and 1/2
+    means, deviations = process.predict(np.array([[0.5], [0.0]]))
+    check(abs(means[0]) < 1e-6 and abs(means[1] - 1) < 1e-6, f"{means}")
+    check(abs(deviations[0] ** 2 - (1 - 2 * half**2 / (1 + k))) < 1e-6 and deviations[1] < 1e-3, f"{deviations}")
+    sure = process.believing(np.array([0.5]))
+    check(sure.predict(np.array([[0.5]]))[1][0] < 1e-3 and abs(sure.predict(np.array([[0.3]]))[0][0] - process.predict(np.array([[0.3]]))[0][0]) < 1e-4, "belief")
+    points = np.random.default_rng(3).random((40, 2))
+    process = GP(points, np.sin(6 * points[:, 0]))
+    lengths = np.exp(process.logs[:2])
+    check(lengths[1] > 3 * lengths[0], f"{lengths}: the second axis changes nothing")
+    others = np.random.default_rng(4).random((40, 2))
+    off = np.abs(process.predict(others)[0] - np.sin(6 * others[:, 0]))
+    check(off.max() < 0.1, f"a sine of half a period is missed by {off.max()}")
+    check(np.isfinite(GP(points, np.ones(40)).predict(others)).all(), "values that are all the same")
+
+
+def test_gains():
+    """The area that a point adds to a front, against counting the cells of a grid."""
+    front = proposals.front_of([(0.6, 0.2), (0.3, 0.5), (0.7, 0.4), (0.1, 0.8)])
+    check(front == [(0.6, 0.2), (0.3, 0.5), (0.1, 0.8)], f"{front}")
+    cells = (np.arange(400) + 0.5) / 400
+    error, time = np.meshgrid(cells, cells)
+    dominated = np.any([(error >= e) & (time >= t) for e, t in front], axis=0)
+    for e, t in ((0.5, 0.1), (0.2, 0.3), (0.05, 0.05), (0.65, 0.45), (0.0, 0.9)):
+        added = np.mean((error >= e) & (time >= t) & ~dominated)
+        gain = proposals.gains(front, np.array([e]), np.array([t]), 1.0, 1.0)[0]
+        check(abs(gain - added) < 2 / 400, f"({e}, {t}) adds {added}, not {gain}")  # the grid's error is at most its two sides' cells
 
 
 def main():
-    test_options_have_an_effect()
+    test_gaussian_process()
+    test_gains()
+    test_batches_are_apart()
     test_race()
     test_times_protect()
     with tempfile.TemporaryDirectory() as folder:

@@ -2,14 +2,13 @@
 
 usage: python3 experiments/python tune ASKED --out DIR -- SSRLAB [options of `ssrlab run`]
 
-ASKED is what `ssrlab tune` read of a study with "tune" (experiments/docs/tune.md). The optimiser proposes batches of points (space.py);
+ASKED is what `ssrlab tune` read of a study with "tune" (experiments/docs/tune.md). The optimiser proposes batches of points (proposals.py);
 each runs with half of the seeds on one shot, on two, four and so on to all, then with all seeds, and is stopped as soon as it is significantly
 worse than a point of the front that takes no more time (race.py). Every step is a study in DIR/search, every evaluation a cell of it
 (studies.py). A stopped search repeats the optimiser's steps and reads the finished cells, so that it ends as if it
 had not been stopped. Its files in DIR: outcome.py."""
 
 import argparse
-import json
 import math
 import os
 import sys
@@ -18,13 +17,14 @@ from ssrlab.json_files import read_json
 from ssrlab.mistakes import ResultsError, exit_code, say, shown, stop
 
 try:
-    import optuna  # noqa: F401
+    import scipy  # noqa: F401
 except ImportError as missing:
-    stop(f"{missing}: install python3-optuna")
+    stop(f"{missing}: install python3-scipy")
 from ssrlab.tune.outcome import Outcome
 from ssrlab.tune.program import Program, ProgramFailed, declared_by
+from ssrlab.tune.proposals import Proposals, key_of
 from ssrlab.tune.race import Point, Race
-from ssrlab.tune.space import Proposals, Space
+from ssrlab.tune.space import Space
 from ssrlab.tune.studies import Studies, StudyFailed
 
 SAME_TIME = {True: 1.05, False: 1.0}  # with a clock, whose noise it is about; with counts, which are exact
@@ -95,7 +95,7 @@ class Tuning:
             if name != self.baseline:
                 self.race.add(self.points[name])
         self.space = Space(self.rules["axes"], self.declared, self.points[self.start].parameters)
-        self.proposals = Proposals(self.space, self.rules["seed"])
+        self.proposals = Proposals(self.space, self.rules["seed"], math.log(max(self.budgets)))
         for name in [AT_DEFAULTS] if self.program else dict.fromkeys([self.start, *self.names]):
             self.proposals.begin_with(self.points[name].parameters)
 
@@ -147,8 +147,8 @@ class Tuning:
         most = int((self.most_runs - self.runs()) // self.runs_of_a_point())
         proposed = self.proposals.ask(min(self.rules["batch"], most))
         fresh = []
-        for _, values in proposed:
-            key = json.dumps(values, sort_keys=True)
+        for values in proposed:
+            key = key_of(values)
             if key not in self.known and self.space.is_start(values):
                 self.known[key] = self.points[self.start]
             elif key not in self.known:
@@ -157,10 +157,10 @@ class Tuning:
                 fresh.append(self.known[key])
         if fresh:
             self.evaluate(number, fresh)
-        for trial, values in proposed:
-            point = self.known[json.dumps(values, sort_keys=True)]
+        for values in proposed:
+            point = self.known[key_of(values)]
             error, time = point.estimate or (self.race.error(point).mean, self.race.log_time(point))
-            self.proposals.tell(trial, error, time, math.log(max(self.budgets)))
+            self.proposals.tell(values, error, time)
         self.say(number, fresh)
         return bool(fresh)
 

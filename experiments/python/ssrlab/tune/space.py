@@ -1,11 +1,11 @@
-"""Which values of a technique's parameters are tried, and the optimiser that proposes them."""
+"""Which values of a technique's parameters are tried."""
 
-import warnings
+import math
 
-import optuna
 from ssrlab.mistakes import ResultsError
 
 DIGITS = 4  # of a number that was sampled: names of points and presets stay legible
+STEP = 0.1  # standard deviation of a small step, as a share of a range
 
 
 def holds(test, value):
@@ -44,13 +44,34 @@ class Axis:
         meets = lambda tests: all(holds(test, held[name]) for name, test in tests.items())  # noqa: E731
         return (self.only_if is None or meets(self.only_if)) and (self.skip_if is None or not meets(self.skip_if))
 
-    def suggest(self, trial):
+    def draw(self, random):
         if self.values is not None:
-            return trial.suggest_categorical(self.name, self.values)
-        if self.is_whole:
-            return trial.suggest_int(self.name, *(int(e) for e in self.ends), log=self.is_log)
-        value = float(f"{trial.suggest_float(self.name, *self.ends, log=self.is_log):.{DIGITS}g}")
+            return self.values[random.integers(len(self.values))]
+        return self.at(random.random())
+
+    def near(self, value, random):
+        """A value a small step from this one; another one of a list."""
+        return self.draw(random) if self.values is not None else self.at(self.place(value) + random.normal(0, STEP))
+
+    def at(self, place):
+        """The value at a place from 0, the low end, to 1, the high one."""
+        low, high = (math.log(e) for e in self.ends) if self.is_log else self.ends
+        value = low + min(max(place, 0.0), 1.0) * (high - low)
+        value = math.exp(value) if self.is_log else value
+        value = round(value) if self.is_whole else float(f"{value:.{DIGITS}g}")
         return min(max(value, self.ends[0]), self.ends[1])
+
+    def place(self, value):
+        low, high, value = (math.log(v) if self.is_log else v for v in (*self.ends, self.nearest(value)))
+        return (value - low) / (high - low) if high > low else 0.0
+
+    def coordinates(self, value):
+        """Numbers from 0 to 1: the place, of listed numbers the share that are smaller, and one number for each name."""
+        if self.values is None:
+            return [self.place(value)]
+        if all(isinstance(v, (int, float)) and not isinstance(v, bool) for v in self.values):
+            return [sum(v < value for v in self.values) / len(self.values)]
+        return [float(value == v) for v in (self.values if len(self.values) > 2 else self.values[:1])]
 
     def nearest(self, value):
         """The axis' value that is nearest to a value from elsewhere; None if there is none."""
@@ -73,55 +94,23 @@ class Space:
             self.axes += free
             left = [axis for axis in left if axis not in free]
 
-    def suggest(self, trial):
-        """{name: value} of the axes that are active at the proposed point."""
+    def point(self, choose):
+        """{name: value} of the axes that are active, with the value that `choose` gives an axis."""
         held, chosen = dict(self.start), {}
         for axis in self.axes:
             if axis.is_active(held):
-                held[axis.name] = chosen[axis.name] = axis.suggest(trial)
+                held[axis.name] = chosen[axis.name] = choose(axis)
         return chosen
+
+    def coordinates(self, values):
+        """Numbers from 0 to 1; axes that are not active are at the start, since they change nothing."""
+        held = self.start | values
+        return [c for axis in self.axes for c in axis.coordinates(held[axis.name])]
 
     def is_start(self, values):
         return all(self.start[name] == value for name, value in values.items())
 
     def like(self, parameters):
-        """The point of the space that is nearest to these values of all parameters, as far as axes have them."""
+        """{name: value} of the axes that have a value like these of all parameters."""
         found = {axis.name: axis.nearest(parameters[axis.name]) for axis in self.axes}
         return {name: value for name, value in found.items() if value is not None}
-
-
-class Proposals:
-    """Batches of points to try. The same answers lead to the same proposals, which is how a search continues.
-
-    The optimiser is Optuna's TPE. Optuna's documentation recommends it from 100 trials on, for several objectives, mixed numbers and
-    categories, conditions and batches. NSGA-II handles numbers and conditions less well, and spends 50 trials on its first generation
-    alone. Parameters are sampled jointly (multivariate, by groups of those that are active together). Points of a batch do not know of
-    one another: `constant_liar`, which keeps them apart, does nothing with several objectives (Optuna 3.1.0)."""
-
-    STARTUP = 16  # trials that are drawn at random before there is anything to learn from
-
-    def __init__(self, space, seed):
-        optuna.logging.set_verbosity(optuna.logging.WARNING)
-        warnings.simplefilter("ignore", optuna.exceptions.ExperimentalWarning)
-        sampler = optuna.samplers.TPESampler(
-            seed=seed,
-            n_startup_trials=self.STARTUP,
-            multivariate=True,
-            group=True,
-            constraints_func=lambda trial: (trial.user_attrs["excess"],),
-        )
-        self.space = space
-        self.study = optuna.create_study(directions=["minimize", "minimize"], sampler=sampler)
-
-    def begin_with(self, parameters):
-        """Proposes the point that is most like a known one."""
-        self.study.enqueue_trial(self.space.like(parameters))
-
-    def ask(self, count):
-        """(trial, values) pairs."""
-        return [(trial, self.space.suggest(trial)) for trial in (self.study.ask() for _ in range(count))]
-
-    def tell(self, trial, log_error, log_time, log_most_time):
-        """Logarithms of ratios to the baseline; exceeding the most time breaks a constraint."""
-        trial.set_user_attr("excess", log_time - log_most_time)
-        self.study.tell(trial, (log_error, log_time))
