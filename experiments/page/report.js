@@ -55,6 +55,7 @@ startPage(() => {
 });
 
 // What a browser's console reaches as `ssrlab`, and tests.
+export * from "./charts/axes.js";
 export * from "./charts/plots.js";
 export * from "./charts/styles.js";
 export * from "./charts/textures.js";

@@ -3,16 +3,15 @@
 import Plot from "../vendor/plot.js";
 import {number} from "../values.js";
 
-/// Decades, and 2 and 5 between them where there are few; even steps where the axis spans less than a factor of 1.6.
+/// Decades, and 2 and 5 between them where there are few; even steps where the axis spans little, and would have fewer than three of these.
 function logTicks(low, high) {
     const decades = Math.log10(high / low);
-    if (decades < 0.2) return evenTicks(low, high);
     const steps = decades < 1.2 ? [1, 1.5, 2, 3, 4, 5, 7] : decades < 2.5 ? [1, 2, 5] : [1];
     const ticks = [];
     for (let e = Math.floor(Math.log10(low)); e <= Math.ceil(Math.log10(high)); ++e)
         for (const s of steps)
             if (s * 10 ** e >= low && s * 10 ** e <= high) ticks.push(s * 10 ** e);
-    return ticks;
+    return ticks.length < 3 && decades < 1 ? evenTicks(low, high) : ticks;
 }
 
 /// About five, at 1, 2 or 5 times a power of ten.

@@ -11,21 +11,26 @@ import {makers} from "../study/makers.js";
 import {isOneSeed} from "../study/mistakes.js";
 import {pointText} from "../study/points.js";
 import {interval, number, percent, unique} from "../values.js";
+import {addressedView, keepAddress} from "../viewer/keep.js";
 import {imageCanvas} from "../viewer/page_images.js";
 
 const budget = {
     milliseconds: null  // none: not asked
 };
 
-/// The box for the time, and the answer below it; once. Nothing where no time or no error was measured. It begins with
-/// the middle of the first shot's times, so that there is something that fits and something that does not.
+export const budgetMilliseconds = () => budget.milliseconds;
+
+/// The box for the time, and the answer below it; once. Nothing where no time or no error was measured. It begins with the
+/// address' time, or the middle of the first shot's times, so that there is something that fits and something that does not.
 export function showBudget() {
     const times = timesOf(answerChoice.shot);
     if (!times.length || !report.errors.length) return;
-    budget.milliseconds = Number(times[times.length >> 1].value.toPrecision(1));
+    const addressed = Number(addressedView()?.get("budget"));
+    budget.milliseconds = addressed > 0 ? addressed : Number(times[times.length >> 1].value.toPrecision(1));
     const changed = event => {
         budget.milliseconds = event.target.valueAsNumber > 0 ? event.target.valueAsNumber : null;
         drawAnswerCharts();
+        keepAddress();
     };
     at("answer-budget").append(
             h("label", {}, "Time budget per frame: ",

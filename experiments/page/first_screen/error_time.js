@@ -3,15 +3,15 @@
 import Plot from "../vendor/plot.js";
 import {clampTo, errorAxis, linearAxis, logAxis} from "../charts/axes.js";
 import {markChart} from "../charts/plots.js";
-import {pointMark} from "../charts/styles.js";
+import {pointMark, styleOf} from "../charts/styles.js";
 import {choiceBox} from "../elements/elements.js";
 import {budgetLine} from "./budget.js";
 import {chipKinds, costKinds, costOptions, timedOn, totalCost, totalTime} from "../study/costs.js";
-import {pointLabel, report, shortShot} from "../study/data.js";
+import {pointKey, pointLabel, report, shortShot} from "../study/data.js";
 import {better, framesText, metricKey, rowText, unitText} from "../study/errors.js";
 import {ladderOf} from "../study/ladder.js";
 import {mistakesOfError, mistakesOfTime} from "../study/mistakes.js";
-import {chartedRows, parameterLines} from "../study/points.js";
+import {chartedRows, parameterLines, sweeps} from "../study/points.js";
 import {countText, interval, microseconds, number} from "../values.js";
 import {openPoint} from "../viewer/viewer.js";
 
@@ -80,7 +80,7 @@ export function errorTimeChart(shot, all, {width = 440, height = 320, open = ope
     ].filter(Boolean);
     const under = [
         ...(hasTimes && !cost ? budgetLine(x) : []),
-        ...(hasTimes ? [frontLine(frontOf(timed))] : []),
+        ...(hasTimes ? [...sweepLines(timed, y), frontLine(frontOf(timed))] : []),
         ...levels.flatMap(l => levelLayers(l, x, y))
     ];
     const frames = framesText(rows[0]);
@@ -108,6 +108,21 @@ const frontLine = front => Plot.line(front, {
     strokeWidth: 1.4,
     strokeDasharray: "3 2"
 });
+
+/// What joins the points of a sweep, in the order of its parameter.
+function sweepLines(timed, y) {
+    const byKey = new Map(timed.map(p => [pointKey(p.row), p]));
+    return sweeps.map(sweep => sweep.map(point => byKey.get(pointKey(point))).filter(Boolean))
+        .filter(joined => joined.length > 1)
+        .map(joined => Plot.line(joined, {
+                 x: p => p.time.value,
+                 y: p => clampTo(p.row.value, y),
+                 stroke: styleOf(joined[0].row).color,
+                 strokeWidth: 1.2,
+                 strokeOpacity: 0.5,
+                 className: "sweep"
+             }));
+}
 
 /// A line across the chart at the value of a row, with its interval and its name; at the chart's edge, with an arrow,
 /// where the value lies beyond.

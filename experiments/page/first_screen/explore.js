@@ -11,7 +11,7 @@ import {byShot, ofShot, pointKey, report, shortShot} from "../study/data.js";
 import {better} from "../study/errors.js";
 import {isOneSeed} from "../study/mistakes.js";
 import {
-    chartedRows, choice, comparedPoints, filteredRows, mostNamed, pointGroups, shownPoints, singleChangeKeys, sweptParameters,
+    chartedRows, choice, comparedPoints, filteredRows, mostNamed, pointGroups, shownPoints, singleChangeKeys, sweeps, sweptParameters,
     techniques
 } from "../study/points.js";
 import {unique} from "../values.js";
@@ -106,6 +106,7 @@ function drawErrorTime() {
             timed ? "Times are totals of a technique's stages, as medians over the frames. Lines are 95 % intervals." :
                     "No times were measured.",
         isLog && timed && "Grey steps join the points that no other point beats in both numbers, whatever the intervals say.",
+        timed && sweeps.length && "Coloured lines join points that differ in one parameter.",
         "The dashed line is none. The dotted line is the lower bound for any single-frame technique (see Truth ladder), with its interval.",
         isLog && "An arrow marks a noise-corrected error that is not above 0.",
         rows.some(isOneSeed) && "A hollow mark has a single seed, so it has no interval and is left out of the steps.",

@@ -1,13 +1,12 @@
 // Head, warnings and the tables that do not change: references, needs, parameters.
 
-import {at, folded, h, scroller} from "../elements/elements.js";
+import {at, folded, h, scroller, withTip} from "../elements/elements.js";
 import {foldedLater} from "../elements/later.js";
 import {numbers, table} from "../elements/tables.js";
 import {longTable} from "./parts.js";
 import {reloadInPlace} from "./start.js";
 import {manifestShots, report, shotName} from "../study/data.js";
 import {makers} from "../study/makers.js";
-import {badges, mistakesOfReference} from "../study/mistakes.js";
 import {allPoints, isSingleChange} from "../study/points.js";
 import {list, number, percent, unique} from "../values.js";
 
@@ -73,7 +72,8 @@ export function showReferences() {
 /// A share says something only of a target.
 const reachedCell = reference => reference.target_relative_error > 0 ?
     `${percent(reference.reached_share)} (of ${percent(reference.target_relative_error)})` :
-    h("span", {}, badges(mistakesOfReference(reference)));
+    reference?.reached_share === undefined ? "" :
+    withTip(h("span", {}, "no target"), "The study asks for no relative error of this reference: a share of pixels that reached one has no meaning.");
 
 export function showNeeds() {
     const saved = ({saved_ms: ms}) => ms === null || ms === undefined ? "not measured" : number(ms) + " ms";
@@ -106,7 +106,7 @@ export function showParameters() {
               stages = unique(report.times.filter(t => t.technique === name && t.stage !== "total").map(t => t.stage));
         const about = [first.source, stages.length && "Stages: " + stages.join(", "), limitsNote(points)];
         at("parameters").append(
-                h("div", {}, h("h3", {}, first.title ?? name),
+                h("div", {}, h("h3", {}, first.title && first.title !== name ? `${name}: ${first.title}` : name),
                   h("p", {class: "note"}, about.filter(Boolean).join(". ").replaceAll("..", ".")),
                   parameterTables(points, name)));
     }

@@ -55,15 +55,6 @@ export function mistakesOfTime(row) {
     return found;
 }
 
-/// The same of a shot's reference.
-export function mistakesOfReference(reference) {
-    if (reference?.reached_share === undefined || reference.target_relative_error > 0) return [];
-    return [{
-        text: "no target",
-        why: "the study asks for no relative error of this reference, so nothing says that its samples are enough"
-    }];
-}
-
 export const badges = mistakes => mistakes.map(m => badge(m.text, m.why));
 
 /// A single seed of a point that depends on it: another one might give anything.

@@ -53,6 +53,22 @@ export const sweptParameters = (() => {
     return swept;
 })();
 
+/// The points of each sweep in its order: they differ in one parameter alone, whose values are numbers.
+export const sweeps = (() => {
+    const found = [];
+    for (const [technique, names] of sweptParameters)
+        for (const name of names) {
+            const byRest = new Map();
+            for (const point of comparedPoints.filter(p => p.technique === technique)) {
+                const {[name]: value, ...rest} = parametersOf(point), key = JSON.stringify(Object.entries(rest).sort());
+                if (typeof value === "number") byRest.set(key, [...byRest.get(key) ?? [], {point, value}]);
+            }
+            for (const own of byRest.values())
+                if (own.length > 1) found.push(own.sort((a, b) => a.value - b.value).map(o => o.point));
+        }
+    return found;
+})();
+
 const mostParameters = 8;  // in a tip
 /// For tips: the parameters that differ among the points of the technique; a swept point's name has them already.
 export function parameterLines(row) {

@@ -3,9 +3,10 @@
 import {at, h} from "../elements/elements.js";
 import {attempt, saveFile} from "../elements/files.js";
 import {toneCurves} from "../images/colors.js";
+import {budgetMilliseconds} from "../first_screen/budget.js";
 import {report} from "../study/data.js";
 import {setFrame, setSplit} from "./chooser.js";
-import {crops} from "./crops.js";
+import {crops, setCropBox} from "./crops.js";
 import {pin} from "./input.js";
 import {setExposure, setScale, viewerModes} from "./look.js";
 import {limitView, view} from "./panes.js";
@@ -26,6 +27,8 @@ export function viewerAddress() {
     if (at("viewer").getBoundingClientRect().top > innerHeight) state.append("top", 1);  // the reader is above it
     if (viewer.beside) state.append("beside", viewer.beside);
     if (viewer.pinned) state.append("pinned", numbers(viewer.pinned.x, viewer.pinned.y));
+    if (crops.box) state.append("crop", numbers(...crops.box));
+    if (budgetMilliseconds()) state.append("budget", numbers(budgetMilliseconds()));
     return addressStart + state;
 }
 
@@ -76,14 +79,16 @@ export async function restoreView(state) {
     setScale(scale);
     setSplit(splitAt);
     viewer.hasErrorRow = at("error-row").checked = hasErrorRow === 1;
-    const pair = numbers("pair", 2), pinned = numbers("pinned", 2);
+    const pair = numbers("pair", 2), pinned = numbers("pinned", 2), box = numbers("crop", 4);
     if (pair?.every(i => viewer.shown[i])) [viewer.active, viewer.previous] = pair;
     layOut();
+    if (box) setCropBox(box);
     if (pinned) pin({x: pinned[0], y: pinned[1]});
     if (!state.has("top")) at("viewer").scrollIntoView();
 }
 
-/// The panes as they are seen, with their captions; of each the crop alone where there is one.
+/// The panes as they are seen, with their captions, and the scale of their colours if they have one; of each the crop alone where there is
+/// one.
 export function shownPicture() {
     const {panes} = viewer,
           columns = viewer.layout === "side" ? Math.min(paneColumns(viewer.shown.length), panes.length) : 1;
@@ -91,7 +96,8 @@ export function shownPicture() {
     const boxOf = pane => crops.box && !pane.second ? crops.box : [0, 0, pane.picture.width, pane.picture.height];
     const [, , boxWidth, boxHeight] = boxOf(panes[0]), height = Math.round(width * boxHeight / boxWidth);
     const rows = Math.ceil(panes.length / columns);
-    const canvas = h("canvas", {width: columns * (width + gap) - gap, height: rows * (height + line + gap) - gap});
+    const bar = at("color-bar"), below = rows * (height + line + gap) - gap;
+    const canvas = h("canvas", {width: columns * (width + gap) - gap, height: below + (bar ? line + gap : 0)});
     const context = canvas.getContext("2d");
     context.fillStyle = "#fff";
     context.fillRect(0, 0, canvas.width, canvas.height);
@@ -106,7 +112,16 @@ export function shownPicture() {
         else
             context.drawImage(pane.canvas, x, y + line, width, height);
     });
+    if (bar) drawColorBar(context, bar, below + gap);
     return canvas;
+}
+
+/// The bar of the legend with the numbers at its ends, from `y` on.
+function drawColorBar(context, bar, y) {
+    const [low, colors, high] = bar.children, left = context.measureText(low.textContent).width + 8, width = 180;
+    context.fillText(low.textContent, 0, y + 17);
+    context.drawImage(colors, left, y + 6, width, 12);
+    context.fillText(high.textContent, left + width + 8, y + 17, Math.max(context.canvas.width - left - width - 8, 1));
 }
 
 /// Says what is saved and copied.

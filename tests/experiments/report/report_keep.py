@@ -18,7 +18,10 @@ def test_address(page, url):
     choose(page, "Show", "absolute difference")
     page.execute_script(
         """setExposure(1.5); setScale(-1); viewer.curve = 'reinhard'; Object.assign(view, {zoom: 4, x: 0.25, y: 0.5});
-        pin({x: 30, y: 40}); return choose([viewer.methods[1].key], false)"""
+        pin({x: 30, y: 40}); setCropBox([20, 30, 40, 25]);
+        const box = at('budget');
+        box.value = 5, box.dispatchEvent(new Event('input'));
+        return choose([viewer.methods[1].key], false)"""
     )
     WebDriverWait(page, 10).until(lambda p: "30+40" in p.execute_script("return location.hash"), "the address")
     before, seen, address = page.execute_script(state), pixels(page, 1), page.execute_script("return location.hash")
@@ -29,6 +32,7 @@ def test_address(page, url):
     equal(captions(page)[0], NAMES[0], "captions")
     equal(pixels(page, 1), seen, "the picture")
     equal(page.execute_script("return answerChoice.shot"), OTHER_SHOT, "the shot of the first screen")
+    equal(page.execute_script("return [crops.box, at('budget').value]"), [[20, 30, 40, 25], "5"], "the crop, and the budget")
     page.get("about:blank")
     page.get(url + "#viewer?shot=of+no+study&image=x")
     until_ready(page)
@@ -56,6 +60,20 @@ def test_keeping(page):
     equal(saved[3], saved[2], "a pixel of the last pane")
     cropped = page.execute_script("crops.box = [20, 30, 40, 30]; const c = shownPicture(); crops.box = null; return c.height / c.width")
     check(0.75 < cropped < 0.95, f"crops of 4:3 below their captions: {cropped}")
+    # Below differences stand their colours: the middle of the bar, and its numbers, which are not the background's white.
+    bar = page.execute_async_script(
+        """const done = arguments[0];
+        setMode("absolute").then(() => {
+            const colours = at("color-bar").querySelector("canvas"), c = shownPicture(), y = c.height - 36 + 12 + 12;
+            const context = c.getContext("2d"), start = context.measureText("0").width + 8;
+            const row = context.getImageData(0, y, c.width, 1).data, own = colours.getContext("2d").getImageData(128, 0, 1, 1).data;
+            const at90 = [...row.slice(4 * Math.round(start + 90), 4 * Math.round(start + 90) + 3)];
+            const ink = context.getImageData(Math.round(start + 188), y - 10, 60, 20).data.some(v => v < 100);
+            return setMode("color").then(() => done([at90, [...own.slice(0, 3)], ink, c.height - shownPicture().height]));
+        })"""
+    )
+    check(max(abs(a - b) for a, b in zip(bar[0], bar[1])) < 12, f"the middle of the bar: {bar[0]}, in the legend {bar[1]}")
+    equal(bar[2:], [True, 36], "its numbers; no bar below colours")
     table = page.execute_async_script(
         """const done = arguments[0];
         window.saved = async (blob, name) => done([await blob.text(), window.copied]);
