@@ -6,7 +6,6 @@ evaluations using model-assisted S-metric selection"). The processes then believ
 Ginsbourger et al. 2010), so that the next point of the batch is another one, and no nearer than APART."""
 
 import json
-import math
 
 import numpy as np
 from ssrlab.tune.gaussian_process import GaussianProcess
