@@ -4,9 +4,11 @@
 #include "core/gbuffer/rasterizer.h"
 #include "core/gpu/device.h"
 #include "core/path_inside.h"
+#include "core/png.h"
 #include "core/scene/load_scene.h"
 #include "core/shown_text.h"
 #include "experiments/cli/commands.h"
+#include "experiments/cli/gbuffer_sheet.h"
 #include "experiments/study/config/shots/scene_warnings.h"
 #include "experiments/study/config/shots/shot.h"
 
@@ -58,8 +60,9 @@ static void gbuffer_command(const GBufferCommandOptions& options, const CommonOp
         HostGBuffer host = download_gbuffer(rasterizer.pass_list(), gbuffer, rasterizer.camera(), format);
         host.exposure_ev = shot.camera.exposure_ev;
         save_gbuffer(folder, host);
-        std::printf("%s\n%s\n", shown_text((folder / "gbuffer.exr").string()).c_str(),
-                    shown_text((folder / "camera.json").string()).c_str());
+        write_png(folder / "gbuffer.png", gbuffer_sheet(host));
+        for (const char* file : {"gbuffer.exr", "gbuffer.png", "camera.json"})
+            std::printf("%s\n", shown_text((folder / file).string()).c_str());
     }
     save_environment(out, shot.scene.environment);
     std::printf("%s\n", shown_text((out / "environment.json").string()).c_str());
@@ -67,7 +70,8 @@ static void gbuffer_command(const GBufferCommandOptions& options, const CommonOp
 
 void add_gbuffer(Commands& line) {
     GBufferCommandOptions& gbuffer = line.keep<GBufferCommandOptions>();
-    CLI::App& command = line.add("gbuffer", "Rasterise a scene's G-buffer into gbuffer.exr and camera.json");
+    CLI::App& command = line.add(
+        "gbuffer", "Rasterise a scene's G-buffer into gbuffer.exr and camera.json, with pictures of it in gbuffer.png");
     add_shot(command, gbuffer.shot);
     option(command, "--frames A B", gbuffer.frames, "First and last frame of a sequence, both included")
         ->expected(2)

@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/gbuffer/scene_facts.h"
 #include "core/number_text.h"
+#include "core/png.h"
 #include "core/scene/load_scene.h"
 #include "core/shown_text.h"
 #include "experiments/cli/commands.h"
@@ -77,6 +78,9 @@ void print_ladder(const LadderSummary& ladder) {
 }  // namespace
 
 static void reference_command(const ReferenceCommandOptions& options, const CommonOptions& common) {
+    if (options.out.extension() == ".png")
+        fail("--out ", options.out,
+             ": a reference is an EXR file; name FILE.exr, and a PNG of the image is written beside it");
     const Shot shot = load_single_shot(options.shot, common);
     for (const std::string& warning : warning_sentences(shot.scene))
         std::fprintf(stderr, "warning: %s\n", shown_text(warning).c_str());
@@ -94,8 +98,12 @@ static void reference_command(const ReferenceCommandOptions& options, const Comm
         options.out.empty() ? std::filesystem::path(shot.scene.name + "_reference.exr") : options.out;
     const ErrorSummary error = relative_error_summary(reference, reference.specular);
     write_reference(out, reference, options.settings);
+    std::filesystem::path picture = out;
+    picture.replace_extension(".png");
+    write_png(picture, channels_of(reference.image.mean, 0, 3), shot.camera.exposure_ev);
 
     progress.say(out.string() + (reference.from_cache ? " (from the cache)" : ""));
+    progress.say(picture.string());
     std::printf("passes %s samples per pixel, %s, %s\n", reference.passes.c_str(),
                 format_duration(reference.seconds).c_str(), rays_text(double(reference.rays)).c_str());
     std::printf(
@@ -147,7 +155,8 @@ void add_reference(Commands& line) {
     command.add_flag("--ladder", reference.settings.ladder,
                      "Also render the truth ladder: the errors that remain if the BRDF is factored, if only one view "
                      "and one bounce are known, and if only the screen is known. Needs about twice the rays");
-    option(command, "--out FILE.exr", reference.out, "Output file; default: <scene>_reference.exr");
+    option(command, "--out FILE.exr", reference.out,
+           "Output file, with a PNG of the image beside it; default: <scene>_reference.exr");
     add_scene_path(command, line.common), add_cache(command, line.common);
     add_reading(command);
     command.callback([&] { reference_command(reference, line.common); });

@@ -1,6 +1,7 @@
 // What commands of `ssrlab` print and write when all is well.
 #include "core/exr/exr.h"
 #include "core/json.h"
+#include "core/png.h"
 #include "tests/experiments/cli/command_line_fixture.h"
 
 #include <regex>
@@ -193,6 +194,24 @@ TEST_F(CommandLine, SavesGBuffers) {
     EXPECT_EQ(o.code, 0) << o.text;
     EXPECT_EQ(read_exr(folder / "g/gbuffer.exr").find("depth")->image.extent, glm::uvec2(33, 21));
     EXPECT_TRUE(fs::exists(folder / "g/camera.json"));
+    EXPECT_EQ(read_png_codes(folder / "g/gbuffer.png").extent, glm::uvec2(3 * (33 + 4) - 4, 3 * (21 + 4 + 14) - 4));
+}
+
+TEST_F(CommandLine, WritesReferencesAsPictures) {
+    const Outcome o = ssrlab("reference fence --size 24 14 --samples 16 --out r.exr");
+    EXPECT_EQ(o.code, 0) << o.text;
+    EXPECT_NE(o.text.find("r.png"), std::string::npos) << o.text;
+    const HostImage light = read_exr_rgb(folder / "r.exr"), picture = read_png_codes(folder / "r.png");
+    ASSERT_EQ(picture.extent, light.extent);
+    // All pixels have one exposure: that of the scene's camera, by a pixel that is neither black nor white.
+    size_t middle = 0;
+    const auto code = [&](size_t i) { return picture.values[i]; };
+    while (middle < picture.values.size() && !(code(middle) > 0.4f && code(middle) < 0.6f)) ++middle;
+    ASSERT_LT(middle, picture.values.size());
+    const float gain = std::exp2(std::round(2 * std::log2(linear_from_srgb(code(middle)) / light.values[middle])) / 2);
+    for (size_t i = 0; i < picture.values.size(); ++i)  // half a code of rounding, and the EXR's half floats
+        ASSERT_NEAR(code(i), srgb_from_linear(std::clamp(light.values[i] * gain, 0.0f, 1.0f)), 0.6 / 255) << i;
+    expect_mistake("reference fence --out r.png", "a reference is an EXR file");
 }
 
 TEST_F(CommandLine, TellsWarningsOfASceneOnce) {
