@@ -48,6 +48,13 @@ std::pair<double, double> RatioEstimate::interval(double error) const {
     return {std::exp(logarithm - half_width - excess_of_a), std::exp(logarithm + half_width + excess_of_b)};
 }
 
+double RatioEstimate::p_outside(double most) const {
+    const double logarithm = std::log(value);
+    const double unexplained = std::max({logarithm - std::log(most) - excess_of_a, -logarithm - excess_of_b, 0.0});
+    if (unexplained == 0 || !(standard_error > 0)) return unexplained > 0 ? 0 : 1;
+    return 2 * student_t_cdf(-unexplained / standard_error, degrees);
+}
+
 double p_beyond_limits(double value, double limit, double standard_error, double degrees, double down, double up) {
     const double within = limit - std::max(value + up, down - value);  // of the end that is nearer to its limit
     if (!(standard_error > 0)) return within > 0 ? 0 : 1;
@@ -71,7 +78,7 @@ RatioEstimate jackknifed_ratio(const Jackknifed& a, const Jackknifed& b, const S
     if (logarithms.size() < n || (n < 2 && shared.variance <= 0)) return ratio;
     // Values without one seed share all others and scatter N - 1 times less than single seeds would.
     const double of_seeds = n < 2 ? 0.0 : moments(logarithms).standard_error * double(n - 1);
-    const double variance = of_seeds * of_seeds + shared.variance, logarithm = std::log(ratio.value);
+    const double variance = of_seeds * of_seeds + shared.variance;
     const double degrees_share =
         (n < 2 ? 0.0 : std::pow(of_seeds, 4) / double(n - 1)) + shared.variance * shared.variance / shared.degrees;
     const double degrees = degrees_share > 0 ? variance * variance / degrees_share : double(n - 1);
@@ -81,9 +88,7 @@ RatioEstimate jackknifed_ratio(const Jackknifed& a, const Jackknifed& b, const S
     const auto [low, high] = ratio.interval(0.05);
     if (!std::isfinite(high)) return ratio;
     ratio.low = low, ratio.high = high;
-    const double unexplained = std::max({logarithm - down, -logarithm - up, 0.0});
-    const double t = unexplained == 0 ? 0 : unexplained / std::sqrt(variance);
-    ratio.p_value = 2 * student_t_cdf(-t, degrees);
+    ratio.p_value = ratio.p_outside(1);
     return ratio;
 }
 

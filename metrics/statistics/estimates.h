@@ -38,6 +38,10 @@ struct RatioEstimate {
     /// Call it only if `low` and `high` are known.
     std::pair<double, double> interval(double error) const;
 
+    /// Two-sided p-value of "the ratio is at least 1 and at most `most`", which is 1 or more; equals p_value for 1.
+    /// Call it only if `low` and `high` are known.
+    double p_outside(double most) const;
+
     /// The p-value of "the ratio is not between 1 / (1 + margin) and 1 + margin": the larger p of two one-sided tests
     /// (Schuirmann 1987, "A Comparison of the Two One-Sided Tests Procedure and the Power Approach"). Call it only if
     /// `low` and `high` are known; `margin` is above 0.

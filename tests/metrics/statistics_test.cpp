@@ -116,6 +116,22 @@ TEST(Statistics, EquivalenceIsTheLargerOfTwoOneSidedTests) {
     EXPECT_EQ(r.p_beyond(0.05), 1);
 }
 
+TEST(Statistics, AToleranceMovesTheUpperLimitAlone) {
+    RatioEstimate r{.value = 1.08, .standard_error = 0.01, .degrees = 7};
+    EXPECT_NEAR(r.p_outside(1.05), 2 * student_t_cdf(-(std::log(1.08) - std::log(1.05)) / 0.01, 7), 1e-15);
+    EXPECT_NEAR(r.p_outside(1), 2 * student_t_cdf(-std::log(1.08) / 0.01, 7), 1e-15);
+    r.value = 1.03;
+    EXPECT_EQ(r.p_outside(1.05), 1) << "within";
+    r.value = 1 / 1.08;
+    EXPECT_NEAR(r.p_outside(1.05), 2 * student_t_cdf(-std::log(1.08) / 0.01, 7), 1e-12) << "less needs no tolerance";
+    r.value = 1.08, r.excess_of_a = 0.02;
+    EXPECT_NEAR(r.p_outside(1.05), 2 * student_t_cdf(-(std::log(1.08) - std::log(1.05) - 0.02) / 0.01, 7), 1e-12)
+        << "a bias may explain a part";
+    r.standard_error = 0, r.excess_of_a = 0;
+    EXPECT_EQ(r.p_outside(1.05), 0);
+    EXPECT_EQ(r.p_outside(1.08), 1);
+}
+
 /// Of two values it is Student's t times sqrt(2); of more as tables have its 5 % and 1 % points (Harter 1960, "Tables
 /// of Range and Studentized Range", to 0.001).
 TEST(Statistics, StudentisedRangeHasTheTailOfTables) {
