@@ -21,6 +21,9 @@ const std::vector<TemporalMetric>& temporal_metrics() {
          "Mean of ((x_t - x_(t-1)) - (r_t - r_(t-1)))^2: changes between frames that the truth does not have"},
         {"frame_difference_relative", "frame_difference_a", "1", lower,
          "Mean of frame_difference / (r_t^2 + 0.01), weighted as relmse", "frame_difference_a_guided"},
+        {"ghost_share", "ghost_projection_history", "1", near_zero,
+         "Share of the truth's earlier images in the frames: (x_t - r_t) projected onto (h_t - r_t), where h_t is the "
+         "exponential mean of earlier truths with weight 0.1. 1: frames are a history of the truth"},
         {"ghost_length", "ghost_projection_0.05", "frames", lower,
          "Frames after a change that still contain 5 % of the old image or more: (x_t - plateau) projected onto the "
          "truth's change"},

@@ -14,8 +14,8 @@ import {framesOf} from "../viewer/state.js";
 
 const temporalTables = [
     {title: "At rest: flicker", metrics: ["flicker", "flicker_relative", "flicker_correlation"]}, {
-        title: "In motion: changes that are not the truth's",
-        metrics: ["frame_difference", "frame_difference_relative"],
+        title: "In motion: changes that are not the truth's, and what remains of earlier images",
+        metrics: ["frame_difference", "frame_difference_relative", "ghost_share"],
         hasDisoccluded: true
     },
     {title: "After a change: ghosts", metrics: ["ghost_length", "settling_length"]}

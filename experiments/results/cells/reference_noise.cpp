@@ -2,7 +2,9 @@
 
 #include "metrics/direction.h"
 #include "metrics/noise.h"
+#include "metrics/temporal.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace {
@@ -14,6 +16,11 @@ size_t group_of(size_t pixel) {
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
     return size_t((z ^ (z >> 31)) % noise_groups);
+}
+
+bool is_extrapolated(const std::string& metric) {
+    return std::ranges::count(temporal_metrics(), metric, &TemporalMetric::name) == 0 &&
+           !metric_named(metric).squared_error_weight;
 }
 
 }  // namespace
@@ -62,7 +69,7 @@ std::vector<ReferenceNoise> means_of(const SumsOfErrors& noise, const ReferenceN
             continue;
         ReferenceNoise row = shared;
         row.frame = error.frame, row.target = error.target, row.metric = error.metric, row.mask = error.mask;
-        std::vector<float>& means = metric_named(error.metric).squared_error_weight ? row.sums : row.growth;
+        std::vector<float>& means = is_extrapolated(error.metric) ? row.growth : row.sums;
         for (const double total : sum.total) means.push_back(float(total / double(sum.count)));
         all.push_back(std::move(row));
     }

@@ -64,9 +64,12 @@ void PointErrors::add(SeedErrors& seed, const FrameStep& step, const CompositedI
     const FrameTruth* truth = point_.truth.frame(step);
     if (!truth) return;
     const std::vector<Mask> masks = masks_of(*truth, images.confidence, point_.config);
-    if (measures_difference(point_.shot, step))
-        seed.difference.add(before, images.specular, *point_.truth.poses.at(*step.previous_frame)->frame_reference,
-                            *truth->pose->frame_reference, masks);
+    if (measures_difference(point_.shot, step)) {
+        const MetricReference &reference_before = *point_.truth.poses.at(*step.previous_frame)->frame_reference,
+                              &reference = *truth->pose->frame_reference;
+        seed.difference.add(before, images.specular, reference_before, reference, masks);
+        seed.ghosts.add(images.specular, reference_before, reference, masks);
+    }
     if (!step.is_measured) return;
     const ResultRow row = point_.row(std::to_string(step.frame), seed.seed);
     if (truth->pose->frame_reference && point_.shot.config.frames.size() > 1)
@@ -89,6 +92,22 @@ void PointErrors::add_temporal_rows(unsigned seed, const std::vector<TemporalSco
     }
 }
 
+/// What the reference's noise does to each seed's metrics of its steps.
+void PointErrors::keep_noise(const SeedErrors& seed) {
+    const auto keep = [&](const std::string& metric, const std::string& mask, const NoisyMap& noise, double scale) {
+        std::vector<double> parts = group_sums(noise.swapped, full_mask(noise.swapped.extent));
+        for (double& part : parts) part *= double(noise.swapped.values.size()) / scale;
+        noise_[{"specular", metric, mask, over_frames}].add(parts);
+    };
+    for (const FrameDifference::Sums& s : seed.difference.sums) {
+        if (!seed.difference.has_halves || s.pixels == 0) continue;
+        keep("frame_difference", s.mask, s.noise[0], double(s.pixels));
+        keep("frame_difference_relative", s.mask, s.noise[1], double(s.pixels));
+    }
+    for (const GhostShare::Sums& s : seed.ghosts.sums)
+        if (seed.ghosts.has_halves && s.change > 0) keep("ghost_share", s.mask, s.remaining_noise, s.change);
+}
+
 void PointErrors::add_whole(const SeedErrors& seed) {
     for (const ResultRow& r : seed.frame_rows)
         if (std::ranges::count(point_.config.frame_masks, r.mask) > 0 && !is_in_full_measure(r)) rows_.push_back(r);
@@ -101,7 +120,11 @@ void PointErrors::add_whole(const SeedErrors& seed) {
     const std::vector<Mask> masks = masks_of_surfaces(*last);
     if (shot.config.frames.size() == 1 && seed.held.frames.count >= 2)
         add_temporal_rows(seed.seed, flicker_scores(seed.held, &*last->pose->frame_reference, masks));
-    if (!seed.difference.sums.empty()) add_temporal_rows(seed.seed, seed.difference.scores());
+    if (!seed.difference.sums.empty()) {
+        add_temporal_rows(seed.seed, seed.difference.scores());
+        add_temporal_rows(seed.seed, seed.ghosts.scores());
+        keep_noise(seed);
+    }
     if (!shot.config.change) return;
     const PoseTruth& before =
         *point_.truth.poses.at(*std::ranges::find(shot.steps, *shot.config.change, &FrameStep::frame)->previous_frame);

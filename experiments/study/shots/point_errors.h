@@ -5,6 +5,7 @@
 #include "experiments/study/shots/point_in_shot.h"
 #include "metrics/flicker.h"
 #include "metrics/frame_difference.h"
+#include "metrics/ghost_share.h"
 
 #include <set>
 
@@ -15,6 +16,7 @@ struct SeedErrors {
     FrameMeans means = {};
     FlickerMoments held = {};
     FrameDifference difference = {};
+    GhostShare ghosts = {};
     std::vector<HostImage> after_change = {};
     HostImage before = {};  ///< `specular` of the previous frame
 };
@@ -40,6 +42,7 @@ private:
     void keep_growth(std::vector<ResultRow>& rows, const std::string& frame);
     void measure_in_passing(SeedErrors& seed, const PoseTruth& truth, const HostImage& specular,
                             std::span<const Mask> masks, const ResultRow& row);
+    void keep_noise(const SeedErrors& seed);
     void add_temporal_rows(unsigned seed, const std::vector<TemporalScore>& scores);
     std::vector<SplitRow> rows_of_splits() const;
     std::vector<std::string> notes() const;
