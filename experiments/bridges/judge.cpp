@@ -3,9 +3,17 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "core/list_text.h"
+#include "core/number_text.h"
 #include "core/scene/load_scene.h"
+#include "experiments/results/answers/answers.h"
+#include "experiments/results/cells/cell_store.h"
 #include "experiments/results/cells/image_path.h"
+#include "experiments/results/cells/study_rows.h"
+#include "experiments/results/verdicts/judge_rows.h"
+#include "experiments/results/verdicts/study_points.h"
 #include "experiments/results/verdicts/summary.h"
+#include "experiments/study/config/comparisons.h"
 #include "experiments/study/config/points/external_images.h"
 #include "experiments/study/config/shots/capture_folder.h"
 
@@ -95,7 +103,7 @@ Config study_of(const JudgeSettings& settings, const std::string& engine) {
                   {"metrics", {"mse", "flip", "relmse"}},
                   {"masks", {"all", "reflective", "edge", "roughness_0_0.1", "roughness_0.1_0.3", "roughness_0.3_0.6"}},
                   {"targets", {"specular", "image"}},
-                  {"primary", {{"margin", settings.margin}}},
+                  {"primary", {{"margin", settings.limits.margin}}},
                   {"timing", {{"frames", 0}}}};
     if (settings.capture.empty()) study["reference"] = {{"samples", settings.samples}};
     const fs::path file = settings.run.out / "judge.json";
@@ -139,6 +147,43 @@ std::vector<ViewError> errors_of(const fs::path& out, const PrimaryComparisons& 
     return errors;
 }
 
+/// What the study measured, from the cells that are of it as it is: tables lack the estimates behind their intervals.
+MeasuredRows rows_of_study(const fs::path& out, const json& manifest) {
+    const CellStore store(out, [](const std::string&) {});
+    const json stale = manifest.value("stale", json::object()).value("cells", json::array());
+    std::vector<Cell> cells;
+    for (const std::string& name : store.names())
+        if (std::ranges::count(stale, json(name)) == 0)
+            if (std::optional<Cell> cell = store.read(name)) cells.push_back(std::move(*cell));
+    return rows_of(cells);
+}
+
+Judgement judgement_of(const fs::path& out, const Config& study, const JudgeLimits& limits, const std::string& name) {
+    const json manifest = read_json(out / "manifest.json");
+    return judge_rows(rows_of_study(out, manifest), compared_points(study.techniques), points_not_repeatable(manifest),
+                      study.primary, {name, judged_point}, {name, before_point}, limits);
+}
+
+std::string error_text(const ViewError& view) {
+    if (!view.error) return view.shot + ": no error: nothing reflects in this view";
+    std::string text = view.shot + ": mse " + number_text(*view.error);
+    if (view.low && view.high) text += " [" + number_text(*view.low) + ", " + number_text(*view.high) + "]";
+    if (view.ratio_to_none) text += ", " + number_text(*view.ratio_to_none, 3) + " times that of no reflections";
+    return text;
+}
+
+/// Writes no page once all is done: the verdict is not known then.
+std::function<StudyAnswers(const fs::path&)> page_meanwhile(const RunSettings& run) {
+    if (!run.write_report) return {};
+    return [write = run.write_report](const fs::path& out) {
+        return read_json(out / "manifest.json").value("is_complete", true) ? StudyAnswers{} : write(out);
+    };
+}
+
+void write_page_of(const JudgeSettings& settings) {
+    if (settings.run.write_report) settings.run.write_report(settings.run.out);
+}
+
 }  // namespace
 
 JudgedFrames judge_frames(const JudgeSettings& settings) {
@@ -154,13 +199,23 @@ JudgedFrames judge_frames(const JudgeSettings& settings) {
     const Config study = study_of(settings, images->engine + " " + images->version);
     RunSettings run = settings.run;
     run.replaces = true;
+    run.write_report = page_meanwhile(settings.run);
+    remove_verdict(run.out);
     run_study(study, run);
-    JudgedFrames judged{.errors = errors_of(run.out, study.primary), .against = {}};
-    if (settings.against.empty()) return judged;
-    if (images_in(settings.frames) == images_in(settings.against))
-        judged.against = Judgement{.views = {}, .verdict = judgement::identical};
-    else
-        judged.against = judge_effects(read_rows<EffectRow>(run.out / "effects.csv"), study.primary,
-                                       {images->name, judged_point}, {images->name, before_point});
+    JudgedFrames judged{.errors = errors_of(run.out, study.primary)};
+    try {
+        if (!settings.against.empty())
+            judged.against = images_in(settings.frames) == images_in(settings.against)
+                                 ? Judgement{.views = {}, .verdict = judgement::identical}
+                                 : judgement_of(run.out, study, settings.limits, images->name);
+    } catch (const Error&) {
+        write_page_of(settings);
+        throw;
+    }
+    const std::string before = settings.against.string();
+    judged.text = judged.against ? verdict_text(*judged.against, study.primary, settings.limits, before)
+                                 : text_without_verdict(names_of(judged.errors, error_text));
+    write_verdict(run.out, judged.text, judged.against ? &*judged.against : nullptr, settings.limits);
+    write_page_of(settings);
     return judged;
 }

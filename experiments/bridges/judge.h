@@ -1,5 +1,5 @@
 #pragma once
-#include "experiments/results/verdicts/judgement.h"
+#include "experiments/results/verdicts/verdict_text.h"
 #include "experiments/study/run.h"
 #include "experiments/study/view_name.h"
 
@@ -10,13 +10,13 @@
 #include <vector>
 
 struct JudgeSettings {
-    std::filesystem::path frames;                 ///< a folder of another program's images (ExternalImages)
-    std::filesystem::path against;                ///< earlier frames of the same views by the same engine; "": none
-    std::string scene;                            ///< the scene; "": found by the names of the views
-    std::filesystem::path capture, reference;     ///< instead of a scene; "": none
-    unsigned samples = 256;                       ///< samples per pixel of the references
-    double margin = PrimaryComparisons().margin;  ///< of equivalence
-    RunSettings run;                              ///< `run.out` gets the study and the page
+    std::filesystem::path frames;              ///< a folder of another program's images (ExternalImages)
+    std::filesystem::path against;             ///< earlier frames of the same views by the same engine; "": none
+    std::string scene;                         ///< the scene; "": found by the names of the views
+    std::filesystem::path capture, reference;  ///< instead of a scene; "": none
+    unsigned samples = 256;                    ///< samples per pixel of the references
+    JudgeLimits limits;                        ///< between better, equivalent and worse
+    RunSettings run;                           ///< `run.out` gets the study, verdict.json and the page
 };
 
 /// A view's images in a folder of an engine's frames, from their names: SCENE.CAMERA.WIDTHxHEIGHT/fFRAME.s0.exr.
@@ -42,8 +42,10 @@ struct ViewError {
 struct JudgedFrames {
     std::vector<ViewError> errors;
     std::optional<Judgement> against;  ///< set if there are frames to compare with
+    VerdictText text;                  ///< what terminal and page say
 };
 
 /// Measures a renderer's frames in all views of their folder, by a study in settings.run.out whose report has masks,
-/// maps and numbers. Fails with Error if a view cannot be found or compared.
+/// maps and numbers. The verdict is of the error, and of flicker and ghosts where a view has several frames.
+/// verdict.json holds it, and the page begins with it. Fails with Error if a view cannot be found or compared.
 JudgedFrames judge_frames(const JudgeSettings& settings);

@@ -1,7 +1,6 @@
 // ssrlab judge: how far a renderer's frames are from the truth, and whether they err more than those before.
 #include "core/cache_folder.h"
 #include "core/error.h"
-#include "core/number_text.h"
 #include "core/scene/load_scene.h"
 #include "core/shown_text.h"
 #include "experiments/bridges/judge.h"
@@ -16,23 +15,14 @@ struct JudgeOptions {
     std::filesystem::path frames, against, capture, reference, out = "results/judge";  ///< "": none
     std::string scene;                                                                 ///< "": by the views' names
     unsigned samples = 256;
-    double margin = 0;  ///< 0: PrimaryComparisons'
+    JudgeLimits limits;
     bool fails_if_worse = false;
 };
 
-std::string error_text(const ViewError& view) {
-    if (!view.error) return "no error: nothing reflects in this view";
-    std::string text = "mse " + number_text(*view.error);
-    if (view.low && view.high) text += " [" + number_text(*view.low) + ", " + number_text(*view.high) + "]";
-    if (view.ratio_to_none) text += ", " + number_text(*view.ratio_to_none, 3) + " times that of no reflections";
-    return text;
-}
+constexpr double most_tolerance = 1000;  // a larger one would pass everything
 
-void print(const JudgedView& view, const std::string& before) {
-    std::printf(
-        "%s: mse %.4g [%.4g, %.4g] times that of %s: %s (p %.2g; %.3g times it would be seen in 95 %% of runs)\n",
-        shown_text(view.shot).c_str(), view.ratio, view.low, view.high, before.c_str(), view.verdict.c_str(),
-        view.p_holm, view.detectable);
+void say(const std::vector<std::string>& lines) {
+    for (const std::string& line : lines) std::printf("%s\n", shown_text(line).c_str());
 }
 
 }  // namespace
@@ -40,6 +30,8 @@ void print(const JudgedView& view, const std::string& before) {
 static int judge_command(const JudgeOptions& options, const CommonOptions& common) {
     if (!options.capture.empty() && options.reference.empty())
         fail("--capture needs --reference, what `ssrlab reference` wrote of the captured frame");
+    if (options.limits.worse_by > 1 && options.against.empty())
+        fail("--worse-by needs --against, a folder of frames that these may exceed by so much");
     if (options.fails_if_worse && options.against.empty())
         fail("--fail-if-worse needs --against, a folder of frames to be no worse than");
     const JudgedFrames judged =
@@ -49,19 +41,18 @@ static int judge_command(const JudgeOptions& options, const CommonOptions& commo
                       .capture = options.capture,
                       .reference = options.reference,
                       .samples = options.samples,
-                      .margin = options.margin > 0 ? options.margin : PrimaryComparisons().margin,
+                      .limits = options.limits,
                       .run = {.out = options.out,
                               .device = common.device,
                               .cache = common.cache.empty() ? default_cache_folder() : common.cache,
                               .search_path = scene_search_path(common.scene_path),
                               .write_report = write_page}});
     std::printf("\n");
-    for (const ViewError& view : judged.errors)
-        std::printf("%s: %s\n", shown_text(view.shot).c_str(), error_text(view).c_str());
-    if (!judged.against) return 0;
-    const std::string before = shown_text(options.against.string());
-    for (const JudgedView& view : judged.against->views) print(view, before);
-    std::printf("%s against %s\n", judged.against->verdict.c_str(), before.c_str());
+    if (!judged.against) {
+        say(judged.text.numbers);
+        return 0;
+    }
+    say(judged.text.numbers), say(judged.text.rules), say({judged.text.headline});
     return options.fails_if_worse && judged.against->verdict == judgement::worse ? 1 : 0;
 }
 
@@ -70,7 +61,8 @@ void add_judge(Commands& line) {
     CLI::App& command = line.add(
         "judge",
         "Judge frames of another renderer by the truth, and compare them with earlier frames of that renderer. The "
-        "verdict is better, worse, equivalent, undecided or identical (at most 1 % false alarms)");
+        "verdict is better, worse, equivalent, undecided or identical. It is of the error, and of sequences also of "
+        "flicker and ghosts. At most 1 % of runs without a change are called worse or better");
     option(command, "frames FRAMES", judge.frames,
            "Folder with external.json and SCENE.CAMERA.WIDTHxHEIGHT/fFRAME.sSEED.exr, as `experiments/docs/judge.md` "
            "describes")
@@ -84,7 +76,13 @@ void add_judge(Commands& line) {
     option(command, "--samples N", judge.samples, "Samples per pixel of the truth; default: 256")
         ->check(CLI::Range(32, 1 << 20));
     option(command, "--out DIR", judge.out, "Results folder, with a page; default: results/judge");
-    add_margin(command, judge.margin, "0.05");
+    add_margin(command, judge.limits.margin, "0.05");
+    option(
+        command, "--worse-by R", judge.limits.worse_by,
+        "Tolerance: frames are worse only if their error or flicker is certainly more than R times that of the earlier "
+        "frames, for example 1.05. A change that is certainly less is \"equivalent\". With 1, any certain increase is "
+        "worse; default: 1")
+        ->check(real_in(1, most_tolerance, "a ratio of errors from 1 to 1000, for example 1.05"));
     add_scene_path(command, line.common), add_device(command, line.common), add_cache(command, line.common);
     add_reading(command);
     command.callback([&] { line.status = judge_command(judge, line.common); });

@@ -14,6 +14,7 @@
 #include "experiments/results/results_schema.h"
 #include "experiments/results/verdicts/study_points.h"
 #include "experiments/results/verdicts/summary.h"
+#include "experiments/results/verdicts/verdict_text.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -67,6 +68,7 @@ json error_table(const std::vector<const MetricSummary*>& rows, const json& metr
 json without_scripts(const json& data, const Headline& headline, std::span<const MetricSummary> errors,
                      const PointSet& singles) {
     json values = {{"warnings", data["warnings"]}, {"error_tables", json::array()}};
+    if (data.contains("verdict")) values["verdict"] = data["verdict"];
     if (!data["answers"].empty())
         values["answers"] = {{"in_these_scenes", data["in_these_scenes"]},
                              {"in_scenes_like_these", data["in_scenes_like_these"]},
@@ -88,7 +90,7 @@ json data_files(const std::filesystem::path& folder) {
     };
     const json schema = results_schema({});
     for (const json& table : schema["resources"]) add(table["path"]);
-    for (const char* file : {"stability.csv", "manifest.json", "schema.json"}) add(file);
+    for (const char* file : {"stability.csv", "verdict.json", "manifest.json", "schema.json"}) add(file);
     return files;
 }
 
@@ -138,8 +140,13 @@ StudyAnswers write_report(const std::filesystem::path& folder, bool links_images
                         {"perceptual_metric", headline.perceptual_metric},
                         {"margin", headline.margin}};
     StudyAnswers answers{.shots = shot_answers(tables)};
-    answers.in_these_scenes = in_these_scenes(answers.shots, manifest, headline);
-    answers.in_scenes_like_these = in_scenes_like_these(tables);
+    if (const std::optional<VerdictLead> verdict = read_verdict(folder)) {
+        // Of one renderer's frames: which point is best over scenes was not asked.
+        data["verdict"] = {{"headline", verdict->headline}, {"sentences", verdict->sentences}};
+    } else {
+        answers.in_these_scenes = in_these_scenes(answers.shots, manifest, headline);
+        answers.in_scenes_like_these = in_scenes_like_these(tables);
+    }
     data["in_these_scenes"] = answers.in_these_scenes;
     data["in_scenes_like_these"] = answers.in_scenes_like_these;
     data["answers"] = answers_json(answers.shots, headline);

@@ -39,7 +39,7 @@ json verdict_on(const StudyResults& tables, const PointName& point, const PointN
         said["verdict"] = judged.verdict;
         for (const JudgedView& view : judged.views)
             said["views"].push_back({{"shot", view.shot},
-                                     {"ratio", view.ratio},
+                                     {"ratio", view.change},
                                      {"low", view.low},
                                      {"high", view.high},
                                      {"p_holm", view.p_holm},

@@ -35,7 +35,8 @@ export function showAnswers() {
     const said = report.errors.length ?
         [report.inTheseScenes, report.inScenesLikeThese] :
         ["This study ran without truth, so it has no errors. Its other results stand below and in the tables beside this page."];
-    at("over-scenes").replaceChildren(...said.filter(Boolean).map(text => {
+    const verdict = report.verdict ? verdictLines(report.verdict) : [];
+    at("over-scenes").replaceChildren(...verdict, ...said.filter(Boolean).map(text => {
         const [, lead, rest] = text.match(/^(In these \d+ shots|In scenes like these|)(.*)$/s);
         return h("p", {}, lead ? h("b", {}, lead) : "", rest);
     }));
@@ -45,6 +46,10 @@ export function showAnswers() {
     showBudget();
     return drawAnswers(shots);
 }
+
+/// A page of `ssrlab judge` begins with its verdict.
+const verdictLines = ({headline, sentences}) =>
+    [h("p", {id: "verdict"}, h("b", {}, headline)), h("ul", {}, ...sentences.map(text => h("li", {}, text)))];
 
 function drawAnswers(shots) {
     const isChosen = shot => shot === answerChoice.shot;

@@ -62,6 +62,7 @@ function readData() {
         defaults: raw.defaults,          // technique to {parameter: value}, of those that this build knows
         headline: raw.headline ?? null,  // of studies, as their answers: experiments/results/answers/answers.h
         answers: raw.answers ?? [],
+        verdict: raw.verdict ?? null,  // {headline, sentences} of `ssrlab judge`
         inTheseScenes: raw.in_these_scenes ?? "",
         inScenesLikeThese: raw.in_scenes_like_these ?? "",
         warnings: raw.warnings,

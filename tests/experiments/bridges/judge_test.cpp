@@ -35,11 +35,13 @@ struct JudgeTest : StudyTest {
             write_exr(folder / name / view / ("f0.s" + std::to_string(seed) + ".exr"), image);
         }
     }
-    JudgedFrames judge(const std::string& frames, const std::string& against = "", const std::string& scene = "") {
+    JudgedFrames judge(const std::string& frames, const std::string& against = "", const std::string& scene = "",
+                       const JudgeLimits& limits = {}) {
         return judge_frames({.frames = folder / frames,
                              .against = against.empty() ? fs::path() : folder / against,
                              .scene = scene,
                              .samples = 64,
+                             .limits = limits,
                              .run = {.out = folder / "judged",
                                      .cache = folder / "cache",
                                      .search_path = {fs::path(SSRLAB_SOURCE_DIR) / "scenes"},
@@ -99,6 +101,23 @@ TEST(Judgement, SaysWhichChangeItWouldSee) {
     EXPECT_NEAR(judged({row}).views.at(0).detectable, std::exp(4.2484 * 0.02), 1e-4);
 }
 
+TEST(Judgement, ADeterministicRendererMayErrMoreWithinATolerance) {
+    EffectRow exact = effect("a", 1.03, 0);
+    exact.low = exact.high = exact.ratio, exact.p_equivalent = 0;
+    exact.estimate = {.value = 1.03};
+    const auto verdict = [&](const JudgeLimits& limits) {
+        return judge(evidence_of_errors(std::span(&exact, 1), {}, {"v", "frames"}, {"v", "before"}, limits)).verdict;
+    };
+    EXPECT_EQ(verdict({}), judgement::worse) << "any certain increase";
+    EXPECT_EQ(verdict({.worse_by = 1.02}), judgement::worse);
+    EXPECT_EQ(verdict({.worse_by = 1.05}), judgement::equivalent);
+    exact.ratio = exact.estimate.value = 1.4;
+    EXPECT_EQ(verdict({.worse_by = 1.5}), judgement::equivalent) << "a tolerance above the margin is the margin";
+    EXPECT_EQ(verdict({.worse_by = 1.35}), judgement::worse);
+    exact.ratio = exact.estimate.value = 0.99;
+    EXPECT_EQ(verdict({.worse_by = 1.5}), judgement::better) << "less needs no tolerance";
+}
+
 TEST(Judgement, SaysNothingOfWhatCannotBeDecided) {
     EffectRow without = effect("a", 1, 0.5);
     without.p.reset(), without.interval = "none: 1 seed";
@@ -120,9 +139,26 @@ TEST_F(JudgeTest, PassesNoiseAndFailsWhatErrsMore) {
 
     const Judgement same = judge("week2", "week1").against.value();
     EXPECT_EQ(same.verdict, judgement::equivalent);
-    const Judgement worse = judge("darker", "week1").against.value();
+    const JudgedFrames darker = judge("darker", "week1");
+    const Judgement& worse = *darker.against;
     EXPECT_EQ(worse.verdict, judgement::worse);
     EXPECT_GT(worse.views.at(0).low, 1);
+    // The page begins with what the terminal says, and verdict.json has it.
+    const std::string page = read_text(folder / "judged/report.html");
+    EXPECT_TRUE(says(darker.text.headline, "worse against"));
+    EXPECT_TRUE(says(darker.text.headline, ": error in " + view));
+    EXPECT_TRUE(says(page, "<p><b>" + darker.text.headline + "</b></p>"));
+    EXPECT_FALSE(says(page, "too few for a verdict"));
+    nlohmann::json file = read_json(folder / "judged/verdict.json");
+    EXPECT_EQ(file["headline"], darker.text.headline);
+    EXPECT_EQ(file["worse_by"], 1.0);
+    EXPECT_EQ(file["numbers"][0]["verdict"], judgement::worse);
+    // The same frames with a tolerance above the ratio: the study is done, and the page changes.
+    const double ratio = worse.views.at(0).change;
+    const JudgedFrames tolerated = judge("darker", "week1", "", {.worse_by = 1.2 * ratio});
+    EXPECT_EQ(tolerated.against->verdict, judgement::equivalent);
+    EXPECT_TRUE(says(read_text(folder / "judged/report.html"), tolerated.text.headline));
+    EXPECT_EQ(read_json(folder / "judged/verdict.json")["worse_by"], 1.2 * ratio);
     EXPECT_EQ(judge("week1", "darker", "mirror_pillars").against.value().verdict, judgement::better);
     fs::copy(folder / "week1", folder / "copy", fs::copy_options::recursive);
     EXPECT_EQ(judge("copy", "week1").against.value().verdict, judgement::identical);

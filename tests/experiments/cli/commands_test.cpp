@@ -93,12 +93,21 @@ TEST_F(CommandLine, JudgesFrames) {
     }
     const Outcome worse = ssrlab("judge now --against before --samples 64 --fail-if-worse");
     EXPECT_EQ(worse.code, 1);
-    EXPECT_NE(worse.text.find("\nworse against before\n"), std::string::npos) << worse.text;
+    EXPECT_NE(worse.text.find("\nworse against before: error in mirror_pillars.main.48x27\n"), std::string::npos)
+        << worse.text;
     EXPECT_TRUE(fs::exists(folder / "results/judge/report.html"));
+    // Shares of 0.7 and 0.8 err by 0.09 and 0.04: 2.25 times.
+    EXPECT_EQ(ssrlab("judge now --against before --samples 64 --fail-if-worse --worse-by 2.2").code, 1);
+    EXPECT_EQ(ssrlab("judge now --against before --samples 64 --fail-if-worse --worse-by 2.3").code, 0);
+    for (const char* ratio : {"0.99", "nan", "inf", "five", "-1"})
+        expect_mistake("judge now --against before --worse-by " + std::string(ratio),
+                       "'" + std::string(ratio) + "' must be a ratio of errors from 1 to 1000, for example 1.05");
+    expect_mistake("judge now --worse-by 1.05", "--worse-by needs --against");
     EXPECT_EQ(ssrlab("judge now --against before --samples 64").code, 0);
     const Outcome better = ssrlab("judge before --against now --samples 64 --fail-if-worse");
     EXPECT_EQ(better.code, 0);
-    EXPECT_NE(better.text.find("\nbetter against now\n"), std::string::npos) << better.text;
+    EXPECT_NE(better.text.find("\nbetter against now: error in mirror_pillars.main.48x27\n"), std::string::npos)
+        << better.text;
     // A captured G-buffer with its truth in place of the scene.
     ASSERT_EQ(ssrlab("gbuffer mirror_pillars --size 48 27 --out cap").code, 0);
     fs::rename(folder / "now/mirror_pillars.main.48x27", folder / "now/cap.gbuffer.48x27");

@@ -1,0 +1,147 @@
+#include "experiments/results/verdicts/verdict_text.h"
+
+#include "core/files.h"
+#include "core/json.h"
+#include "core/json_types.h"
+#include "core/list_text.h"
+#include "core/number_text.h"
+#include "core/path_inside.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace {
+
+using nlohmann::json;
+using Lines = std::vector<std::string>;
+
+constexpr const char* verdict_file = "verdict.json";
+constexpr size_t most_shown = 3;
+
+std::filesystem::path file_in(const std::filesystem::path& folder) { return path_inside(folder, verdict_file); }
+
+std::string judged_metric(const JudgedView& view, const PrimaryComparisons& primary) {
+    return view.what == judged_number::error     ? primary.metric
+           : view.what == judged_number::flicker ? "frame_difference"
+                                                 : "ghost_share";
+}
+
+std::string change_text(const JudgedView& view) {
+    return number_text(view.change) + " [" + number_text(view.low) + ", " + number_text(view.high) + "]";
+}
+
+std::string sentence_on(const JudgedView& view, const PrimaryComparisons& primary, const std::string& before) {
+    const std::string start = view.shot + ": " + view.what + " (" + judged_metric(view, primary) + ") ";
+    if (!view.why.empty()) return start + view.verdict + ", " + view.why;
+    if (!std::isfinite(view.change)) return start + view.verdict + ": frames of " + before + " have none";
+    if (view.what == judged_number::flicker && view.change == 0)
+        return start + view.verdict + ": only frames of " + before + " have any";
+    const bool is_share = view.what == judged_number::ghosts;
+    const std::string end =
+        ": " + view.verdict + " (p " + number_text(view.p_holm, 2) + "; " + number_text(view.detectable, 3);
+    return is_share
+               ? start + change_text(view) + " more than in " + before + end + " more would be seen in 95 % of runs)"
+               : start + change_text(view) + " times that of " + before + end + " times would be seen in 95 % of runs)";
+}
+
+/// "error in A and B; flicker in A": what has the verdict of the whole.
+std::string where_text(const Judgement& judged) {
+    Lines parts;
+    for (const char* what : {judged_number::error, judged_number::flicker, judged_number::ghosts}) {
+        Lines shots;
+        for (const JudgedView& view : judged.views)
+            if (view.what == what && view.verdict == judged.verdict) shots.push_back(view.shot);
+        if (!shots.empty()) parts.push_back(std::string(what) + " in " + listed(shots, most_shown));
+    }
+    return joined(parts, "; ");
+}
+
+Lines rules_of(const Judgement& judged, const JudgeLimits& limits) {
+    const std::string more = limits.worse_by > 1 ? "certainly more than " + number_text(limits.worse_by) + " times that"
+                                                 : "certainly more than that";
+    return {"Tolerance: a number of these frames is worse if it is " + more + " of the earlier frames.",
+            "It is equivalent if it certainly changed by less than " + percent_text(limits.most_equivalent() - 1) + ".",
+            counted(judged.views.size(), "number") + " of all views " + (judged.views.size() == 1 ? "is" : "are") +
+                " judged together: at most " + percent_text(judge_significance) +
+                " of runs without a change are called worse or better."};
+}
+
+json numbers_json(const Judgement& judged) {
+    json all = json::array();
+    for (const JudgedView& view : judged.views) {
+        json number = {{"shot", view.shot}, {"what", view.what}, {"verdict", view.verdict}, {"p", view.p_holm}};
+        if (!view.why.empty()) number["why"] = view.why;
+        if (view.why.empty() && std::isfinite(view.change))
+            number.update({{"change", view.change},
+                           {"low", view.low},
+                           {"high", view.high},
+                           {"no_change", view.no_change},
+                           {"detectable", view.detectable}});
+        all.push_back(std::move(number));
+    }
+    return all;
+}
+
+}  // namespace
+
+Lines VerdictText::lead() const {
+    Lines lines = rules;
+    const size_t shown = std::min(deciding, most_shown);
+    lines.insert(lines.end(), numbers.begin(), numbers.begin() + std::ptrdiff_t(shown));
+    if (shown < numbers.size())
+        lines.push_back(std::string(verdict_file) + " holds all " + counted(numbers.size(), "number") + ".");
+    return lines;
+}
+
+VerdictText verdict_text(const Judgement& judged, const PrimaryComparisons& primary, const JudgeLimits& limits,
+                         const std::string& before) {
+    VerdictText text{.headline = judged.verdict + " against " + before};
+    if (judged.verdict == judgement::identical) {
+        text.rules = {"All images have the same bytes, so nothing was compared."};
+        return text;
+    }
+    if (judged.verdict == judgement::worse || judged.verdict == judgement::better)
+        text.headline += ": " + where_text(judged);
+    text.rules = rules_of(judged, limits);
+    std::vector<const JudgedView*> views;
+    for (const JudgedView& view : judged.views) views.push_back(&view);
+    std::ranges::stable_sort(views, {},
+                             [&](const JudgedView* v) { return std::pair(v->verdict != judged.verdict, v->p_holm); });
+    for (const JudgedView* view : views) text.numbers.push_back(sentence_on(*view, primary, before));
+    text.deciding = size_t(std::ranges::count(judged.views, judged.verdict, &JudgedView::verdict));
+    return text;
+}
+
+VerdictText text_without_verdict(const Lines& errors) {
+    return {.headline = "no verdict: there are no earlier frames to compare with",
+            .rules = {},
+            .numbers = errors,
+            .deciding = errors.size()};
+}
+
+void write_verdict(const std::filesystem::path& folder, const VerdictText& text, const Judgement* judged,
+                   const JudgeLimits& limits) {
+    const json verdict = {{"verdict", judged ? json(judged->verdict) : json()},
+                          {"headline", text.headline},
+                          {"sentences", text.lead()},
+                          {"worse_by", limits.worse_by},
+                          {"margin", limits.margin},
+                          {"false_alarms", judge_significance},
+                          {"numbers", judged ? numbers_json(*judged) : json::array()}};
+    write_text(file_in(folder), verdict.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
+}
+
+std::optional<VerdictLead> read_verdict(const std::filesystem::path& folder) {
+    const std::filesystem::path file = file_in(folder);
+    if (!std::filesystem::exists(file)) return {};
+    static const json types = json::parse(R"({"headline": "text", "sentences": ["text"]})");
+    const json verdict = read_json(file);
+    require_type(verdict, types, file.string(), OtherMembers::allowed);
+    return VerdictLead{verdict["headline"], verdict["sentences"]};
+}
+
+void remove_verdict(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::remove(file_in(folder), error);
+}
