@@ -99,9 +99,13 @@ TEST_F(CommandLine, JudgesFrames) {
     // Shares of 0.7 and 0.8 err by 0.09 and 0.04: 2.25 times.
     EXPECT_EQ(ssrlab("judge now --against before --samples 64 --fail-if-worse --worse-by 2.2").code, 1);
     EXPECT_EQ(ssrlab("judge now --against before --samples 64 --fail-if-worse --worse-by 2.3").code, 0);
-    for (const char* ratio : {"0.99", "nan", "inf", "five", "-1"})
-        expect_mistake("judge now --against before --worse-by " + std::string(ratio),
-                       "'" + std::string(ratio) + "' must be a ratio of errors from 1 to 1000, for example 1.05");
+    for (const char* ratio : {"0.99", "nan", "inf", "five", "-1"}) {
+        const Outcome refused = ssrlab("judge now --against before --worse-by " + std::string(ratio));
+        EXPECT_EQ(refused.code, 2) << ratio;
+        EXPECT_TRUE(refused.text.starts_with("--worse-by: '" + std::string(ratio) +
+                                             "' must be a ratio of errors from 1 to 1000, for example 1.05\n"))
+            << refused.text;
+    }
     expect_mistake("judge now --worse-by 1.05", "--worse-by needs --against");
     EXPECT_EQ(ssrlab("judge now --against before --samples 64").code, 0);
     const Outcome better = ssrlab("judge before --against now --samples 64 --fail-if-worse");
