@@ -20,6 +20,7 @@ GROUPS = {
         "experiments/docs/tune": "Find the best parameters",
         "experiments/docs/write_a_technique": "Write a technique",
         "experiments/docs/judge": "Judge your engine's frames",
+        "experiments/docs/gate": "What judge detects",
         "experiments/docs/figures": "Figures and tables",
         "experiments/docs/results_folder": "What a run writes",
         "experiments/docs/numbers": "How the numbers are made",
