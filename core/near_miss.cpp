@@ -40,6 +40,20 @@ std::string without_data(const std::string& text) {
 
 constexpr size_t longest_name = 100;  ///< bytes: the distance takes time and memory of the product of both lengths
 
+constexpr size_t most_listed = 30, nearest_listed = 5;  ///< more names are no answer, but a page
+
+/// The first ones in order of their distance.
+std::vector<std::string> nearest_names(std::string_view name, std::span<const std::string> choices) {
+    std::vector<std::pair<size_t, std::string>> by_distance;
+    for (const std::string& choice : choices) {
+        const bool is_long = std::max(name.size(), choice.size()) > longest_name;
+        by_distance.emplace_back(is_long ? SIZE_MAX : edit_distance(name, choice), shortened(choice));
+    }
+    std::ranges::sort(by_distance);
+    by_distance.resize(std::min(by_distance.size(), nearest_listed));
+    return names_of(by_distance, &std::pair<size_t, std::string>::second);
+}
+
 }  // namespace
 
 std::string shortened(const std::string& whole) {
@@ -72,7 +86,11 @@ std::string nearest_name(std::string_view name, std::span<const std::string> cho
     return best;
 }
 
-std::string suggestion(std::string_view name, std::span<const std::string> choices) {
+std::string suggestion(std::string_view name, std::span<const std::string> choices, const std::string& command) {
     if (const std::string near = nearest_name(name, choices); !near.empty()) return "; did you mean '" + near + "'?";
-    return choices.empty() ? "; there are none" : "; known are: " + joined(names_of(choices, shortened));
+    if (choices.empty()) return "; there are none";
+    if (choices.size() <= most_listed) return "; known are: " + joined(names_of(choices, shortened));
+    return "; the nearest of " + std::to_string(choices.size()) +
+           " names are: " + joined(nearest_names(name, choices)) +
+           (command.empty() ? "" : "; `" + command + "` lists all");
 }

@@ -15,8 +15,9 @@ std::string shortened(const std::string& text);
 /// A text of more than 100 characters is no misspelt name and near none.
 std::string nearest_name(std::string_view name, std::span<const std::string> choices);
 
-/// "; did you mean 'thickness'?" where a near miss exists, else "; known are: a, b, c", or "; there are none".
-std::string suggestion(std::string_view name, std::span<const std::string> choices);
+/// "; did you mean 'thickness'?" of a near miss, else "; known are: a, b, c", or "; there are none". Of more than 30
+/// choices the nearest are named, and the command that lists all, if it is given.
+std::string suggestion(std::string_view name, std::span<const std::string> choices, const std::string& command = "");
 
 /// The entry with that `name`; fails with "<what> 'NAME'; did you mean ..." if there is none.
 template <std::ranges::borrowed_range Entries, class... What>

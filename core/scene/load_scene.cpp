@@ -6,6 +6,7 @@
 #include "core/scene/camera_planes.h"
 #include "core/scene/scene_family.h"
 #include "core/scene/scene_file.h"
+#include "core/scene/unknown_scene.h"
 
 #include <algorithm>
 #include <cctype>
@@ -68,7 +69,8 @@ Scene load_bare_gltf(const fs::path& file, const GltfChoices& choices) {
 }  // namespace
 
 Scene load_scene(const std::string& name, const std::vector<fs::path>& search_path, const GltfChoices& choices) {
-    if (name.size() >= PATH_MAX) fail("unknown scene '", shortened(name), "': the name is too long for a path");
+    if (name.size() >= PATH_MAX)
+        throw UnknownScene("unknown scene '" + shortened(name) + "': the name is too long for a path");
     if (is_of_family(name)) return load_scene_file(scene_file_of_family(name), search_path, choices);
     std::error_code error;  // a name too long for the file system is just unknown
     const fs::path direct = name;
@@ -87,5 +89,6 @@ Scene load_scene(const std::string& name, const std::vector<fs::path>& search_pa
     if (!name.empty() && fs::exists(direct, error))
         fail(shortened(name), fs::is_directory(direct, error) ? " is a folder without a scene.json" : " is no scene",
              ": scenes end in .json, .gltf or .glb");
-    fail("unknown scene '", shortened(name), "'", suggestion(name, list_scenes(search_path)));
+    throw UnknownScene("unknown scene '" + shortened(name) + "'" +
+                       suggestion(name, list_scenes(search_path), "ssrlab list scenes"));
 }

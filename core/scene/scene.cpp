@@ -32,7 +32,7 @@ glm::vec3 bilinear(const HostImage& image, glm::vec2 uv) {
 }  // namespace
 
 const SceneCamera& Scene::camera(const std::string& wanted) const {
-    if (cameras.empty()) fail("scene '", name, "' has no camera");
+    if (cameras.empty()) fail("scene '", name, "' has no camera; add one to its file");
     if (wanted.empty()) return cameras.front();
     return find_named(cameras, wanted, "scene '", name, "' has no camera");
 }

@@ -6,6 +6,7 @@
 #include "core/files.h"
 #include "core/leftovers.h"
 #include "core/near_miss.h"
+#include "core/scene/unknown_scene.h"
 
 #include <algorithm>
 #include <charconv>
@@ -35,8 +36,9 @@ unsigned number_of(const std::string& name) {
     unsigned number = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
     if (error != std::errc() || end != digits.data() + digits.size() || number > largest_scene_number)
-        fail("no scene is called '", shortened(name), "': after the colon stands a whole number from 0 to ",
-             largest_scene_number, ", as in '", name.substr(0, name.find(':')), ":17'");
+        throw UnknownScene(message_text("no scene is called '", shortened(name),
+                                        "': after the colon stands a whole number from 0 to ", largest_scene_number,
+                                        ", as in '", name.substr(0, name.find(':')), ":17'"));
     return number;
 }
 
@@ -116,7 +118,9 @@ fs::path scene_file_of_family(const std::string& name) {
     const fs::path beside = unfinished_path(folder / scene);
     std::error_code error;
     fs::create_directories(beside, error);
-    if (error) fail_machine("cannot create the cache folder ", beside.string(), ": ", error.message());
+    if (error)
+        fail_machine("cannot create the cache folder ", beside.string(), ": ", error.message(),
+                     "; choose another with --cache or SSRLAB_CACHE");
     const int code = run_program({SSRLAB_PYTHON, "-B", (scenes_folder / "generate.py").string(), "--out",
                                   beside.string(), family + ":" + std::to_string(number)});
     std::error_code ignored;

@@ -14,6 +14,18 @@ TEST(NearMiss, SuggestsWhatWasProbablyMeant) {
     EXPECT_EQ(suggestion("zzz", names), "; known are: thickness, stride, max_steps");
 }
 
+TEST(NearMiss, ManyNamesAreNoList) {
+    std::vector<std::string> names;
+    for (int i = 0; i < 130; ++i) names.push_back("parameter_" + std::to_string(i));
+    EXPECT_EQ(suggestion("zzz", names, "ssrlab describe TECHNIQUE").substr(0, 36),
+              "; the nearest of 130 names are: para");
+    EXPECT_TRUE(suggestion("zzz", names, "ssrlab describe X").ends_with("; `ssrlab describe X` lists all"));
+    EXPECT_LT(suggestion("zzz", names).size(), 120u);
+    names.push_back("zebra");
+    EXPECT_NE(suggestion("zzz", names).find("names are: zebra"), std::string::npos) << suggestion("zzz", names);
+    EXPECT_LT(suggestion(std::string(300'000, 'z'), names).size(), 120u);
+}
+
 TEST(NearMiss, LongNamesAreNearNone) {
     // Their distance would take 90 GB and 10^10 steps.
     const std::string name(300'000, 'a');

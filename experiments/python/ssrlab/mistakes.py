@@ -1,5 +1,6 @@
 """Messages of scripts: one sentence for each mistake or fault, with names from files made safe for terminals."""
 
+import difflib
 import os
 import re
 import sys
@@ -34,14 +35,27 @@ def shown(text):
     return OBEYED.sub(_escaped, str(text))
 
 
+def known(name, choices):
+    """"known are: a, b", or of more than 30 choices the nearest, as core/near_miss.cpp has it."""
+    if len(choices) <= 30:
+        return f"known are: {', '.join(choices)}"
+    return f"the nearest of {len(choices)} names are: {', '.join(difflib.get_close_matches(name, choices, 5, 0))}"
+
+
 def say(text):
     """Prints a line that may hold names from files."""
     print(shown(text), flush=True)
 
 
+def start_of_error():
+    """"error:", red on a terminal unless NO_COLOR is set, as core/terminal.cpp has it."""
+    has_colors = sys.stderr.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
+    return "\x1b[1;31merror:\x1b[0m" if has_colors else "error:"
+
+
 def stop(text):
     """Ends the script at a fault of the machine."""
-    print(f"error: {shown(text)}", file=sys.stderr)
+    print(f"{start_of_error()} {shown(text)}", file=sys.stderr)
     sys.exit(3)
 
 
@@ -70,5 +84,5 @@ def _exit_code(work, what):
         code, said = 3, f"{what} cannot be made: {type(fault).__name__}: {fault} ({os.path.basename(place.filename)}:{place.lineno}); a fault of ssrlab: report it with the files that were read"
     if os.environ.get("SSRLAB_TRACEBACK") == "1":
         traceback.print_exc()
-    print(f"error: {shown(said)}", file=sys.stderr)
+    print(f"{start_of_error()} {shown(said)}", file=sys.stderr)
     return code

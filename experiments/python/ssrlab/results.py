@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from ssrlab.csv_files import needed_number, number, read_rows, whole
 from ssrlab.exr import ExrError, read_exr_rgb
 from ssrlab.json_files import read_json
-from ssrlab.mistakes import ResultsError, shown
+from ssrlab.mistakes import ResultsError, known, shown
 from ssrlab.text_files import path_inside
 
 # manifest.json as far as scripts read it, as require() of json_files.py has shapes (experiments/docs/results_folder.md explains it).
@@ -287,7 +287,7 @@ class Results:
         if not rows:
             found = sorted({f"{r['target']} {r['metric']} {r['mask']}" for r in self.errors})
             raise ResultsError(
-                f"{os.path.join(self.folder, 'summary.csv')} has no rows of target {target}, metric {metric}, mask {mask}; it has: {', '.join(found)}"
+                f"{os.path.join(self.folder, 'summary.csv')} has no rows of target {target}, metric {metric}, mask {mask}; {known(f'{target} {metric} {mask}', found)}"
             )
         read = {(r["shot"], r["technique"], r["point"]): self.measured(r) for r in rows}
         return {key: value for key, value in read.items() if value is not None}

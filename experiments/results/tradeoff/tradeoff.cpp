@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/list_text.h"
+#include "core/near_miss.h"
 #include "core/number_text.h"
 #include "experiments/results/files/manifest.h"
 #include "experiments/results/tradeoff/tradeoff_shots.h"
@@ -258,13 +259,13 @@ PointName baseline_named(const std::string& text, const json& manifest) {
     if (text.empty()) return baseline_over_scenes(manifest);
     const size_t colon = text.find(':');
     const PointName asked(text.substr(0, colon), colon == std::string::npos ? "default" : text.substr(colon + 1));
-    std::string known;
+    std::vector<std::string> known;
     for (const json& v : manifest.value("techniques", json::array())) {
         const PointName name(v.value("technique", ""), v.value("point", ""));
         if (name == asked) return asked;
-        known += (known.empty() ? "" : ", ") + name.first + ":" + name.second;
+        known.push_back(name.first + ":" + name.second);
     }
-    fail("the study has no point ", text, "; it has ", known);
+    fail("the study has no point ", shortened(text), suggestion(asked.first + ":" + asked.second, known));
 }
 
 }  // namespace
@@ -277,8 +278,8 @@ Tradeoff tradeoff_of(const StudyResults& tables, const TradeoffQuestion& questio
         std::set<std::string> known;
         for (const MetricSummary& e : tables.summary)
             if (e.represents_shot) known.insert(e.target + " " + e.metric + " " + e.mask);
-        fail("the study has no errors of ", question.error.target, " ", question.error.metric, " ", question.error.mask,
-             "; it has: ", known.empty() ? "none" : joined(names_of(known)));
+        const std::string asked = question.error.target + " " + question.error.metric + " " + question.error.mask;
+        fail("the study has no errors of ", shortened(asked), suggestion(asked, names_of(known)));
     }
     add_costs(shots, tables, question.cost);
     Tradeoff found{.baseline = baseline_named(question.baseline, tables.manifest)};

@@ -45,6 +45,13 @@ struct ShotConfig {
 
     std::string label, group;  ///< names of the shot and of its group in tables; "": by its name, no group
 
+    /// Where the config names scene and camera: "study.json:3:6: shots[0]". Two places may play the same.
+    struct Places {
+        std::string scene, camera;
+        bool operator==(const Places&) const { return true; }
+    };
+    Places named_at;
+
     /// Whether both shots are equal except for label and group.
     bool is_played_like(const ShotConfig& other) const {
         ShotConfig named_alike = other;

@@ -15,7 +15,11 @@ namespace {
 using nlohmann::json;
 
 const Parameter& find_parameter(const ParameterSet& declared, const std::string& name, const std::string& where) {
-    return find_named(declared, name, where, ": unknown parameter");
+    const auto found = std::ranges::find(declared, name, &Parameter::name);
+    if (found == declared.end())
+        fail(where, ": unknown parameter '", shortened(name), "'",
+             suggestion(name, names_of(declared, &Parameter::name), "ssrlab describe TECHNIQUE"));
+    return *found;
 }
 
 /// The number as the parameter holds it: in whole steps, or as a float32.

@@ -44,7 +44,7 @@ std::map<unsigned, fs::path> capture_frames(const fs::path& folder) {
              "<number>; keep the file for a single frame, the folders for several");
     if (!is_single && folders.empty())
         fail(folder.string(), " is no capture: it holds neither a gbuffer.exr nor folders ", frame_prefix,
-             "<number> with one each");
+             "<number> with one each; write them as experiments/bridges/captures/README.md says");
     if (is_single) folders[0] = folder;
     return folders;
 }

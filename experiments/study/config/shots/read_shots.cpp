@@ -251,6 +251,7 @@ std::vector<ShotConfig> read_entry(JsonObject entry, ConfigObject& study, const 
     const bool is_capture = entry.has("gbuffer");
     ConfigObject shot(std::move(entry), joined(is_capture ? capture_keys() : scene_keys(), keys_of_all_shots()));
     std::vector<ShotConfig> shots = is_capture ? read_capture(shot, folder) : read_views(shot, study);
+    for (ShotConfig& config : shots) config.named_at = {shot.at("scene"), shot.at("camera")};
     for_each_choice([&](const auto& choice) { shots = with_choice(shots, shot, study, choice); });
     read_names(shot, shots);
     shot.finish();

@@ -1,7 +1,9 @@
 #include "experiments/study/config/shots/shot.h"
 
+#include "core/error.h"
 #include "core/scene/camera_planes.h"
 #include "core/scene/load_scene.h"
+#include "core/scene/unknown_scene.h"
 #include "experiments/study/config/shots/plane_warnings.h"
 
 #include <algorithm>
@@ -43,13 +45,35 @@ StepImages Shot::images_of(const FrameStep& step, KeptImages kept) const {
     return is_played ? StepImages::reflections : StepImages::none;
 }
 
+namespace {
+
+/// The text of a mistake in a name, with the place where a config has the name.
+std::string placed(const std::string& place, const Error& mistake) {
+    return place.empty() ? mistake.what() : place + ": " + mistake.what();
+}
+
+Scene scene_of(const ShotConfig& config, const std::vector<std::filesystem::path>& search_path) {
+    try {
+        return load_scene(config.scene, search_path, config.choices);
+    } catch (const UnknownScene& mistake) {
+        fail(placed(config.named_at.scene, mistake));
+    }
+}
+
+SceneCamera camera_of(const ShotConfig& config, const Scene& scene) {
+    try {
+        return scene.camera(config.camera);
+    } catch (const Error& mistake) {
+        fail(placed(config.named_at.camera, mistake));
+    }
+}
+
+}  // namespace
+
 Shot load_shot(const ShotConfig& config, const std::vector<std::filesystem::path>& search_path) {
-    Shot shot{.config = config,
-              .scene = load_scene(config.scene, search_path, config.choices),
-              .camera = {},
-              .facts = {},
-              .steps = timeline(config)};
-    shot.camera = shot.scene.camera(config.camera);
+    Shot shot{
+        .config = config, .scene = scene_of(config, search_path), .camera = {}, .facts = {}, .steps = timeline(config)};
+    shot.camera = camera_of(config, shot.scene);
     if (config.has_planes_of_scene) use_planes_of_scene(shot.camera, shot.scene);
     shot.facts = derive_facts(shot.scene, shot.camera, config.frames);
     shot.facts.has_environment |= config.has_probe;
