@@ -55,8 +55,8 @@ static void advise_command(const AdviseOptions& options) {
 void add_advise(Commands& line) {
     AdviseOptions& advise = line.keep<AdviseOptions>();
     CLI::App& command = line.add(
-        "advise", "Name the technique and parameters of least error within a time on a GPU, from a table of studies");
-    command.footer("For example: ssrlab advise --chip navi21 --ms 1 --place room --motion");
+        "advise", "Name the technique and parameters of least error within a time on a GPU, from a table of studies",
+        "ssrlab advise --chip navi21 --ms 1 --place room --motion");
     option(command, "--chip NAME", advise.question.chip, "Chip, such as navi21; default: all of the table, in short");
     option(command, "--ms MS", advise.question.ms,
            "Time that reflections may take at 1920x1080; default: all of the table, in short")
@@ -66,7 +66,7 @@ void add_advise(Commands& line) {
     command.add_flag("--rest", advise.is_at_rest, "Nothing moves; not together with --motion");
     option(command, "--surface NAME", advise.question.surface,
            "Surfaces whose error counts; all: everything that reflects")
-        ->check(CLI::IsMember({"all", "mirrors", "glossy", "rough"}))
+        ->check(name_among({"all", "mirrors", "glossy", "rough"}))
         ->capture_default_str();
     option(command, "--json FILE", advise.json,
            "Also write the points of least error as the \"techniques\" of a study; -: print them alone");

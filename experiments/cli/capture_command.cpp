@@ -36,7 +36,8 @@ static void capture_command(const CaptureCommandOptions& options) {
 
 void add_capture(Commands& line) {
     CaptureCommandOptions& capture = line.keep<CaptureCommandOptions>();
-    CLI::App& command = line.add("capture", "Check a capture of an engine's G-buffers, and list its layers");
+    CLI::App& command = line.add("capture", "Check a capture of an engine's G-buffers, and list its layers",
+                                 "ssrlab capture my_capture");
     option(command, "folder DIR", capture.folder,
            "Folder with gbuffer.exr and camera.json, or with one folder frame_<number> for each frame")
         ->required();

@@ -4,6 +4,7 @@
 #include "core/near_miss.h"
 #include "core/reading_limits.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <limits>
 
@@ -48,6 +49,15 @@ const CLI::Validator& no_option_name() {
 
 CLI::Validator positive() {
     return real_in(std::numeric_limits<double>::min(), std::numeric_limits<double>::max(), "a number above 0");
+}
+
+CLI::Validator name_among(const std::vector<std::string>& names) {
+    return CLI::Validator(
+        [=](std::string& text) {
+            return std::ranges::count(names, text) ? std::string()
+                                                   : "'" + shortened(text) + "' is not known" + suggestion(text, names);
+        },
+        "{" + joined(names, ",") + "}");
 }
 
 void add_margin(CLI::App& command, double& margin, const std::string& otherwise) {
@@ -97,6 +107,14 @@ void add_mesa(CLI::App& command, std::filesystem::path& mesa) {
            "SSRLAB_MESA, else the installed Mesa");
 }
 
+void add_config(CLI::App& command, std::filesystem::path& config, const std::string& more) {
+    option(command, "config CONFIG", config,
+           "The study: a .json file (`experiments/docs/reference/study_keys.md` explains the keys), or the name of an "
+           "included study (see: ssrlab list studies)" +
+               more)
+        ->required();
+}
+
 void add_scene(CLI::App& command, std::string& scene) {
     option(command, "scene SCENE", scene,
            "Name of a scene (see: ssrlab list scenes), or path to a .json, .gltf or .glb file")
@@ -113,7 +131,7 @@ void add_planes(CLI::App& command, ShotOptions& shot) {
     option(command, "--planes WHOSE", shot.planes,
            "Near and far planes. camera: those of the camera. scene: derived from the scene so that they cut nothing. "
            "Default: camera")
-        ->check(CLI::IsMember({"camera", "scene"}));
+        ->check(name_among({"camera", "scene"}));
 }
 
 void add_animation(CLI::App& command, std::string& animation) {
@@ -155,5 +173,7 @@ void refuse_unknown_command(const CLI::App& app, const std::string& name) {
         if (command->get_name() == name) return;
         if (!command->get_group().empty()) names.push_back(command->get_name());
     }
-    fail("unknown command '", shortened(name), "'", suggestion(name, names));
+    const std::string near = nearest_name(name, names);
+    fail("unknown command '", shortened(name), "'", suggestion(name, names),
+         near.empty() ? "; `ssrlab help` explains them" : "");
 }

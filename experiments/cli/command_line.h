@@ -21,11 +21,15 @@ struct Commands {
     explicit Commands(CLI::App& app) : app(app) {}
 
     CLI::App& app;
-    int status = 0;  ///< exit code, set by the command that ran
+    std::string group;  ///< under which help lists the commands that are added next
+    int status = 0;     ///< exit code, set by the command that ran
     CommonOptions common;
     std::vector<EndedPoint> ended;  ///< points that ended this command before
 
-    CLI::App& add(const std::string& name, const std::string& about) { return *app.add_subcommand(name, about); }
+    /// `example`: a command line that works, which help shows first.
+    CLI::App& add(const std::string& name, const std::string& about, const std::string& example) {
+        return *app.add_subcommand(name, about)->group(group)->footer(example);
+    }
 
     /// Storage for a command's options; lives until the command has run.
     template <class Options>
@@ -68,6 +72,8 @@ CLI::Option* option(CLI::App& command, const std::string& name_and_type, Value& 
 /// A range that excludes NaN, which CLI11's own ranges accept.
 CLI::Validator real_in(double min, double max, const std::string& description);
 CLI::Validator positive();
+/// One of the names, else the nearest is suggested.
+CLI::Validator name_among(const std::vector<std::string>& names);
 
 /// Options that limit what files may cost and name, for all commands that read files (core/reading_limits.h).
 void add_reading(CLI::App& command);
@@ -78,6 +84,8 @@ void add_mesa(CLI::App& command, std::filesystem::path& mesa);
 /// The margin of equivalence: PrimaryComparisons::margin.
 void add_margin(CLI::App& command, double& margin, const std::string& otherwise);
 
+/// A study; `more`: what else the help text says of it.
+void add_config(CLI::App& command, std::filesystem::path& config, const std::string& more = "");
 void add_scene(CLI::App& command, std::string& scene);
 /// Width and height; `otherwise`: the default, for the help text.
 void add_size(CLI::App& command, std::vector<unsigned>& size, const std::string& otherwise = "480 270");

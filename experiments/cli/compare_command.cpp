@@ -66,7 +66,8 @@ static void compare_images_command(const CompareCommandOptions& options) {
 void add_compare(Commands& line) {
     CompareCommandOptions& compare = line.keep<CompareCommandOptions>();
     CLI::App& command =
-        line.add("compare", "Compare two images or videos (OpenEXR, Radiance or PNG) and print one number per line");
+        line.add("compare", "Compare two images or videos (OpenEXR, Radiance or PNG) and print one number per line",
+                 "ssrlab compare reference.exr test.exr");
     option(
         command, "reference REFERENCE", compare.reference,
         "Image that is right: .exr or .hdr (linear radiance), or .png (sRGB); or the numbered frames of a video, for "
@@ -90,7 +91,7 @@ void add_compare(Commands& line) {
         ->capture_default_str();
     option(command, "--tone-map", compare.tone_map,
            "Tone map that is applied before display metrics (psnr, ssim, flip)")
-        ->check(CLI::IsMember(tone_map_names))
+        ->check(name_among(tone_map_names))
         ->capture_default_str();
     option(command, "--display NAME", compare.display,
            "Display that shows the images to cvvdp_0_5_6, psnr_pu21 and ssim_pu21: " +
@@ -107,7 +108,7 @@ void add_compare(Commands& line) {
         "What cvvdp_0_5_6 sees before a video's first frame: replicate (that frame), symmetric (the video backwards) "
         "or warm_up (nothing: only frames with a full window of a quarter of a second are scored). Default: "
         "replicate")
-        ->check(CLI::IsMember(temporal_padding_names));
+        ->check(name_among(temporal_padding_names));
     command.add_flag("--fail-on-non-finite", compare.fail_on_non_finite,
                      "Exit with code 2 if a pixel is NaN or infinite. By default, such pixels are left out and counted "
                      "in a warning");

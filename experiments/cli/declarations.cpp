@@ -38,7 +38,9 @@ json commands_of(const CLI::App& app) {
     json commands = json::array();
     for (const CLI::App* command : app.get_subcommands({}))
         commands.push_back({{"name", command->get_name()},
+                            {"group", command->get_group()},
                             {"meaning", command->get_description()},
+                            {"example", command->get_footer()},
                             {"options", options_of(*command)},
                             {"has_script", command->get_prefix_command()}});
     return commands;

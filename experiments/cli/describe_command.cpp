@@ -8,6 +8,8 @@
 #include "core/scene/load_scene.h"
 #include "core/scene/scene_family.h"
 #include "core/shown_text.h"
+#include "core/terminal.h"
+#include "core/wrapped_text.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/declarations.h"
 #include "experiments/gpu_costs/chips/chip_compiler.h"
@@ -20,6 +22,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <sstream>
 
 namespace {
 
@@ -29,19 +32,19 @@ struct DescribeOptions {
     bool as_json = false;
 };
 
-void describe_tracer(const TracerEntry& tracer, const ParameterSet& params) {
-    std::cout << tracer.name << ": " << tracer.title << "\n  " << tracer.description << "\n  Source: " << tracer.source
-              << '\n';
-    if (!tracer.fits_webgl2) std::cout << "  Does not fit WebGL 2\n";
-    std::cout << params.help(tracer.part);
+void describe_tracer(std::ostream& out, const TracerEntry& tracer, const ParameterSet& params) {
+    out << tracer.name << ": " << tracer.title << "\n  " << tracer.description << "\n  Source: " << tracer.source
+        << '\n';
+    if (!tracer.fits_webgl2) out << "  Does not fit WebGL 2\n";
+    out << params.help(tracer.part);
 }
 
 /// The tracers that a technique may use, each with its parameters, those of a shared part once.
-void describe_tracers(const ParameterSet& params) {
+void describe_tracers(std::ostream& out, const ParameterSet& params) {
     std::set<std::string> described;
     for (const TracerEntry& tracer : tracer_table()) {
         if (!described.insert(tracer.part).second || params.help(tracer.part).empty()) continue;
-        std::cout << "\nParameters of the tracer " << tracer.name << ":\n" << params.help(tracer.part);
+        out << "\nParameters of the tracer " << tracer.name << ":\n" << params.help(tracer.part);
     }
 }
 
@@ -51,18 +54,18 @@ ParameterSet set_of(const std::vector<Parameter>& parameters) {
     return params;
 }
 
-void describe_denoiser(const DenoiserEntry& denoiser) {
-    std::cout << denoiser.name << ": " << denoiser.title << "\n  " << denoiser.description
-              << "\n  Source: " << denoiser.source << '\n';
-    if (denoiser.needs_density) std::cout << "  Needs the densities of rays, which mirror rays lack\n";
-    std::cout << set_of(denoiser.passes->parameters).help();
+void describe_denoiser(std::ostream& out, const DenoiserEntry& denoiser) {
+    out << denoiser.name << ": " << denoiser.title << "\n  " << denoiser.description
+        << "\n  Source: " << denoiser.source << '\n';
+    if (denoiser.needs_density) out << "  Needs the densities of rays, which mirror rays lack\n";
+    out << set_of(denoiser.passes->parameters).help();
 }
 
 /// Of a technique that has them.
-void describe_denoisers(const ParameterSet& params) {
+void describe_denoisers(std::ostream& out, const ParameterSet& params) {
     for (const DenoiserEntry& denoiser : denoiser_table())
         if (const std::string help = params.help(denoiser.name); !help.empty())
-            std::cout << "\nParameters of the denoiser " << denoiser.name << ":\n" << help;
+            out << "\nParameters of the denoiser " << denoiser.name << ":\n" << help;
 }
 
 bool is_denoiser(const std::string& name) {
@@ -75,21 +78,17 @@ bool is_tracer(const std::string& name) {
 
 }  // namespace
 
-static void describe_command(const DescribeOptions& asked) {
+static void describe(const DescribeOptions& asked, std::ostream& out) {
     DescribeOptions options = asked;
     options.technique = technique_name(asked.technique);
-    if (options.as_schema) {
-        std::cout << config_schema(options.technique).dump(2) << '\n';
-        return;
-    }
     if (is_tracer(options.technique)) {
         ParameterSet params;
         for (const TracerEntry& tracer : tracer_table())
             if (tracer.part == find_tracer(options.technique).part)
                 for (const Parameter& parameter : tracer.parameters) params.add(parameter);
-        return describe_tracer(find_tracer(options.technique), params);
+        return describe_tracer(out, find_tracer(options.technique), params);
     }
-    if (is_denoiser(options.technique)) return describe_denoiser(find_denoiser(options.technique));
+    if (is_denoiser(options.technique)) return describe_denoiser(out, find_denoiser(options.technique));
     if (!options.technique.empty() &&
         !std::ranges::count(technique_table(), options.technique, &TechniqueEntry::name)) {
         std::vector<std::string> names = names_of(technique_table(), &TechniqueEntry::name);
@@ -100,26 +99,37 @@ static void describe_command(const DescribeOptions& asked) {
     }
     for (const TechniqueEntry& entry : technique_table()) {
         if (!options.technique.empty() && entry.name != options.technique) continue;
-        std::cout << entry.name << ": " << entry.title << "\n  " << entry.description << "\n  Source: " << entry.source
-                  << "\n";
+        out << entry.name << ": " << entry.title << "\n  " << entry.description << "\n  Source: " << entry.source
+            << "\n";
         if (const std::string limits = limits_text(entry.limits); !limits.empty())
-            std::cout << "  Enforced limits: " << limits << '\n';
+            out << "  Enforced limits: " << limits << '\n';
         const std::unique_ptr<Technique> technique = make_technique(entry.name);
         const std::string parameters = technique->params.help();
-        std::cout << (parameters.empty() ? "\nIt has no parameters.\n" : "\nParameters:\n" + parameters);
-        describe_tracers(technique->params);
-        describe_denoisers(technique->params);
-        if (!entry.presets.empty()) std::cout << "\nPresets:\n";
+        out << (parameters.empty() ? "\nIt has no parameters.\n" : "\nParameters:\n" + parameters);
+        describe_tracers(out, technique->params);
+        describe_denoisers(out, technique->params);
+        if (!entry.presets.empty()) out << "\nPresets:\n";
         for (const Preset& preset : entry.presets)
-            std::cout << "  " << preset.name << ": " << preset.meaning << " " << preset.parameters.dump() << '\n';
-        std::cout << '\n';
+            out << "  " << preset.name << ": " << preset.meaning << " " << preset.parameters.dump() << '\n';
+        out << '\n';
     }
+}
+
+static void describe_command(const DescribeOptions& options) {
+    if (options.as_schema) {
+        std::cout << config_schema(technique_name(options.technique)).dump(2) << '\n';
+        return;
+    }
+    std::ostringstream out;
+    describe(options, out);
+    std::cout << fitted(out.str(), terminal_columns(stdout));
 }
 
 void add_describe(Commands& line) {
     DescribeOptions& describe = line.keep<DescribeOptions>();
     CLI::App& command = line.add(
-        "describe", "Print the parameters of techniques, tracers and denoisers: default, range, unit, meaning, source");
+        "describe", "Print the parameters of techniques, tracers and denoisers: default, range, unit, meaning, source",
+        "ssrlab describe mcguire_dda");
     option(command, "technique NAME", describe.technique,
            "Technique or its folder, tracer or denoiser; default: all techniques");
     command.add_flag("--schema", describe.as_schema,

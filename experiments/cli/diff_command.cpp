@@ -105,7 +105,8 @@ void add_diff(Commands& line) {
     DiffOptions& diff = line.keep<DiffOptions>();
     CLI::App& command = line.add("diff",
                                  "List the numbers that differ significantly between two results folders (exit code 1 "
-                                 "if any does; at most 5 % false alarms)");
+                                 "if any does; at most 5 % false alarms)",
+                                 "ssrlab diff results/last_week results/my_rooms --page diff.html");
     option(command, "old OLD", diff.before, "Results folder that `ssrlab run` filled")->required();
     option(command, "new NEW", diff.after, "Another results folder, with the same shots and points")->required();
     command.add_flag("--times", diff.judges_times,

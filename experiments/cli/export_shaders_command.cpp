@@ -39,7 +39,8 @@ void add_export_shaders(Commands& line) {
     CLI::App& command = line.add(
         "export-shaders",
         "Write a technique's passes for an engine: one self-contained GLSL file for each pass, and a description of "
-        "bindings, images, buffers and dispatches");
+        "bindings, images, buffers and dispatches",
+        "ssrlab export-shaders composed_ssr --out composed_shaders");
     option(command, "technique NAME", exported.technique,
            "Technique (see: ssrlab list techniques), or its folder, written with a /")
         ->required();

@@ -71,14 +71,15 @@ static void gbuffer_command(const GBufferCommandOptions& options, const CommonOp
 void add_gbuffer(Commands& line) {
     GBufferCommandOptions& gbuffer = line.keep<GBufferCommandOptions>();
     CLI::App& command = line.add(
-        "gbuffer", "Rasterise a scene's G-buffer into gbuffer.exr and camera.json, with pictures of it in gbuffer.png");
+        "gbuffer", "Rasterise a scene's G-buffer into gbuffer.exr and camera.json, with pictures of it in gbuffer.png",
+        "ssrlab gbuffer fence --out my_capture");
     add_shot(command, gbuffer.shot);
     option(command, "--frames A B", gbuffer.frames, "First and last frame of a sequence, both included")
         ->expected(2)
         ->excludes("--frame");
     option(command, "--out DIR", gbuffer.out, "Output folder; default: <scene>_gbuffer");
     option(command, "--depth-format", gbuffer.depth_format, "Format of the depth buffer")
-        ->check(CLI::IsMember({"d32f", "d24", "d16"}))
+        ->check(name_among({"d32f", "d24", "d16"}))
         ->capture_default_str();
     command.add_flag("--reversed-depth", gbuffer.is_reversed,
                      "Store depth as 1 at the near plane and 0 at the far plane");

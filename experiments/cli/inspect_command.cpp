@@ -54,7 +54,8 @@ static void inspect_command(const InspectOptions& options, const CommonOptions& 
 void add_inspect(Commands& line) {
     InspectOptions& inspect = line.keep<InspectOptions>();
     CLI::App& command = line.add(
-        "inspect", "Show what ssrlab understands of a file: a scene, an image, a capture or an engine's frames");
+        "inspect", "Show what ssrlab understands of a file: a scene, an image, a capture or an engine's frames",
+        "ssrlab inspect my_scene.glb");
     option(command, "file FILE", inspect.file,
            "A .gltf, .glb or scene.json file, the folder of one, the name of a scene, an image, or the folder of a "
            "capture or of an engine's frames")

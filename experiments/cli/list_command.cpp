@@ -8,7 +8,10 @@
 #include "core/scene/load_scene.h"
 #include "core/scene/scene_family.h"
 #include "core/shown_text.h"
+#include "core/terminal.h"
+#include "core/wrapped_text.h"
 #include "experiments/cli/commands.h"
+#include "experiments/cli/config_of_study.h"
 #include "experiments/gpu_costs/chips/chip_compiler.h"
 #include "metrics/metric.h"
 #include "metrics/temporal.h"
@@ -17,26 +20,47 @@
 #include "variants/tracers/tracers.h"
 
 #include <algorithm>
-#include <cstdio>
+#include <functional>
+#include <iomanip>
 #include <iostream>
 #include <set>
 #include <sstream>
 
 namespace {
 
-/// The text in indented lines of 100 columns at most, broken at spaces; a longer word stands alone.
+/// The text in indented lines of the terminal's width, or of 100 columns.
 std::string indented(const std::string& text, size_t indent) {
-    constexpr size_t columns = 100;
-    std::istringstream words(text);
-    std::string lines, line;
-    for (std::string word; words >> word;) {
-        if (!line.empty() && indent + line.size() + 1 + word.size() > columns) {
-            lines += std::string(indent, ' ') + line + '\n';
-            line.clear();
-        }
-        line += (line.empty() ? "" : " ") + word;
+    return wrapped(text, indent, terminal_columns(stdout).value_or(100));
+}
+
+/// The name in a column of `width`, and what it means.
+void list_entry(std::ostream& out, const std::string& name, int width, const std::string& about) {
+    out << std::left << std::setw(width) << name << ' ' << about << '\n';
+}
+
+/// Tracers or denoisers.
+template <class Entries>
+void list_parts(std::ostream& out, const Entries& entries) {
+    for (const auto& entry : entries) list_entry(out, entry.name, 22, entry.title + " (" + entry.source + ")");
+}
+
+template <class Metrics>
+void list_metrics(std::ostream& out, const Metrics& metrics) {
+    for (const auto& metric : metrics) {
+        std::ostringstream about;
+        about << std::left << std::setw(26) << metric.formula << ' ' << metric.doc;
+        list_entry(out, metric.name, 25, about.str());
     }
-    return lines + std::string(indent, ' ') + line + '\n';
+}
+
+void list_included_studies(std::ostream& out) {
+    const std::filesystem::path file = included_studies().parent_path() / "studies.json";
+    const auto groups = nlohmann::ordered_json::parse(read_text(file));
+    for (const auto& [group, studies] : groups.items()) {
+        out << group << '\n';
+        for (const auto& [name, study] : studies.items())
+            out << "  " << name << '\n' << indented(study.at("question").template get<std::string>(), 6);
+    }
 }
 
 /// The first folder of the search path that has the scene, of which list_scenes() found one.
@@ -63,77 +87,91 @@ std::string cameras_of_scene(const std::filesystem::path& folder) try {
     return "";
 }
 
-void list_scenes_with_tests(const std::vector<std::filesystem::path>& search_path) {
+void list_scenes_with_tests(std::ostream& out, const std::vector<std::filesystem::path>& search_path) {
     const std::vector<std::string> names = list_scenes(search_path);
     size_t width = 0;
     for (const std::string& name : names) width = std::max(width, name.size());
     for (const std::string& name : names) {
         const std::filesystem::path folder = folder_of_scene(name, search_path);
         const std::string about = about_scene(folder), cameras = cameras_of_scene(folder), indent(width + 2, ' ');
-        std::cout << shown_text(name) << (about.empty() ? "" : indent.substr(name.size()) + shown_text(about)) << '\n';
-        if (!cameras.empty()) std::cout << indent << "Cameras: " << shown_text(cameras) << '\n';
+        out << shown_text(name) << (about.empty() ? "" : indent.substr(name.size()) + shown_text(about)) << '\n';
+        if (!cameras.empty()) out << indent << "Cameras: " << shown_text(cameras) << '\n';
     }
     for (const SceneFamily& family : scene_families()) {
         const std::string range = family.name + ":0 to " + family.name + ":" + std::to_string(largest_scene_number);
-        std::cout << range << std::string(range.size() < width ? width + 2 - range.size() : 2, ' ') << family.about
-                  << '\n'
-                  << std::string(width + 2, ' ') << "Cameras: main, path\n";
+        out << range << std::string(range.size() < width ? width + 2 - range.size() : 2, ' ') << family.about << '\n'
+            << std::string(width + 2, ' ') << "Cameras: main, path\n";
     }
 }
 
-void list_techniques() {
+void list_techniques(std::ostream& out) {
     for (const TechniqueEntry& entry : technique_table())
-        std::cout << entry.name << ": " << entry.title << '\n'
-                  << indented(entry.description, 4) << indented("Source: " + entry.source, 4);
+        out << entry.name << ": " << entry.title << '\n'
+            << indented(entry.description, 4) << indented("Source: " + entry.source, 4);
 }
 
 /// By the names that `--techniques` of other commands take.
-void list_presets() {
+void list_presets(std::ostream& out) {
     for (const TechniqueEntry& entry : technique_table())
         for (const Preset& preset : entry.presets)
-            std::cout << entry.name << ':' << preset.name << '\n' << indented(preset.meaning, 4);
+            out << entry.name << ':' << preset.name << '\n' << indented(preset.meaning, 4);
+}
+
+void list_vulkan_devices(std::ostream& out) {
+    const std::vector<DeviceInfo> devices = list_devices();
+    for (size_t i = 0; i < devices.size(); ++i) {
+        const DeviceInfo& device = devices[i];
+        out << i << "  " << device.name << " (" << device.type << ", " << device.driver << ", Vulkan " << device.api
+            << ')' << (device.has_hardware() ? "" : ": compiles shaders and runs none (RADV_FORCE_FAMILY is set)")
+            << '\n';
+    }
+}
+
+/// A topic of `ssrlab list`.
+struct Topic {
+    std::string name;
+    std::function<void(std::ostream&)> list;
+};
+
+std::vector<Topic> topics(const std::filesystem::path& mesa, const CommonOptions& common) {
+    return {{"scenes", [&](auto& out) { list_scenes_with_tests(out, scene_search_path(common.scene_path)); }},
+            {"studies", list_included_studies},
+            {"techniques", list_techniques},
+            {"presets", list_presets},
+            {"tracers", [](auto& out) { list_parts(out, tracer_table()); }},
+            {"denoisers", [](auto& out) { list_parts(out, denoiser_table()); }},
+            {"metrics",
+             [](auto& out) {
+                 list_metrics(out, all_metrics());
+                 out << "\nOf shots that move or repeat a frame:\n";
+                 list_metrics(out, temporal_metrics());
+             }},
+            {"devices", list_vulkan_devices},
+            {"chips", [&](auto& out) {
+                 for (const Chip& chip : known_chips(mesa)) list_entry(out, chip.name, 12, chip.driver);
+             }}};
 }
 
 }  // namespace
 
 static void list_command(const std::string& what, const std::filesystem::path& mesa, const CommonOptions& common) {
-    if (what == "scenes") list_scenes_with_tests(scene_search_path(common.scene_path));
-    if (what == "techniques") list_techniques();
-    if (what == "presets") list_presets();
-    if (what == "tracers")
-        for (const TracerEntry& tracer : tracer_table())
-            std::printf("%-22s %s (%s)\n", tracer.name.c_str(), tracer.title.c_str(), tracer.source.c_str());
-    if (what == "denoisers")
-        for (const DenoiserEntry& denoiser : denoiser_table())
-            std::printf("%-22s %s (%s)\n", denoiser.name.c_str(), denoiser.title.c_str(), denoiser.source.c_str());
-    if (what == "metrics") {
-        const auto print = [](const auto& metric) {
-            std::printf("%-25s %-26s %s\n", metric.name.c_str(), metric.formula.c_str(), metric.doc.c_str());
-        };
-        for (const Metric& metric : all_metrics()) print(metric);
-        std::printf("\nOf shots that move or repeat a frame:\n");
-        for (const TemporalMetric& metric : temporal_metrics()) print(metric);
-    }
-    if (what == "chips")
-        for (const Chip& chip : known_chips(mesa)) std::printf("%-12s %s\n", chip.name.c_str(), chip.driver.c_str());
-    if (what == "devices") {
-        const std::vector<DeviceInfo> devices = list_devices();
-        for (size_t i = 0; i < devices.size(); ++i)
-            std::printf("%zu  %s (%s, %s, Vulkan %s)%s\n", i, devices[i].name.c_str(), devices[i].type.c_str(),
-                        devices[i].driver.c_str(), devices[i].api.c_str(),
-                        devices[i].has_hardware() ? "" : ": compiles shaders and runs none (RADV_FORCE_FAMILY is set)");
-    }
+    std::ostringstream out;
+    const std::vector<Topic> all = topics(mesa, common);
+    find_named(all, what, "no list is called").list(out);
+    std::cout << fitted(out.str(), terminal_columns(stdout));
 }
 
 void add_list(Commands& line) {
     auto& what = line.keep<std::string>();
     auto& mesa = line.keep<std::filesystem::path>(chosen_mesa());
-    CLI::App& command = line.add(
-        "list", "List scenes and what each tests, techniques, presets, tracers, denoisers, metrics, devices or chips");
-    option(command, "what scenes|techniques|presets|tracers|denoisers|metrics|devices|chips", what, "What to list")
+    CLI::App& command = line.add("list",
+                                 "List scenes and what each tests, included studies, techniques, presets, tracers, "
+                                 "denoisers, metrics, devices or "
+                                 "chips",
+                                 "ssrlab list scenes");
+    option(command, "what WHAT", what, "What to list")
         ->required()
-        ->check(
-            CLI::IsMember({"scenes", "techniques", "presets", "tracers", "denoisers", "metrics", "devices", "chips"}));
+        ->check(name_among(names_of(topics(mesa, line.common), &Topic::name)));
     add_mesa(command, mesa);
     add_scene_path(command, line.common);
     add_reading(command);

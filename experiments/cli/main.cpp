@@ -4,8 +4,11 @@
 #include "core/gpu/pipelines/shader_error.h"
 #include "core/memory_fault.h"
 #include "core/shown_text.h"
+#include "core/terminal.h"
 #include "experiments/bridges/inspect/inspect_hint.h"
 #include "experiments/cli/commands.h"
+#include "experiments/cli/help_page.h"
+#include "experiments/cli/request_error.h"
 #include "experiments/cli/supervised.h"
 #include "experiments/results/cells/host_info.h"
 
@@ -16,7 +19,9 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <iostream>
 #include <new>
+#include <set>
 #include <string_view>
 #include <system_error>
 
@@ -31,35 +36,83 @@ void refuse_other_encodings(const std::vector<std::string>& words) {
         fail("the path of this folder, ", here, ", is not UTF-8, the only encoding of ssrlab's files; rename it");
 }
 
-/// CLI11 reports its own mistakes; they exit with 2 as all mistakes of the user do.
+/// All commands, in the groups of `ssrlab --help`; the example of each group is that of its first command.
+void add_commands(Commands& line) {
+    const auto add = [&](const char* group, const std::vector<void (*)(Commands&)>& commands) {
+        line.group = group;
+        for (const auto command : commands) command(line);
+    };
+    add("Compare techniques", {add_run, add_plan, add_tradeoff, add_figures, add_tables});
+    add("Look at scenes and files",
+        {add_inspect, add_list, add_describe, add_needs, add_reference, add_gbuffer, add_rays});
+    add("Choose and tune", {add_advise, add_tune});
+    add("Write a technique", {add_new, add_watch, add_stability, add_shaders, add_export_shaders, add_record});
+    add("Judge frames and images", {add_judge, add_scene_for, add_capture, add_compare});
+    add("Maintain results", {add_diff, add_merge, add_report});
+}
+
+/// `ssrlab` alone and `ssrlab help` mean --help, `ssrlab help COMMAND` means `ssrlab COMMAND --help`.
+std::vector<std::string> with_help_option(std::vector<std::string> words) {
+    if (words.empty() || words.front() == "help") {
+        if (!words.empty()) words.erase(words.begin());
+        words.push_back("--help");
+    }
+    return words;
+}
+
+enum class Does { the_work, nothing };
+
+/// Parses the words behind `ssrlab`, and does what they ask for, or nothing. Returns the exit code; fails with Error
+/// on what the command line does not take.
+int parse_words(std::vector<std::string> words, const std::vector<EndedPoint>& ended, Does what) {
+    words = with_help_option(std::move(words));
+    CLI::App app{
+        "ssrlab compares screen-space reflection techniques with path-traced truth.\n"
+        "Exit codes: 0 done, 2 an error in the request, 3 a fault of this machine, 130 stopped by Ctrl-C.",
+        "ssrlab"};
+    app.require_subcommand(1);
+    app.formatter(std::make_shared<HelpPage>());
+    app.set_version_flag(
+        "--version", [] { return build_info().dump(); },
+        "Print version, commit and the hash of all code, as manifest.json has them");
+    app.add_flag_callback(
+           "--check-lines", [] {}, "Read lines from the standard input, and print what is wrong with each")
+        ->group("");
+    Commands line(app);
+    line.ended = ended;
+    add_commands(line);
+    if (!words.front().starts_with('-')) refuse_unknown_command(app, words.front());
+    if (what == Does::nothing)
+        for (CLI::App* command : app.get_subcommands({})) command->callback({});
+    std::ranges::reverse(words);  // as CLI11 takes them
+    try {
+        app.parse(std::move(words));
+    } catch (const CLI::Success& asked) {  // for help or the version
+        return what == Does::nothing ? 0 : app.exit(asked);
+    } catch (const CLI::ParseError& refusal) {
+        fail(request_error(app, refusal));
+    }
+    return line.status;
+}
+
+/// `--check-lines`, for tests of documents: of each line of the standard input, a JSON array of the words behind
+/// `ssrlab`, it prints a line with what is wrong with them, empty if nothing. Arguments of scripts are not parsed.
+int check_lines() {
+    for (std::string text; std::getline(std::cin, text);) try {
+            parse_words(nlohmann::json::parse(text).get<std::vector<std::string>>(), {}, Does::nothing);
+            std::printf("\n");
+        } catch (const Error& mistake) {
+            std::printf("%s\n", shown_text(mistake.what()).c_str());
+        }
+    return 0;
+}
+
 int parse_and_run(int argc, char** argv, const std::vector<EndedPoint>& ended) {
     std::vector<std::string> words;
     for (int i = 1; i < argc; ++i) words.push_back(present_word(argv[i], words));
     refuse_other_encodings(words);
-    CLI::App app{
-        "ssrlab compares screen-space reflection techniques with path-traced truth.\n"
-        "Exit codes: 0 done, 2 an error in the request, 3 a fault of this machine, 130 stopped by Ctrl-C."};
-    app.require_subcommand(1);
-    app.get_formatter()->column_width(34);
-    app.set_version_flag(
-        "--version", [] { return build_info().dump(); },
-        "Print version, commit and the hash of all code, as manifest.json has them");
-    Commands line(app);
-    line.ended = ended;
-    for (const auto add : {add_run,     add_plan,           add_merge,   add_report,   add_figures, add_diff,
-                           add_judge,   add_scene_for,      add_tables,  add_tradeoff, add_advise,  add_tune,
-                           add_compare, add_reference,      add_gbuffer, add_capture,  add_inspect, add_needs,
-                           add_shaders, add_export_shaders, add_rays,    add_record,   add_watch,   add_stability,
-                           add_new,     add_describe,       add_list})
-        add(line);
-    if (!words.empty() && !words.front().starts_with('-')) refuse_unknown_command(app, words.front());
-    std::ranges::reverse(words);  // as CLI11 takes them
-    try {
-        app.parse(std::move(words));
-    } catch (const CLI::ParseError& e) {
-        return app.exit(e) == 0 ? 0 : 2;
-    }
-    return line.status;
+    if (words == std::vector<std::string>{"--check-lines"}) return check_lines();
+    return parse_words(words, ended, Does::the_work);
 }
 
 /// Whether memory or a thread is missing, as the system says it, or Vulkan by VK_ERROR_OUT_OF_HOST_MEMORY and
@@ -70,7 +123,7 @@ bool is_of_memory(const std::error_code& code) {
 }
 
 int say_memory_is_short() {
-    std::fprintf(stderr, "error: not enough memory; %s\n", more_memory);
+    say_error(std::string("not enough memory; ") + more_memory);
     return 3;
 }
 
@@ -100,23 +153,23 @@ int exit_code_of(int argc, char** argv, const std::function<int()>& work) {
     try {
         return work();
     } catch (const MachineError& e) {
-        std::fprintf(stderr, "error: %s\n", shown_text(e.what()).c_str());
+        say_error(shown_text(e.what()));
         return 3;
     } catch (const ShaderError& e) {
-        std::fprintf(stderr, "error: %s\n", shown_lines(e.what()).c_str());
+        say_error(shown_lines(e.what()));
         return 2;
     } catch (const Error& e) {
-        std::fprintf(stderr, "error: %s\n", shown_text(e.what()).c_str());
+        say_error(shown_text(e.what()));
         say_how_to_inspect(argc, argv, e);
         return 2;
     } catch (const std::bad_alloc&) {
         return say_memory_is_short();
     } catch (const std::system_error& e) {
         const std::string text = is_of_memory(e.code()) ? memory_sentence(message_text(" (", e.what(), ")")) : e.what();
-        std::fprintf(stderr, "error: %s\n", shown_text(text).c_str());
+        say_error(shown_text(text));
         return 3;
     } catch (const std::exception& e) {
-        std::fprintf(stderr, "error: %s\n", shown_text(e.what()).c_str());
+        say_error(shown_text(e.what()));
         return 3;
     }
 }
@@ -130,15 +183,35 @@ void keep_freed_memory() {
     mallopt(M_MMAP_THRESHOLD, 1 << 25);  // glibc's largest; the defaults come to it step by step, unless one is set
 }
 
+/// Commands that run no shader of a driver, which would need a process of its own (supervised.h). `ssrlab watch`
+/// renders by `ssrlab run` alone.
+bool runs_no_shader(const std::vector<std::string_view>& words) {
+    static const std::set<std::string_view> commands = {"watch", "help", "describe", "advise"};
+    const auto has = [&](std::string_view word) { return std::ranges::count(words, word) > 0; };
+    if (words.empty() || commands.contains(words.front()) || has("--help")) return true;
+    return words.front() == "list" && !has("devices");
+}
+
+/// Ends without destructors of static objects: those of glslang's tables take as long as all else of `ssrlab --help`.
+/// A sanitizer looks for leaks in the usual end.
+int end_at_once(int code) {
+#ifndef __SANITIZE_ADDRESS__
+    std::cout.flush();
+    std::fflush(nullptr);
+    std::_Exit(code);
+#endif
+    return code;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     std::set_terminate(end_uncaught);
     keep_freed_memory();
-    const std::string_view command = argc > 1 ? argv[1] : "";
+    const std::vector<std::string_view> words(argv + std::min(argc, 1), argv + argc);
     const auto parse = [&](const std::vector<EndedPoint>& ended) {
         return exit_code_of(argc, argv, [&] { return parse_and_run(argc, argv, ended); });
     };
-    if (command == "watch") return parse({});  // renders by `ssrlab run` alone
-    return exit_code_of(argc, argv, [&] { return supervised(parse, command == "run"); });
+    if (runs_no_shader(words)) return end_at_once(parse({}));
+    return end_at_once(exit_code_of(argc, argv, [&] { return supervised(parse, words.front() == "run"); }));
 }

@@ -31,10 +31,10 @@ static int merge_command(const MergeOptions& options, const CommonOptions& commo
 void add_merge(Commands& line) {
     MergeOptions& merge = line.keep<MergeOptions>();
     CLI::App& command =
-        line.add("merge", "Merge the results folders of the parts of a study (`ssrlab run --cells`) into one");
-    option(command, "config CONFIG.json", merge.config, "The study")->required();
-    option(command, "results DIR...", merge.folders, "Results folders of the parts; default: that of --out")
-        ->check(CLI::ExistingDirectory);
+        line.add("merge", "Merge the results folders of the parts of a study (`ssrlab run --cells`) into one",
+                 "ssrlab merge my_study.json parts/1 parts/2 --out results/my_study");
+    add_config(command, merge.config);
+    option(command, "results DIR...", merge.folders, "Results folders of the parts; default: that of --out");
     option(command, "--out DIR", merge.out, "Results folder; default: results/<name of the config>");
     command.add_flag("--keep-all", merge.keep_all, "The parts were run with --keep-all");
     command.add_flag("--replace", merge.replaces, "As for `ssrlab run`");

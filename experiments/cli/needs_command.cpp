@@ -116,7 +116,8 @@ void add_needs(Commands& line) {
     NeedsOptions& needs = line.keep<NeedsOptions>();
     CLI::App& command = line.add("needs",
                                  "List what a scene contains, and which work the rasteriser, the path tracer and the "
-                                 "techniques leave out because of that");
+                                 "techniques leave out because of that",
+                                 "ssrlab needs fence");
     add_shot(command, needs.shot);
     option(command, "--frames N", needs.frames, "Number of frames of the shot; default: 1, so that nothing moves")
         ->check(CLI::Range(1, 10000));

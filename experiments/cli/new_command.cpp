@@ -82,8 +82,9 @@ static void new_command(const NewOptions& options) {
 
 void add_new(Commands& line) {
     NewOptions& new_technique = line.keep<NewOptions>();
-    CLI::App& command = line.add(
-        "new", "Write a folder with a technique of your own, which needs no compiler, and a first study of it");
+    CLI::App& command =
+        line.add("new", "Write a folder with a technique of your own, which needs no compiler, and a first study of it",
+                 "ssrlab new my_ssr --from mcguire_dda");
     option(command, "folder FOLDER", new_technique.folder, "Folder to make; its name is the name of the technique")
         ->required();
     option(command, "--from TECHNIQUE", new_technique.from,

@@ -142,8 +142,9 @@ static void plan_command(const PlanOptions& options, const CommonOptions& common
 void add_plan(Commands& line) {
     PlanOptions& plan = line.keep<PlanOptions>();
     CLI::App& command = line.add(
-        "plan", "Show how many cells of a study are done, and how long and how much memory the others will take");
-    option(command, "config CONFIG.json", plan.config, "The study")->required();
+        "plan", "Show how many cells of a study are done, and how long and how much memory the others will take",
+        "ssrlab plan quickstart");
+    add_config(command, plan.config);
     option(command, "--out DIR", plan.out, "Results folder of the study; default: results/<name of the config>");
     option(command, "--cells TERM", plan.cells, "Consider only these cells; terms as for `ssrlab run`")->delimiter(',');
     command.add_flag("--list", plan.has_list, "List the cells instead of estimates");

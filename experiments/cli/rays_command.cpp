@@ -74,7 +74,8 @@ static void rays_command(const RaysOptions& options, const CommonOptions& common
 void add_rays(Commands& line) {
     RaysOptions& rays = line.keep<RaysOptions>();
     CLI::App& command =
-        line.add("rays", "Trace the mirror rays of reflective pixels, and print a table of where they end");
+        line.add("rays", "Trace the mirror rays of reflective pixels, and print a table of where they end",
+                 "ssrlab rays \"room:*\" --count 100");
     option(command, "scenes SCENE...", rays.scenes,
            "Scenes, each seen by its first camera; room:* stands for several rooms in a row")
         ->required();

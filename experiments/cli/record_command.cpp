@@ -61,7 +61,8 @@ void add_record(Commands& line) {
     RecordOptions& record = line.keep<RecordOptions>();
     CLI::App& command = line.add(
         "record",
-        "Write a page on which a browser runs a technique's passes (WebGL 2) and compares the result with the truth");
+        "Write a page on which a browser runs a technique's passes (WebGL 2) and compares the result with the truth",
+        "ssrlab record mirror_pillars --technique diligent_ssr --packed --out page.html");
     add_scene(command, record.shot.scene);
     option(command, "--technique NAME", record.technique,
            "Technique that has only fragment passes (see: ssrlab list techniques), or its folder; other techniques are "

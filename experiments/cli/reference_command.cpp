@@ -121,7 +121,8 @@ static void reference_command(const ReferenceCommandOptions& options, const Comm
 
 void add_reference(Commands& line) {
     ReferenceCommandOptions& reference = line.keep<ReferenceCommandOptions>();
-    CLI::App& command = line.add("reference", "Path-trace a scene; a stopped render continues");
+    CLI::App& command = line.add("reference", "Path-trace a scene; a stopped render continues",
+                                 "ssrlab reference fence --samples 1024");
     add_shot(command, reference.shot);
     option(command, "--samples", reference.settings.max_samples,
            "Largest number of samples per pixel, rounded up to 16 x 2^k; default: " +

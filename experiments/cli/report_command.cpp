@@ -13,10 +13,10 @@ static void report_command(const std::filesystem::path& folder, bool links_image
 
 void add_report(Commands& line) {
     auto& report_folder = line.keep<std::filesystem::path>();
-    CLI::App& command = line.add("report", "Write report.html again from the tables of a results folder");
+    CLI::App& command = line.add("report", "Write report.html again from the tables of a results folder",
+                                 "ssrlab report results/quickstart");
     option(command, "results DIR", report_folder, "Results folder that `ssrlab run` or `ssrlab stability` filled")
-        ->required()
-        ->check(CLI::ExistingDirectory);
+        ->required();
     bool& links_images = line.keep<bool>();
     command.add_flag("--link-images", links_images,
                      "Keep all images in report_images/ beside the page, even if they are small");

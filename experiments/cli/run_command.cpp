@@ -40,10 +40,9 @@ static void run_study_command(const RunOptions& options, const CommonOptions& co
 
 void add_run(Commands& line) {
     RunOptions& run = line.keep<RunOptions>();
-    CLI::App& command = line.add("run", "Run a study: render and measure every point of every technique in every shot");
-    option(command, "config CONFIG.json", run.config,
-           "The study; `experiments/docs/reference/study_keys.md` explains the keys")
-        ->required();
+    CLI::App& command = line.add("run", "Run a study: render and measure every point of every technique in every shot",
+                                 "ssrlab run quickstart");
+    add_config(command, run.config);
     option(command, "--out DIR", run.out,
            "Results folder; default: results/<name of the config>. A stopped study continues in its folder");
     command.add_flag("--keep-all", run.keep_all,

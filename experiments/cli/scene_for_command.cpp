@@ -71,7 +71,8 @@ void add_scene_for(Commands& line) {
     SceneForOptions& scene_for = line.keep<SceneForOptions>();
     CLI::App& command = line.add("scene-for",
                                  "Write the views of a scene for another program: glTF, camera poses, and the light "
-                                 "that reflections are computed from");
+                                 "that reflections are computed from",
+                                 "ssrlab scene-for three fence --out fence_scene");
     option(command, "engine ENGINE", scene_for.engine,
            "Program that will read the files: any, three, babylon, eevee or godot. It decides the formats")
         ->required();
@@ -93,7 +94,7 @@ void add_scene_for(Commands& line) {
     option(command, "--fallback", scene_for.fallback,
            "What rays that find nothing see, as in the study: the environment, or a probe at the camera's place, which "
            "shows the room instead of the sky behind the walls")
-        ->check(CLI::IsMember({"environment", "probe"}))
+        ->check(name_among({"environment", "probe"}))
         ->capture_default_str();
     option(command, "--out DIR", scene_for.out, "Output folder")->required();
     add_scene_path(command, line.common), add_cache(command, line.common);

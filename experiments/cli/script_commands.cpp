@@ -8,6 +8,7 @@
 #include "core/shown_text.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/config_of_study.h"
+#include "experiments/cli/help_page.h"
 #include "experiments/gpu_costs/chips/chip_compiler.h"
 #include "experiments/results/cells/host_info.h"
 #include "experiments/results/tradeoff/tradeoff_answers.h"
@@ -112,14 +113,14 @@ std::string named_in_configs(const PointConfig& point) {
 
 static int tune_command(const TuneOptions& options, const std::vector<std::string>& run_options) {
     using nlohmann::json;
-    const Config config = read_config(options.config);
-    if (!config.is_tuned) fail(options.config.string(), ": has no 'tune'; `ssrlab run` runs a study");
-    if (!config.source["tune"].contains("axes"))
-        fail(options.config.string(), ": 'tune' has no 'axes'; it can only be extended");
-    const std::filesystem::path out = options.out.empty() ? default_results(options.config) : options.out;
+    const std::filesystem::path file = study_file(options.config);
+    const Config config = read_config(file);
+    if (!config.is_tuned) fail(file.string(), ": has no 'tune'; `ssrlab run` runs a study");
+    if (!config.source["tune"].contains("axes")) fail(file.string(), ": 'tune' has no 'axes'; it can only be extended");
+    const std::filesystem::path out = options.out.empty() ? default_results(file) : options.out;
     const json rules = tuning_of(config);
     if (rules.contains("program") && !options.allows_program)
-        fail(options.config.string(), ": the search runs the program '",
+        fail(file.string(), ": the search runs the program '",
              joined(rules["program"].get<std::vector<std::string>>(), " "),
              "', which may do anything that you may. If you trust the config, add --allow-program");
     if (rules["is_estimated"]) find_chip(rules["time"]);  // or says why it cannot be asked
@@ -138,7 +139,7 @@ static int tune_command(const TuneOptions& options, const std::vector<std::strin
         {"points", points},
         {"parameters",
          rules.contains("program") ? json::object() : config_schema(config.techniques.front().technique)["properties"]},
-        {"folder", std::filesystem::absolute(options.config).parent_path().string()}};
+        {"folder", std::filesystem::absolute(file).parent_path().string()}};
     create_folder(out);
     write_text(out / "tune.json", asked.dump(1) + "\n");  // without comments, which Python does not read
     std::vector<std::string> arguments = {"--out=" + out.string(), (out / "tune.json").string(), "--",
@@ -150,17 +151,24 @@ static int tune_command(const TuneOptions& options, const std::vector<std::strin
 /// A command whose options a script declares, --help among them.
 static void hand_on(CLI::App& command, int (*call)(const std::vector<std::string>&), Commands& line) {
     command.prefix_command()->set_help_flag();
-    command.callback([&command, call, &line] { line.status = call(command.remaining()); });
+    command.callback([&command, call, &line] {
+        const std::vector<std::string> words = command.remaining();
+        if (std::ranges::count(words, "--help") || std::ranges::count(words, "-h"))
+            std::cout << example_line(command) << std::endl;  // before what the script prints
+        line.status = call(words);
+    });
 }
 
 void add_figures(Commands& line) {
     hand_on(line.add("figures",
-                     "Draw figures for papers (PDF, SVG, PNG) and animations of motion (GIF) from a results folder"),
+                     "Draw figures for papers (PDF, SVG, PNG) and animations of motion (GIF) from a results folder",
+                     "ssrlab figures results/quickstart --choice my_figures.json"),
             figures_command, line);
 }
 
 void add_tables(Commands& line) {
-    hand_on(line.add("tables", "Make the tables of a study (Markdown, LaTeX, CSV) from a results folder"),
+    hand_on(line.add("tables", "Make the tables of a study (Markdown, LaTeX, CSV) from a results folder",
+                     "ssrlab tables results/my_study"),
             tables_command, line);
 }
 
@@ -168,7 +176,8 @@ void add_tradeoff(Commands& line) {
     TradeoffOptions& tradeoff = line.keep<TradeoffOptions>();
     CLI::App& command = line.add("tradeoff",
                                  "Find the best technique for a time budget, the fronts of error against time, and the "
-                                 "errors that no time removes");
+                                 "errors that no time removes",
+                                 "ssrlab tradeoff results/quickstart --times 5 10 20");
     option(command, "results DIR", tradeoff.results, "Results folder that `ssrlab run` filled")->required();
     option(command, "--out DIR", tradeoff.out, "Folder of the answers; default: tradeoff in the results folder");
     option(command, "--baseline TECHNIQUE:POINT", tradeoff.baseline,
@@ -200,10 +209,9 @@ void add_tune(Commands& line) {
     TuneOptions& tune = line.keep<TuneOptions>();
     CLI::App& command = line.add(
         "tune",
-        "Search the parameters of a technique for the least error within a time, and evaluate them on other scenes");
-    option(command, "config CONFIG.json", tune.config,
-           "Study with the key \"tune\", which `experiments/docs/tune.md` explains")
-        ->required();
+        "Search the parameters of a technique for the least error within a time, and evaluate them on other scenes",
+        "ssrlab tune my_search.json");
+    add_config(command, tune.config, "; its key \"tune\" is explained in `experiments/docs/tune.md`");
     option(command, "--out DIR", tune.out, "Results folder; default: results/<name of the config>");
     command.add_flag("--allow-program", tune.allows_program, "Run the program that the key \"program\" names");
     add_device(command, line.common), add_scene_path(command, line.common), add_cache(command, line.common);

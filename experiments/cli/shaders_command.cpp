@@ -186,7 +186,8 @@ void add_shaders(Commands& line) {
     shaders.chips.assign(default_chips.begin(), default_chips.end());
     shaders.mesa = chosen_mesa();
     CLI::App& command = line.add(
-        "shaders", "Show what a GPU's compiler makes of a technique's passes: registers, occupancy, instructions");
+        "shaders", "Show what a GPU's compiler makes of a technique's passes: registers, occupancy, instructions",
+        "ssrlab shaders amd_sssr --chip navi21,gfx1100");
     option(command, "technique NAME", shaders.technique,
            "Technique (see: ssrlab list techniques), or its folder, written with a /")
         ->required();

@@ -188,7 +188,8 @@ void add_stability(Commands& line) {
     StabilityOptions& stability = line.keep<StabilityOptions>();
     CLI::App& command = line.add(
         "stability",
-        "Test techniques with extreme inputs: values that are not finite, and small changes that are amplified");
+        "Test techniques with extreme inputs: values that are not finite, and small changes that are amplified",
+        "ssrlab stability --techniques ./my_ssr --cases faults");
     option(command, "--techniques NAME", stability.techniques,
            "Techniques, folders of techniques, or single presets as NAME:PRESET; default: all presets of all "
            "techniques, and all tracers")
@@ -196,8 +197,7 @@ void add_stability(Commands& line) {
     option(command, "--cases NAME", stability.cases, "Cases, or groups of cases, of the table; default: all")
         ->delimiter(',');
     option(command, "--table FILE.json", stability.table,
-           "Table of cases (`experiments/study/stability/README.md`); default: the included table")
-        ->check(CLI::ExistingFile);
+           "Table of cases (`experiments/study/stability/README.md`); default: the included table");
     option(command, "--out DIR", stability.out, "Folder of stability.csv")->default_val("results/stability");
     command.add_flag("--all-stages", stability.has_all_stages,
                      "List every stage in stability_stages.csv, also finite ones");

@@ -81,7 +81,8 @@ void add_watch(Commands& line) {
     WatchOptions& watch = line.keep<WatchOptions>();
     CLI::App& command = line.add("watch",
                                  "Render and judge the folder of a technique whenever a file in it is saved, and show "
-                                 "the result on a local web page");
+                                 "the result on a local web page",
+                                 "ssrlab watch my_ssr --scene fence");
     option(command, "folder FOLDER", watch.folder, "Folder with technique.json and shaders (`ssrlab new` makes one)")
         ->required();
     option(command, "--scene SCENE...", watch.scenes,

@@ -1,6 +1,8 @@
 #include "experiments/study/progress.h"
 
 #include "core/shown_text.h"
+#include "core/terminal.h"
+#include "core/wrapped_text.h"
 
 #include <unistd.h>
 #include <algorithm>
@@ -70,8 +72,11 @@ void Progress::update(double done_work, const std::string& what) {
         return;
     }
     clear();
-    std::fputs(line.c_str(), stderr);
-    drawn_ = line.size();
+    // A line that reaches the last column would go on in the next line, which clear() does not reach.
+    const auto columns = terminal_columns(stderr);
+    const std::string fitting = columns ? cut_to(line, *columns - 1) : line;
+    std::fputs(fitting.c_str(), stderr);
+    drawn_ = letters_of(fitting);
 }
 
 void Progress::say(const std::string& line) {

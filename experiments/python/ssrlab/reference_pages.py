@@ -11,6 +11,7 @@ import sys
 import textwrap
 from pathlib import Path
 
+from ssrlab.command_lines import CommandLine
 from ssrlab.json_files import read_json
 from ssrlab.markdown_text import markdown_prose
 from ssrlab.mistakes import ResultsError, exit_code
@@ -36,7 +37,7 @@ def option_row(option):
 
 def script_options(command):
     """Arguments and options of a command that is a module of experiments/python."""
-    actions = importlib.import_module(f"ssrlab.{command}.__main__").command_line()._actions
+    actions = importlib.import_module(f"ssrlab.{command}.command_line").command_line()._actions
     return [{"name": (one.option_strings or [one.dest])[-1], "value": "" if one.nargs == 0 else one.metavar or one.dest.upper(), "required": one.required,
              "several": False, "default": "", "excludes": [], "meaning": one.help} for one in actions if one.help != argparse.SUPPRESS and one.dest != "help"]
 
@@ -50,8 +51,9 @@ def commands(declared):
         "the command makes has failed), 2 (an error in the request), 3 (a fault of the machine) and 130 (stopped by Ctrl-C).", "",
         *contents([(c["name"], prose(c["meaning"])) for c in declared["commands"]] + [(many, "What many commands share.")]), f"## {many}", "", *table(head, map(option_row, shared))]
     for command in declared["commands"]:
+        example = f"For example: {code(command['example'])}."
         own, known = ([one for one in options[command["name"]] if (one in shared) == is_shared] for is_shared in (False, True))
-        lines += [f"## {command['name']}", "", prose(command["meaning"]), "", *table(head, map(option_row, own))]
+        lines += [f"## {command['name']}", "", prose(command["meaning"]), "", example, "", *table(head, map(option_row, own))]
         lines += [f"[{many}](#options-of-many-commands): {', '.join(code(one['name']) for one in known)}.", ""] if known else []
     return page("Commands", *lines)
 
@@ -215,6 +217,7 @@ def studies(_declared):
         raise ResultsError(f"{STUDIES / 'studies.json'}: '{wrong[0]}' has no question there, or no config")
     lines = ["The included studies, each with the question that it asks and its time on two CPU cores. `ssrlab plan` estimates the time on your machine.", "",
              "    build/release/ssrlab run experiments/studies/configs/quickstart.json --out results/quickstart", "",
+             "`ssrlab run quickstart` finds an included study by its name, from any folder.", "",
              "Studies whose names begin with `tune_` are searches for `ssrlab tune`.", ""]
     for title, group in groups.items():
         lines += [f"## {title}", "", *table(["study", "question", "time"], [
@@ -242,10 +245,15 @@ def written(program):
     return {name: linked(text, name) for name, text in texts.items()}
 
 
-def main():
-    parser = argparse.ArgumentParser(description="The pages of experiments/docs/reference, from what the program declares.")
+def command_line():
+    parser = CommandLine(prog="python3 experiments/python reference_pages", description="The pages of experiments/docs/reference, from what the program declares.")
     parser.add_argument("program", nargs="?", default=ROOT / "build/release/ssrlab", help="default: build/release/ssrlab")
     parser.add_argument("--check", action="store_true", help="write nothing; fail where a page is not what the program declares")
+    return parser
+
+
+def main():
+    parser = command_line()
     arguments = parser.parse_args()
     texts, kept = written(arguments.program), {str(file.relative_to(OUT)): file for file in OUT.rglob("*.md")}
     stale = [name for name in {**texts, **kept} if name not in kept or texts.get(name) != kept[name].read_text(encoding="utf-8")]

@@ -195,7 +195,7 @@ TEST_F(CommandLine, NamesBrokenFiles) {
     expect_mistake("describe mcguire", "unknown technique, tracer or denoiser 'mcguire'");
     EXPECT_EQ(ssrlab("reference fence --size 0 10").code, 2);
     expect_mistake("rnu study.json", "unknown command 'rnu'; did you mean 'run'?");
-    expect_mistake("frobnicate", "known are: run, plan, merge");
+    expect_mistake("frobnicate", "known are: run, plan, tradeoff");
 }
 
 TEST_F(CommandLine, RefusesWhatNoNumberAndNoStackCanHold) {

@@ -10,10 +10,13 @@ It reads manifest.json, summary.csv, time_summary.csv, splits.csv, effects.csv, 
 (experiments/docs/results_folder.md) and what `ssrlab tradeoff` wrote, and writes the same bytes whenever they are the same. Needs Debian's python3-matplotlib and python3-numpy.
 """
 
-import argparse
 import os
 import sys
 from dataclasses import replace
+
+from ssrlab.figures.command_line import parse_arguments
+
+ARGUMENTS = parse_arguments() if __name__ == "__main__" else None  # before the imports below, which take a second
 
 os.environ["SOURCE_DATE_EPOCH"] = "0"  # matplotlib writes no time of day into its files
 
@@ -45,7 +48,6 @@ from ssrlab.figures import (
     temporal,
 )
 from ssrlab.figures.crop_choice import read_crops
-from ssrlab import memory
 from ssrlab.results import Results
 from ssrlab.text_files import path_inside
 
@@ -75,25 +77,6 @@ UNASKED_OF_SHOTS = ("error_time", "stage_times", "stage_costs", "stage_estimates
 UNASKED = ("ladder", "roughness_error", "roughness_bias", "bias_variance", "temporal", "frames", "fits", "fetches", "effects")
 OF_ONE_ERROR = ("error_time", "ladder", "response", "map", "convergence", "fits", "crops", "motion")  # that of their target, metric and mask
 UNMEASURED = ("stage_times", "stage_costs", "stage_estimates", "fetches")  # of studies without a reference, too
-
-
-def command_line():
-    parser = argparse.ArgumentParser(prog="ssrlab figures", description="Draws figures for papers (PDF, SVG, PNG) from a results folder, and animations of shots in motion (GIF).")
-    parser.add_argument("results", help="Results folder that `ssrlab run` filled")
-    parser.add_argument("--out", metavar="DIR", help="Output folder; default: figures in the results folder")
-    parser.add_argument("--choice", metavar="figures.json", help="File that says which figures are drawn and how they look; the report's viewer writes one with crops")
-    parser.add_argument("--target", metavar="NAME", help="Target of the error; default: specular")
-    parser.add_argument("--metric", metavar="NAME", help="Metric of the error; default: that of the study's primary error, else the first")
-    parser.add_argument("--mask", metavar="NAME", help="Mask of the error; default: reflective")
-    parser.add_argument("--max-memory", metavar="SIZE", type=memory.size_in_bytes, help=f"Memory that reading an image may take, for example 8GB; default: {memory.VARIABLE}, else half of this machine's memory")
-    return parser
-
-
-def parse_arguments():
-    arguments = command_line().parse_args()
-    if arguments.max_memory is not None:
-        os.environ[memory.VARIABLE] = str(arguments.max_memory)
-    return arguments
 
 
 def for_each_shot(results, requests):
@@ -165,7 +148,7 @@ def make(results, requests, look, out):
 
 
 def main():
-    arguments = parse_arguments()
+    arguments = ARGUMENTS or parse_arguments()
     matplotlib.use("Agg")
     results = Results(arguments.results)
     file = arguments.choice

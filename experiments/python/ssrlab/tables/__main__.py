@@ -6,36 +6,19 @@ usage: python3 experiments/python tables RESULTS [--out DIR] [--keep]
 With --keep also the summary that is committed (experiments/studies/summaries), and the documents that show its tables; --fill makes
 the tables of all documents anew, --check says which differ, and which summaries today's estimators did not make."""
 
-import argparse
 import os
 import sys
 
+from ssrlab.tables.command_line import parse_arguments
+
+ARGUMENTS = parse_arguments() if __name__ == "__main__" else None  # before the imports below, which take half a second
+
 from ssrlab.mistakes import ResultsError, exit_code, shown
-from ssrlab.repository import ROOT
 from ssrlab.results import Results
 from ssrlab.text_files import path_inside, write_text
 from ssrlab.tables import documents, formats, latex, summary_file
 from ssrlab.tables.cells import Table, cells_of
 from ssrlab.tables.markdown import markdown
-
-
-def command_line():
-    parser = argparse.ArgumentParser(prog="ssrlab tables", description="Makes the tables of a study (Markdown, LaTeX, CSV) from a results folder.")
-    parser.add_argument("results", nargs="?", help="Results folder that `ssrlab run` filled")
-    parser.add_argument("--out", metavar="DIR", help="Output folder; default: tables in the results folder")
-    parser.add_argument("--keep", action="store_true", help="Also keep the numbers in experiments/studies/summaries, and write them into documents")
-    parser.add_argument("--fill", action="store_true", help="Write the kept numbers into all tables and sentences of documents")
-    parser.add_argument("--check", metavar="ESTIMATORS", type=int, help="Fail if a document differs from the kept numbers, or if the estimators have another version than those of the kept numbers. `ssrlab tables --check` adds the version")
-    parser.add_argument("--root", default=str(ROOT), help=argparse.SUPPRESS)  # tests use a tree of their own
-    return parser
-
-
-def parse_arguments():
-    parser = command_line()
-    arguments = parser.parse_args()
-    if sum([arguments.results is not None, arguments.fill, arguments.check is not None]) != 1:
-        parser.error("name one results folder, or --fill, or --check")
-    return arguments
 
 
 def default_folder(results):
@@ -82,7 +65,7 @@ def make(folder, out, summary_folder):
 
 
 def main():
-    arguments = parse_arguments()
+    arguments = ARGUMENTS or parse_arguments()
     summaries = os.path.join(arguments.root, "experiments/studies/summaries")
     if arguments.check is not None:
         found = documents.mistakes(arguments.root, summaries, arguments.check)
