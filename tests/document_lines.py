@@ -26,6 +26,23 @@ def all_command_lines():
             yield document, line
 
 
+def mentions(text):
+    """Command lines between backquotes, in sentences. Those with a word that stands for others, such as NAME of a command or {file} of a
+    program's own text, are none."""
+    joined = re.sub(r'"\s*\n\s*"', "", text)  # a literal of C++ over several lines
+    for span in re.findall(r"`((?:build/release/)?ssrlab [^`\n]+|python3 experiments/python [^`\n]+)`", joined):
+        if not re.search(r"[{}<>\\]|' ?\+|\+ ?'|\" ?\+|\.\.\.|(?:ssrlab|python) [A-Z]|ssrlab help", span):
+            yield span
+
+
+def all_mentions():
+    """(file, line) of documents, help texts and messages."""
+    sources = [f for folder in ("core", "experiments", "groundtruth", "metrics", "variants") for kind in ("cpp", "h", "py", "js", "json") for f in (ROOT / folder).rglob(f"*.{kind}")]
+    for file in DOCUMENTS + sorted(sources):
+        for line in mentions(file.read_text(encoding="utf-8")):
+            yield file, line
+
+
 def studies_of(document):
     """The JSON objects that a page prints as whole blocks, in their order."""
     text = document.read_text(encoding="utf-8")

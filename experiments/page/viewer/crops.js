@@ -1,4 +1,4 @@
-// Crops for figures: a box that is drawn on the images, and the list of boxes that `ssrlab figures DIR FILE` reads.
+// Crops for figures: a box that is drawn on the images, and the list of boxes that `ssrlab figures DIR --choice FILE` reads.
 
 import {at, h} from "../elements/elements.js";
 import {copyText} from "../elements/files.js";

@@ -13,6 +13,7 @@ import os
 import random
 import sys
 
+from ssrlab.command_lines import CommandLine
 from ssrlab.csv_files import number, read_rows, write_lines
 from ssrlab.mistakes import ResultsError, exit_code, stop
 
@@ -104,8 +105,8 @@ def enter(arguments):
         write_lines(out, lines)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def command_line():
+    parser = CommandLine(prog="python3 experiments/python judge", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     commands = parser.add_subparsers(required=True)
     sheets = commands.add_parser("sheets")
     sheets.add_argument("results"), sheets.add_argument("out")
@@ -114,7 +115,11 @@ def main():
     entering = commands.add_parser("enter")
     entering.add_argument("out"), entering.add_argument("answers"), entering.add_argument("--judge", required=True)
     entering.set_defaults(run=enter)
-    arguments = parser.parse_args()
+    return parser
+
+
+def main():
+    arguments = command_line().parse_args()
     arguments.run(arguments)
 
 

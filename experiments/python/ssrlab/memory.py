@@ -1,4 +1,4 @@
-"""The most memory that a file may take, as in `ssrlab --max-memory`: SSRLAB_MAX_MEMORY, else half of this machine's memory."""
+"""The most memory that a file may take, as in `ssrlab run --max-memory`: SSRLAB_MAX_MEMORY, else half of this machine's memory."""
 
 import argparse
 import os

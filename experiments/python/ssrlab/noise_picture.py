@@ -12,6 +12,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+from ssrlab.command_lines import CommandLine
 from ssrlab.mistakes import exit_code, stop
 
 try:
@@ -94,10 +95,14 @@ def draw_intervals(axes, rows):
     axes.legend(loc="lower right")
 
 
-def main():
-    parser = argparse.ArgumentParser(prog="noise_picture", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def command_line():
+    parser = CommandLine(prog="python3 experiments/python noise_picture", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", nargs="?", default="build/release/ssrlab")
-    program = str(Path(parser.parse_args().program).resolve())
+    return parser
+
+
+def main():
+    program = str(Path(command_line().parse_args().program).resolve())
     with tempfile.TemporaryDirectory() as folder:
         scratch = Path(folder)
         few, many = (render(program, scratch, samples) for samples in (SAMPLES[0], SAMPLES[-1]))

@@ -9,7 +9,6 @@ A pair's standard error is that of the logarithm of its errors' ratio, from its 
 number; the reference's part does not. Power is that of Student's two-sided test (a noncentral t) at 0.05, in a family at 0.05 / its size
 (Bonferroni, the first step of Holm's method). Needs Debian's python3-numpy and python3-scipy."""
 
-import argparse
 import csv
 import math
 import os
@@ -18,6 +17,7 @@ from collections import defaultdict
 import numpy as np
 from scipy import stats
 
+from ssrlab.command_lines import CommandLine
 from ssrlab.repository import SUMMARIES
 
 SIGNIFICANCE, WANTED = 0.05, 0.8
@@ -119,10 +119,14 @@ def print_scenes(summary="rooms", share=0.1, counts=(28, 196)):
         print(f"| `{metric}` | {len(found)} | {np.median(found):.2f} | " + " | ".join(f"{100 * s:.0f} %" for s in seen) + f" | {needed} |")
 
 
-if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description="Tables of the differences that metrics see: within shots, and over scenes.")
+def command_line():
+    parser = CommandLine(prog="python3 experiments/python power", description="Tables of the differences that metrics see: within shots, and over scenes.")
     parser.add_argument("results", nargs="*", help="folders of studies whose shots are judged")
-    if folders := parser.parse_args().results:
+    return parser
+
+
+if __name__ == "__main__":
+    if folders := command_line().parse_args().results:
         print_shots(folders)
         print()
     print_scenes()

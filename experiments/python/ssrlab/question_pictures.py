@@ -6,7 +6,6 @@ Without names all. Each file holds a hash of the numbers that it shows, by which
 Debian's python3-matplotlib and -numpy, and the built ssrlab for means over scenes. Over 400 lines: a list of functions, one for each picture, that know nothing of each other.
 """
 
-import argparse
 import io
 import sys
 from pathlib import Path
@@ -16,6 +15,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
+from ssrlab.command_lines import CommandLine
 from ssrlab.csv_files import number
 from ssrlab.figures import style
 from ssrlab.figures.summary_picture import GREY, Mark, Panel, Picture, draw, shown_numbers
@@ -430,10 +430,15 @@ def save(name, folder):
     print(f"{file}: {file.stat().st_size} bytes")
 
 
-def main():
-    parser = argparse.ArgumentParser(description="A picture for each page of answers (SVG).")
+def command_line():
+    parser = CommandLine(prog="python3 experiments/python question_pictures", description="A picture for each page of answers (SVG).")
     parser.add_argument("names", nargs="*", metavar="NAME", help=f"of {', '.join(PICTURES)}; default: all")
     parser.add_argument("--out", type=Path, default=OUT, help="default: experiments/studies/questions/pictures")
+    return parser
+
+
+def main():
+    parser = command_line()
     arguments = parser.parse_args()
     if unknown := [name for name in arguments.names if name not in PICTURES]:
         parser.error(f"there is no picture '{unknown[0]}'; there are {', '.join(PICTURES)}")

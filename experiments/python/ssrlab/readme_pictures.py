@@ -9,7 +9,6 @@ of the studies with these names; the crops that questions/pictures/*.crops.json 
 Needs Debian's python3-matplotlib, -numpy and -pil.
 """
 
-import argparse
 import hashlib
 import io
 import subprocess
@@ -17,6 +16,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+from ssrlab.command_lines import CommandLine
 from ssrlab.mistakes import exit_code, stop
 
 try:
@@ -125,8 +125,8 @@ def draw_crops(folder, question, is_reduced=True):
         save(crops.draw(results, shot, options), chosen.parent / f"{shot.split('.')[0]}.png", digest(chosen), is_reduced)
 
 
-def main():
-    parser = argparse.ArgumentParser(description="The pictures of the README (PNG).")
+def command_line():
+    parser = CommandLine(prog="python3 experiments/python readme_pictures", description="The pictures of the README (PNG).")
     parser.add_argument("results", nargs="?", help="a folder that `ssrlab run experiments/studies/configs/readme.json` filled")
     parser.add_argument("--techniques", metavar="TECHNIQUE_PICTURES", help="the results folder of that study, for pictures of techniques and marches")
     parser.add_argument("--report", metavar="QUICKSTART", help="the results folder of the quickstart, for a picture of its report")
@@ -134,6 +134,11 @@ def main():
     parser.add_argument("--composed", metavar="COMPOSED_MOTION", help="that of composed_ssr in motion, for more of them")
     parser.add_argument("--engines", metavar="ENGINES", help="that of experiments/bridges/engines/engines.json, for those of engines")
     parser.add_argument("--rooms", metavar="ROOMS_GPU_PICTURES", help="that of the study rooms_gpu_pictures, for that of a room at 1 ms")
+    return parser
+
+
+def main():
+    parser = command_line()
     arguments = parser.parse_args()
     style.apply()
     if arguments.results:
