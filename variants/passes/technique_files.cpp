@@ -9,6 +9,9 @@
 #include "variants/passes/declared_passes.h"
 
 #include <algorithm>
+#include <map>
+#include <mutex>
+#include <optional>
 #include <set>
 
 namespace fs = std::filesystem;
@@ -20,8 +23,13 @@ bool is_shader_source(const fs::path& file) {
     return endings.contains(file.extension().string());
 }
 
-/// The path from ssrlab's root of one of its own shaders; "" if there is none of that name.
-std::string own_source(const std::string& name) {
+/// One of ssrlab's own shaders.
+struct OwnShader {
+    std::string source;  ///< its path from ssrlab's root
+    std::string text;
+};
+
+std::optional<OwnShader> find_own_shader(const std::string& name) {
     if (name.empty() || fs::path(name).is_absolute() || std::ranges::count(fs::path(name), fs::path("..")) > 0)
         return {};
     for (const fs::path& root : shader_roots()) {
@@ -29,9 +37,19 @@ std::string own_source(const std::string& name) {
         const std::string inside = file.lexically_relative(SSRLAB_SOURCE_DIR).string();
         if ((inside.starts_with("variants/") || inside.starts_with("core/")) && is_shader_source(file) &&
             fs::is_regular_file(file))
-            return inside;
+            return OwnShader{inside, read_text(file)};
     }
     return {};
+}
+
+/// Null if there is none of that name. Read once per process: the passes of all techniques include the same ones.
+const OwnShader* own_shader(const std::string& name) {
+    static std::mutex mutex;
+    static std::map<std::string, std::optional<OwnShader>> read;
+    const std::lock_guard lock(mutex);
+    auto found = read.find(name);
+    if (found == read.end()) found = read.emplace(name, find_own_shader(name)).first;
+    return found->second ? &*found->second : nullptr;
 }
 
 /// Names of shaders below a folder.
@@ -55,17 +73,16 @@ private:
     /// `may_be_of_folder`: false for what ssrlab's own shaders include. `where`: who names it.
     bool visit(const std::string& name, bool may_be_of_folder, const std::string& where) {
         const bool is_of_folder = may_be_of_folder && is_in_folder(name, where);
-        const std::string source = is_of_folder ? "" : own_source(name);
-        if (!is_of_folder && source.empty()) fail_missing(name, where);
-        const std::string shown_name = is_of_folder ? declaration_.name + "/" + name : source;
+        const OwnShader* const own = is_of_folder ? nullptr : own_shader(name);
+        if (!is_of_folder && !own) fail_missing(name, where);
+        const std::string shown_name = is_of_folder ? declaration_.name + "/" + name : own->source;
         if (std::ranges::count(open_, shown_name) > 0) fail(where, ": ", shown_name, " includes itself");
         if (!visited_.insert(shown_name).second) return is_of_folder;
-        const fs::path file = is_of_folder ? path_inside(read_.path, name) : path_inside(SSRLAB_SOURCE_DIR, source);
-        const std::string text = read_text(file);
-        if (is_of_folder)
-            read_.files[name] = text;
+        const std::string text = own ? own->text : read_text(path_inside(read_.path, name));
+        if (own)
+            read_.sources.push_back(own->source);
         else
-            read_.sources.push_back(source);
+            read_.files[name] = text;
         open_.push_back(shown_name);
         for (const auto& [included, line] : includes_of(text))
             if (!std::ranges::count(pass_.tracers, included) &&
