@@ -18,10 +18,12 @@ std::string lower_case_extension(const std::filesystem::path& file) {
     return text;
 }
 
+static const char* const elsewhere = "; choose a folder that you may write to and that has space";
+
 void create_folder(const std::filesystem::path& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
-    if (error) fail_machine("cannot create the folder ", folder.string(), ": ", error.message());
+    if (error) fail_machine("cannot create the folder ", folder.string(), ": ", error.message(), elsewhere);
 }
 
 /// A folder may hold as many files as a study has cells, and each write would look at all of them.
@@ -44,6 +46,10 @@ void write_atomically(const std::filesystem::path& file,
     std::filesystem::remove_all(temporary, error);  // of a killed process, or a link that waits there
     try {
         write(temporary);
+    } catch (const MachineError& fault) {
+        std::filesystem::remove_all(temporary, error);
+        const std::string said = fault.what();
+        throw MachineError(said.starts_with("cannot write") && !said.ends_with(elsewhere) ? said + elsewhere : said);
     } catch (...) {
         std::filesystem::remove_all(temporary, error);
         throw;
@@ -52,7 +58,7 @@ void write_atomically(const std::filesystem::path& file,
     if (error) {
         const std::string reason = error.message();
         std::filesystem::remove_all(temporary, error);
-        fail_machine("cannot write ", file.string(), ": ", reason);
+        fail_machine("cannot write ", file.string(), ": ", reason, elsewhere);
     }
 }
 

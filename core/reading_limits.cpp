@@ -78,7 +78,7 @@ void check_regular_file(const fs::path& file) {
     struct stat status {};
     if (stat(file.c_str(), &status) != 0)
         fail("cannot read ", shortened(file.string()), ": ",
-             errno == ENOENT || errno == ENOTDIR ? "no such file" : std::strerror(errno));
+             errno == ENOENT || errno == ENOTDIR ? "no such file; check its path" : std::strerror(errno));
     if (!S_ISREG(status.st_mode))
         fail("cannot read ", file.string(), ": it is ", kind_of(status.st_mode), ", not a regular file");
     if (access(file.c_str(), R_OK) != 0) fail("cannot read ", file.string(), ": no permission");

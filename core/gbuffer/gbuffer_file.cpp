@@ -59,9 +59,7 @@ std::map<std::string, size_t> count_non_finite(const HostGBuffer& gbuffer) {
 }
 
 void save_gbuffer(const std::filesystem::path& folder, const HostGBuffer& gbuffer) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) fail_machine("cannot create the folder ", folder.string(), ": ", error.message());
+    create_folder(folder);
     LayeredImage file;
     for (const GBufferLayer& map : gbuffer_layers()) {
         const HostImage& image = gbuffer.*map.image;

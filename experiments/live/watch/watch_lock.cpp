@@ -14,7 +14,9 @@ WatchLock::WatchLock(const std::filesystem::path& folder) {
     create_folder(folder);
     const std::filesystem::path file = path_inside(folder, "watch.lock");
     descriptor_ = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-    if (descriptor_ < 0) fail_machine("cannot write into the folder ", folder.string(), ": ", std::strerror(errno));
+    if (descriptor_ < 0)
+        fail_machine("cannot write into the folder ", folder.string(), ": ", std::strerror(errno),
+                     "; choose a folder that you may write to");
     while (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
         if (errno == EINTR) continue;
         if (errno != EWOULDBLOCK) return;

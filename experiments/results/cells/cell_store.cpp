@@ -126,7 +126,8 @@ std::unique_ptr<CellStore::Claim> CellStore::claim(const std::string& name, bool
     create_folder(file.parent_path());
     const int descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (descriptor < 0)
-        fail_machine("cannot write into the folder ", file.parent_path().string(), ": ", std::strerror(errno));
+        fail_machine("cannot write into the folder ", file.parent_path().string(), ": ", std::strerror(errno),
+                     "; choose a folder that you may write to");
     while (flock(descriptor, waits ? LOCK_EX : LOCK_EX | LOCK_NB) != 0) {
         if (errno == EINTR) continue;
         if (errno != EWOULDBLOCK) break;
