@@ -324,6 +324,29 @@ TEST_F(GltfExtensions, BlendersUnitsOfLightAreSaid) {
     EXPECT_TRUE(load().warnings.empty());
 }
 
+/// Before 3.4.40 a sun of 1 W/m^2 is written as 1, and a lamp of 100 W as 100 instead of 100 / (4 pi) W/sr.
+TEST_F(GltfExtensions, OlderUnitsOfBlendersLightsAreSaid) {
+    writer.add_mesh_node(writer.quad());
+    writer.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "directional"}, {"intensity", 1}},
+                                                                  {{"type", "point"}, {"intensity", 100}}};
+    for (int light = 0; light < 2; ++light)
+        writer.json["nodes"].push_back({{"extensions", {{"KHR_lights_punctual", {{"light", light}}}}}});
+    const auto said = [&](const char* version, std::vector<int> nodes) {
+        writer.json["asset"]["generator"] = std::string("Khronos glTF Blender I/O") + version;
+        writer.json["scenes"][0]["nodes"] = nodes;
+        std::string text;
+        for (const SceneWarning& warning : load().warnings) text += warning.text;
+        return text;
+    };
+    EXPECT_EQ(said(" v3.4.39", {0, 1}), "");
+    EXPECT_NE(said(" v3.4.39", {0, 2}).find("\"light_scale\": 0.0795775"), std::string::npos);
+    EXPECT_NE(said(" v1.8.19", {0, 1, 2}).find("newer version"), std::string::npos);
+    EXPECT_NE(said("", {0, 2}).find("before 3.4.40"), std::string::npos);  // no version counts as an old one
+    for (const char* version : {" v3.4.40", " v3.5.0", " v4.0.1", " v10.0.0"})
+        EXPECT_NE(said(version, {0, 1}).find("683"), std::string::npos) << version;
+    EXPECT_NEAR(1 / (4 * M_PI), 0.0795775, 1e-7);  // half of its last digit
+}
+
 TEST_F(GltfExtensions, WhatElseIsLeftOutIsSaidWhereItIs) {
     writer.json["materials"] = {{{"name", "lamp"}, {"occlusionTexture", {{"index", texture({0, 0, 0, 255})}}}}};
     json primitive = writer.quad();

@@ -3,7 +3,9 @@
 #include "core/scene/gltf/gltf_value.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <cstdio>
 
 namespace {
 /// The index after `list` in a JSON pointer such as "/materials/2/emissiveFactor"; -1 if it begins otherwise.
@@ -62,17 +64,38 @@ void say_image_based_light(GltfFile& file) {
             "scene.json.");
 }
 
+/// "v3.4.50" as {3, 4, 50}; what is missing or no number is 0.
+std::array<int, 3> version_in(const std::string& generator) {
+    std::array<int, 3> version{};
+    const size_t at = generator.rfind(" v");
+    if (at != generator.npos) std::sscanf(generator.c_str() + at, " v%d.%d.%d", &version[0], &version[1], &version[2]);
+    return version;
+}
+
 /// Blender's exporter writes lux and candela as 683 times its own W/m^2 and W/sr unless told otherwise, and the
-/// radiance of emitters as it is (glTF-Blender-IO, blender/exp/lights.py, "lighting mode"); ssrlab reads all of them as
-/// W.
+/// radiance of emitters as it is (glTF-Blender-IO, blender/exp/lights.py, "lighting mode"). Before 3.4.40 it wrote a
+/// sun's W/m^2, and of other lights the W that they send in all directions (blender/exp/gltf2_blender_gather_lights.py
+/// there). ssrlab reads W/m^2 and W/sr.
 void say_blender_units(GltfFile& file, const Scene& scene) {
-    const bool is_lit = std::ranges::any_of(
-        scene.lights, [](const PunctualLight& light) { return light.intensity != glm::vec3(0.0f); });
-    if (!is_lit || !file.model.asset.generator.starts_with("Khronos glTF Blender I/O")) return;
-    file.warn(
-        "Blender's exporter multiplies punctual lights by 683 lm/W, but not emitters and the world's light, unless "
-        "its lighting mode is 'Unitless'; ssrlab reads W/m^2 and W/sr. For Blender's own picture put "
-        "\"light_scale\": 0.00146413 (1/683) into a scene.json.");
+    const std::string& generator = file.model.asset.generator;
+    if (!generator.starts_with("Khronos glTF Blender I/O")) return;
+    size_t suns = 0, others = 0;
+    for (const PunctualLight& light : scene.lights)
+        if (light.intensity != glm::vec3(0.0f)) ++(light.type == LightType::directional ? suns : others);
+    constexpr std::array<int, 3> first_with_photometric_units{3, 4, 40};
+    if (version_in(generator) >= first_with_photometric_units) {
+        if (suns + others > 0)
+            file.warn(
+                "Blender's exporter multiplies punctual lights by 683 lm/W, but not emitters and the world's light, "
+                "unless its lighting mode is 'Unitless'; ssrlab reads W/m^2 and W/sr. For Blender's own picture put "
+                "\"light_scale\": 0.00146413 (1/683) into a scene.json.");
+    } else if (others > 0) {
+        file.warn(
+            "Blender's exporter before 3.4.40 writes the power of point lights and spots in W, which is 4 pi times the "
+            "W/sr that ssrlab reads. For Blender's own picture " +
+            std::string(suns > 0 ? "export the scene with a newer version, as \"light_scale\" would dim its suns, too."
+                                 : "put \"light_scale\": 0.0795775 (1 / (4 pi)) into a scene.json."));
+    }
 }
 }  // namespace
 
