@@ -235,6 +235,15 @@ bool ExrPart::is_lossy(const ExrChannel& channel) const {
     return std::ranges::find(colours, last) != std::end(colours);
 }
 
+const char* ExrPart::loss() const {
+    const std::string_view by = compression_name();
+    if (by == "PXR24") return "rounds 32-bit floats to 24 bits";
+    if (by == "B44" || by == "B44A") return "stores 16 half floats in 14 bytes";  // ImfB44Compressor.cpp
+    if (by == "DWAA" || by == "DWAB")  // converts to half before it transforms
+        return "takes the channels R, G, B and Y for colours, changes them, and cuts them off at 65504";
+    return "";
+}
+
 ExrHeader read_exr_header(const std::filesystem::path& file) {
     check_regular_file(file);
     return HeaderReader(file).read();

@@ -47,6 +47,8 @@ struct ExrPart {
     /// Whether the compression changes the channel's values. DWA changes colours and luminance, known by their letters;
     /// B44 changes halves; PXR24 changes floats (openexr.com, "Technical Introduction", "Data Compression").
     bool is_lossy(const ExrChannel& channel) const;
+    /// What the compression does to these channels: "rounds ...". "" for one that is_lossy() for no channel.
+    const char* loss() const;
 };
 
 struct ExrHeader {

@@ -89,10 +89,18 @@ void convert(const fs::path& file, const ExrPart& part, ExrPicture& picture) {
         picture.notes.push_back(note);
 }
 
-}  // namespace
+/// A note, if the compression changed colours that are looked at.
+void note_compression(const fs::path& file, const ExrPart& part, const ExrPictureSource& source,
+                      std::vector<std::string>& notes) {
+    if (std::ranges::any_of(source.components,
+                            [&](const ExrComponent& c) { return part.is_lossy(part.channels[c.channel]); }))
+        notes.push_back(file.string() + ": its compression " + part.compression_name() + " " + part.loss() +
+                        ". For exact values write it with ZIP, PIZ or without compression.");
+}
 
-ExrPictureSource exr_picture_source(const fs::path& file, const ExrHeader& header, const std::string& name,
-                                    std::vector<std::string>& notes) {
+/// exr_picture_source() without the note on the compression.
+ExrPictureSource chosen_source(const fs::path& file, const ExrHeader& header, const std::string& name,
+                               std::vector<std::string>& notes) {
     using Kind = ExrPictureSource::Kind;
     const Chooser chooser(file, header);
     const ExrLayer layer = name.empty() ? chooser.picture(notes) : chooser.named(name);
@@ -105,6 +113,15 @@ ExrPictureSource exr_picture_source(const fs::path& file, const ExrHeader& heade
              " channels, and neither R, G and B nor X, Y and Z; name one of them with --layer, as '",
              header.parts[layer.part].channels[layer.components.front().channel].name, "'");
     return {layer, *others, others->size() == 3 ? Kind::vector : Kind::grey};
+}
+
+}  // namespace
+
+ExrPictureSource exr_picture_source(const fs::path& file, const ExrHeader& header, const std::string& name,
+                                    std::vector<std::string>& notes) {
+    ExrPictureSource source = chosen_source(file, header, name, notes);
+    note_compression(file, header.parts[source.layer.part], source, notes);
+    return source;
 }
 
 ExrPicture read_exr_picture(const fs::path& file, const std::string& name) {

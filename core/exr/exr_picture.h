@@ -9,8 +9,9 @@
 
 /// The colours that a file shows.
 struct ExrPicture {
-    HostImage rgb;                   ///< the display window, linear Rec. 709
-    std::vector<std::string> notes;  ///< one sentence each, which begins with the file: what was chosen and converted
+    HostImage rgb;  ///< the display window, linear Rec. 709
+    std::vector<std::string>
+        notes;  ///< one sentence each, which begins with the file: what was chosen, converted and lost
     MemoryShare memory;
 };
 
@@ -23,7 +24,8 @@ struct ExrPictureSource {
 };
 
 /// The channels that read_exr_picture() makes its colours of, from the header alone. `notes` gets a sentence for each
-/// choice. Fails with Error, as read_exr_picture() does, without such a layer or such channels.
+/// choice, and one if the compression changed the colours. Fails with Error, as read_exr_picture() does, without such a
+/// layer or such channels.
 ExrPictureSource exr_picture_source(const std::filesystem::path& file, const ExrHeader& header,
                                     const std::string& layer, std::vector<std::string>& notes);
 

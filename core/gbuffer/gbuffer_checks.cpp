@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <set>
 
 namespace {
 
@@ -111,6 +112,32 @@ void check_precision(const HostGBuffer& g, std::vector<std::string>& notes) {
         precision_warning("camera.json", g.camera, g.depth_format, farthest,
                           "The program that makes the frames can put its near plane farther out");
     if (!warning.empty()) notes.push_back(warning);
+}
+
+/// Whether the depths of surfaces are whole shares of `largest`, but for their rounding to float32. Few depths may be
+/// so by chance.
+bool are_codes(const HostGBuffer& g, double largest) {
+    constexpr size_t least_codes = 8;
+    constexpr double rounding = 0x1p-24;
+    std::set<double> codes;
+    for (size_t i = 0; i < g.depth.pixel_count(); ++i) {
+        if (is_background(g, i)) continue;
+        const double code = double(g.depth.values[i]) * largest;
+        if (!(std::abs(code - std::round(code)) <= largest * rounding)) return false;
+        if (codes.size() < least_codes) codes.insert(std::round(code));
+    }
+    return codes.size() == least_codes;
+}
+
+/// Codes of 24 bits are no coarser than float32 near 1, where most depths are, so that nothing tells them.
+void check_depth_codes(const HostGBuffer& g, std::vector<std::string>& notes) {
+    if (are_codes(g, 255))
+        notes.push_back(
+            "All depths are multiples of 1/255, as of an image of 8 bits: save the depth buffer as floats.");
+    else if (g.depth_format != DepthFormat::d16 && are_codes(g, 65535))
+        notes.push_back(
+            "All depths are multiples of 1/65535, but 'depth_format' of camera.json has finer steps: write \"d16\" if "
+            "the depth buffer has 16 bits, else save its depths as floats.");
 }
 
 /// A reading of the file in another convention.
@@ -270,6 +297,7 @@ std::vector<std::string> check_gbuffer(const HostGBuffer& gbuffer) {
     check_values(gbuffer, notes);
     check_camera(gbuffer, notes);
     check_precision(gbuffer, notes);
+    check_depth_codes(gbuffer, notes);
     check_normals(gbuffer, notes);
     return notes;
 }

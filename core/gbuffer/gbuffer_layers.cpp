@@ -33,12 +33,6 @@ const GBufferLayer all_layers[] = {
 
 std::vector<std::string> layer_names() { return names_of(all_layers, &GBufferLayer::name); }
 
-std::string list(const std::vector<std::string>& names) {
-    std::string text;
-    for (const std::string& name : names) text += (text.empty() ? "'" : ", '") + name + "'";
-    return text;
-}
-
 std::string spaced(std::string_view letters) {
     std::string text;
     for (const char letter : letters) text += (text.empty() ? "" : " ") + std::string(1, letter);
@@ -135,7 +129,7 @@ private:
             if (!note.empty() && std::ranges::find(found_.notes, note) == found_.notes.end())
                 found_.notes.push_back(note);
         }
-        if (layer.image == &G::material_id) check_numbers(planes);
+        if (layer.image == &G::material_id) check_numbers(chosen, planes);
         if (layer.image == &G::depth && part_of(chosen).channels[planes.channels[0]].type == PixelType::half)
             found_.notes.push_back(
                 "The layer 'depth' is stored as half floats, which tell only 1025 depths from 0.5 to "
@@ -148,9 +142,12 @@ private:
     }
 
     /// Of materials: as floats they are kept apart up to 2^24.
-    void check_numbers(const ExrPlanes& planes) {
+    void check_numbers(const Chosen& chosen, const ExrPlanes& planes) {
         constexpr float most = 16777216;
-        size_t fractions = 0;
+        constexpr float most_of_halves = 2048;
+        const ExrChannel& channel = part_of(chosen).channels[planes.channels[0]];
+        std::vector<float> fractions;
+        float largest = 0;
         for (size_t i = 0; i < planes.image.values.size(); ++i) {
             const float value = planes.image.values[i];
             const double number = planes.integers.empty() ? double(value) : double(planes.integers[i]);
@@ -158,13 +155,46 @@ private:
                 fail(where_, ": layer 'material_id' has the number ", uint64_t(std::min(number, 1e18)), " in pixel (",
                      i % planes.image.extent.x, ", ", i / planes.image.extent.x, "), but numbers above ",
                      uint32_t(most), " would not be kept apart: count the materials from 1, or leave the layer out");
-            fractions += !(value >= 0 && value == std::floor(value));
+            if (!(value >= 0 && value == std::floor(value))) fractions.push_back(value);
+            largest = std::max(largest, value);
         }
-        if (fractions > 0)
-            found_.notes.push_back(
-                std::to_string(fractions) +
-                " pixels have a material_id that is no whole number. Integers that oiiotool wrote as shares of "
-                "4294967295 come back with `oiiotool gbuffer.exr -d material_id.Y=uint -o whole.exr`.");
+        if (!fractions.empty())
+            found_.notes.push_back(std::to_string(fractions.size()) +
+                                   " pixels have a material_id that is no whole number: " +
+                                   why_not_whole(fractions, part_of(chosen), channel));
+        if (channel.type == PixelType::half && largest > most_of_halves)
+            found_.notes.push_back("The layer 'material_id' is stored as half floats, which keep numbers above " +
+                                   std::to_string(int(most_of_halves)) +
+                                   " apart no longer: store it as 32-bit integers.");
+    }
+
+    /// `fractions`: values of material_id that are no whole numbers.
+    static std::string why_not_whole(const std::vector<float>& fractions, const ExrPart& part,
+                                     const ExrChannel& channel) {
+        if (!std::ranges::all_of(fractions, [](float v) { return v >= 0 && std::isfinite(v); }))
+            return "some are negative or not finite. Count the materials from 1.";
+        // Shares of the largest integer come back as numbers but for the rounding of what they are stored as. Larger
+        // numbers than these any value would be near to.
+        const double rounding = channel.type == PixelType::half ? 0x1p-11 : 0x1p-24;
+        const auto are_shares_of = [&](double whole) {
+            return std::ranges::all_of(fractions, [&](double v) {
+                const double number = v * whole;
+                return v <= 1 && number * rounding < 0.1 &&
+                       std::abs(number - std::round(number)) <= 2 * number * rounding;
+            });
+        };
+        if (are_shares_of(4294967295.0))
+            return "they are shares of 4294967295, as oiiotool writes integers. They come back with `oiiotool "
+                   "gbuffer.exr -d material_id.Y=uint -o whole.exr`.";
+        for (const unsigned whole : {255u, 65535u})
+            if (are_shares_of(whole))
+                return "they are shares of " + std::to_string(whole) + ", as of a texture whose format is 'unorm'. " +
+                       "Multiply them by " + std::to_string(whole) + ".";
+        if (part.is_lossy(channel))
+            return std::string("the compression ") + part.compression_name() +
+                   " changed them. Store the layer as 32-bit integers.";
+        return "a filter mixed the numbers of neighbours, as where an image is resized. Resize it to the nearest "
+               "pixel.";
     }
 
     /// What was not stored is background: of the far plane's depth, and 0 in all else.
@@ -191,15 +221,21 @@ private:
     }
 
     void note_compression() {
-        std::map<std::string, std::vector<std::string>> layers;
+        std::map<std::string, std::pair<std::string, std::string>> losses;  ///< what is lost, and in which layers
         for (const Chosen& chosen : chosen_) {
             const ExrPart& part = part_of(chosen);
-            if (std::ranges::any_of(chosen.planes.channels, [&](size_t c) { return part.is_lossy(part.channels[c]); }))
-                layers[part.compression_name()].push_back(chosen.layer.name);
+            ExrLayer lossy{.name = chosen.layer.name, .in_part = "", .part = chosen.planes.part, .components = {}};
+            for (const ExrComponent& component : chosen.components)
+                if (part.is_lossy(part.channels[component.channel])) lossy.components.push_back(component);
+            if (lossy.components.empty()) continue;
+            auto& [loss, layers] = losses[part.compression_name()];
+            loss = part.loss();
+            layers += (layers.empty() ? "" : ", ") + shown(lossy);
         }
-        for (const auto& [name, concerned] : layers)
-            found_.notes.push_back("The file is compressed by " + name + ", which changes the values of " +
-                                   list(concerned) + ": write it with ZIP, PIZ or without compression.");
+        for (const auto& [name, loss] : losses)
+            found_.notes.push_back("The file is compressed by " + name + ", which " + loss.first +
+                                   ". That concerns the layers " + loss.second +
+                                   ". Write the file with ZIP, PIZ or without compression.");
     }
 
     void note_unused() {

@@ -171,6 +171,24 @@ TEST_F(ExrPictures, EveryCompressionIsRead) {
     }
 }
 
+/// A sun of 1e6 ends at the largest half float.
+TEST_F(ExrPictures, CompressionsThatChangeColoursAreSaid) {
+    ExrContent content(40, 70);
+    content.add("", "RGB", {0.75, 0.5, 0.25});
+    content.add("R", [](int x, int y) { return x == 5 && y == 5 ? 1e6 : 0.75; });
+    content.write(file);
+    EXPECT_TRUE(read_exr_picture(file).notes.empty());
+    content.compression = Imf::DWAA_COMPRESSION;
+    content.write(file);
+    const ExrPicture picture = read_exr_picture(file);
+    ASSERT_EQ(picture.notes.size(), 1u);
+    EXPECT_EQ(picture.notes[0], file.string() +
+                                    ": its compression DWAA takes the channels R, G, B and Y for colours, "
+                                    "changes them, and cuts them off at 65504. For exact values write it "
+                                    "with ZIP, PIZ or without compression.");
+    EXPECT_LE(picture.rgb.rgb(5 * 40 + 5).x, 65504);
+}
+
 /// ITU-R BT.2087-0, table 4: linear BT.2020 of linear BT.709.
 TEST_F(ExrPictures, PrimariesBecomeRec709) {
     const glm::vec3 seen(0.8f, 0.1f, 0.05f);

@@ -1,6 +1,7 @@
 // What of other programs' files is read as which layer of a capture, and what is said of it. A room's corner stands for
 // an engine's frame.
 #include "core/error.h"
+#include "core/exr/exr_pixels.h"
 #include "core/gbuffer/camera_file.h"
 #include "core/gbuffer/gbuffer_file.h"
 #include "core/gbuffer/pixel_position.h"
@@ -11,6 +12,7 @@
 #include <ImfStandardAttributes.h>
 #include <gtest/gtest.h>
 #include <algorithm>
+#include <cmath>
 
 namespace fs = std::filesystem;
 
@@ -30,10 +32,10 @@ protected:
     fs::path folder = fs::temp_directory_path() / "layers";
     CameraData camera;
 
-    GBufferLayers() {
-        CameraPose pose{.vertical_fov = 1, .near = 0.1f, .far = 50};
-        pose.world_from_view[3] = {0, 0, 3, 1};
-        camera = camera_data(pose, nullptr, {.extent = extent});
+    GBufferLayers() : camera(camera_of({.near = 0.1f, .far = 50})) {}
+    static CameraData camera_of(CameraPose pose) {
+        pose.vertical_fov = 1, pose.world_from_view[3] = {0, 0, 3, 1};
+        return camera_data(pose, nullptr, {.extent = extent});
     }
     void SetUp() override {
         fs::remove_all(folder);
@@ -198,16 +200,74 @@ TEST_F(GBufferLayers, WhatLosesDigitsIsNamed) {
     ExrContent file = content({back_wall});
     file.compression = Imf::DWAA_COMPRESSION;
     EXPECT_SAYS(notes(file),
-                "The file is compressed by DWAA, which changes the values of 'normal', 'roughness', "
-                "'base_color', 'metalness', 'lit': write it with ZIP, PIZ or without compression.");
+                "The file is compressed by DWAA, which takes the channels R, G, B and Y for colours, changes them, and "
+                "cuts them off at 65504. That concerns the layers 'normal' (Y), 'roughness' (Y), 'base_color' (R G B), "
+                "'metalness' (Y), 'lit' (R G B). Write the file with ZIP, PIZ or without compression.");
     file.compression = Imf::PXR24_COMPRESSION;
-    EXPECT_SAYS(notes(file), "by PXR24, which changes the values of 'depth', 'roughness'");
+    EXPECT_SAYS(notes(file),
+                "by PXR24, which rounds 32-bit floats to 24 bits. That concerns the layers 'depth' (Z), 'r");
     file.compression = Imf::B44A_COMPRESSION;
-    EXPECT_SAYS(notes(file), "by B44A, which changes the values of 'normal': write");
+    EXPECT_SAYS(notes(file),
+                "by B44A, which stores 16 half floats in 14 bytes. That concerns the layers 'normal' (X Y Z).");
     file.compression = Imf::ZIPS_COMPRESSION;
     EXPECT_EQ(notes(file), "");
     file.channels["depth.Z"].type = Imf::HALF;
     EXPECT_SAYS(notes(file), "The layer 'depth' is stored as half floats");
+}
+
+/// That the named channels change, and no others, as OpenEXR itself writes and reads them.
+TEST_F(GBufferLayers, CompressionsChangeTheChannelsThatAreNamed) {
+    const auto wave = [](double step) { return [step](int x, int y) { return 0.5 + 0.3 * std::sin(step * x + y); }; };
+    ExrContent exact(int(extent.x), int(extent.y));
+    for (const char* name : {"n.X", "n.Y", "n.Z", "c.R", "c.G", "c.B", "c.A", "z.Z", "one"})
+        for (const auto& [kind, type] : {std::pair("half.", Imf::HALF), std::pair("float.", Imf::FLOAT)})
+            exact.add(std::string(kind) + name, wave(0.7), type);
+    exact.add(
+        "id.Y", [](int x, int y) { return 1 + (x * y) % 9; }, Imf::UINT);
+    exact.add("sun.R", [](int x, int y) { return x == 5 && y == 5 ? 1e6 : 0.6; });
+    exact.write(folder / "exact.exr");
+    const ExrHeader header = read_exr_header(folder / "exact.exr");
+    const auto planes_of = [&](const fs::path& file) {
+        std::vector<ExrPlanes> planes;
+        for (size_t c = 0; c < header.parts[0].channels.size(); ++c) planes.push_back({.part = 0, .channels = {c}});
+        read_planes(file, read_exr_header(file), planes);
+        return planes;
+    };
+    const std::vector<ExrPlanes> expected = planes_of(folder / "exact.exr");
+    for (const auto compression :
+         {Imf::ZIP_COMPRESSION, Imf::PIZ_COMPRESSION, Imf::PXR24_COMPRESSION, Imf::B44_COMPRESSION,
+          Imf::B44A_COMPRESSION, Imf::DWAA_COMPRESSION, Imf::DWAB_COMPRESSION}) {
+        exact.compression = compression;
+        exact.write(folder / "lossy.exr");
+        const ExrPart part = read_exr_header(folder / "lossy.exr").parts[0];
+        const std::vector<ExrPlanes> found = planes_of(folder / "lossy.exr");
+        for (size_t c = 0; c < found.size(); ++c) {
+            EXPECT_EQ(found[c].image.values != expected[c].image.values, part.is_lossy(part.channels[c]))
+                << part.compression_name() << " " << part.channels[c].name;
+            EXPECT_TRUE(!part.is_lossy(part.channels[c]) || *part.loss());
+            EXPECT_EQ(std::ranges::max(found[c].image.values) > 65504,
+                      part.channels[c].name == "sun.R" && !std::string_view(part.loss()).ends_with("65504"));
+        }
+    }
+}
+
+TEST_F(GBufferLayers, DepthsOfFewBitsAreSaid) {
+    const auto said = [&](double largest, DepthFormat format = DepthFormat::d32f) {
+        ExrContent file = content({floor_below, back_wall});
+        file.channels["depth.Z"].value = [value = file.channels["depth.Z"].value, largest](int x, int y) {
+            return std::round(value(x, y) * largest) / largest;
+        };
+        file.write(folder / "gbuffer.exr");
+        write_camera(folder / "camera.json", {camera, format});
+        std::string text;
+        for (const std::string& note : load_gbuffer(folder).notes) text += note + "\n";
+        return text;
+    };
+    camera = camera_of({.near = 0.5f, .far = 6});  // at least 8 codes of 8 bits
+    EXPECT_SAYS(said(255), "All depths are multiples of 1/255, as of an image of 8 bits");
+    EXPECT_SAYS(said(65535), "All depths are multiples of 1/65535, but 'depth_format' of camera.json has finer steps");
+    EXPECT_EQ(said(65535, DepthFormat::d16), "");
+    EXPECT_EQ(said(16777215), "");
 }
 
 TEST_F(GBufferLayers, NumbersOfMaterialsAreWholeAndKeptApart) {
@@ -223,10 +283,34 @@ TEST_F(GBufferLayers, NumbersOfMaterialsAreWholeAndKeptApart) {
                 "layer 'material_id' has the number 2399141889 in pixel (0, 0), but numbers above 16777216");
     file.add("material_id.Y", 2399141889.0);
     EXPECT_SAYS(refusal(file), "layer 'material_id' has the number 2399141");
-    file.add("material_id.Y", [](int x, int) { return x < 48 ? 0 : 7 / 4294967295.0; });
-    EXPECT_SAYS(notes(file), "3456 pixels have a material_id that is no whole number. Integers that oiiotool wrote");
-    file.add("material_id.Y", -1);
-    EXPECT_SAYS(notes(file), "6912 pixels have a material_id that is no whole number");
+    file.add(
+        "material_id.Y", [](int x, int) { return x; }, Imf::HALF);
+    EXPECT_EQ(notes(file), "");
+    file.add(
+        "material_id.Y", [](int x, int) { return 1990 + x; }, Imf::HALF);
+    EXPECT_SAYS(notes(file), "'material_id' is stored as half floats, which keep numbers above 2048 apart no longer");
+}
+
+TEST_F(GBufferLayers, WhyNumbersOfMaterialsAreNotWholeIsSaid) {
+    ExrContent file = content({back_wall});
+    const auto said = [&](const std::function<double(int x, int y)>& value, Imf::PixelType type = Imf::FLOAT) {
+        file.add("material_id.Y", value, type);
+        return notes(file);
+    };
+    const auto share_of = [](double whole) { return [whole](int x, int) { return (x - x % 7) / whole; }; };
+    EXPECT_SAYS(said([](int x, int) { return x < 48 ? 0 : 7 / 4294967295.0; }),
+                "3456 pixels have a material_id that is no whole number: they are shares of 4294967295, as oiiotool");
+    EXPECT_SAYS(said(share_of(4294967295.0)), "shares of 4294967295");
+    EXPECT_SAYS(said(share_of(65535)),
+                "shares of 65535, as of a texture whose format is 'unorm'. Multiply them by 65535.");
+    EXPECT_SAYS(said(share_of(255)), "shares of 255");
+    EXPECT_SAYS(said(share_of(255), Imf::HALF), "shares of 255");
+    EXPECT_SAYS(said([](int x, int) { return x < 48 ? -1 : 1; }),
+                "3456 pixels have a material_id that is no whole "
+                "number: some are negative or not finite");
+    EXPECT_SAYS(said([](int x, int) { return 1 + x / 10.0; }), "a filter mixed the numbers of neighbours");
+    file.compression = Imf::DWAA_COMPRESSION;
+    EXPECT_SAYS(said([](int x, int y) { return 1 + (x / 8 + y / 8) % 9; }), "the compression DWAA changed them");
 }
 
 /// glTF 2.0, 5.13: an orthographic camera's near plane may lie at 0.
