@@ -48,7 +48,7 @@ TEST(GBufferSheet, ShowsEachImage) {
         expect_codes(shown(sheet, 0, 2, 0), glm::vec3(0.5f), "roughness");
         expect_codes(shown(sheet, 1, 2, 0), glm::vec3(1), "metalness");
         expect_codes(shown(sheet, 2, 2, 0), {1, 0.25f, 0.5f}, "motion");
-        for (const auto [column, row] :
+        for (const auto& [column, row] :
              {std::pair{1u, 0u}, {2u, 0u}, {0u, 1u}, {1u, 1u}, {2u, 1u}, {0u, 2u}, {1u, 2u}, {2u, 2u}})
             EXPECT_EQ(shown(sheet, column, row, 1), glm::vec3(0))
                 << "no surface in column " << column << ", row " << row;
