@@ -178,6 +178,7 @@ static int stability_command(const StabilityOptions& options, const CommonOption
     const StabilityResults tables = read_stability_results(options.out);
     std::printf("\n%s\n%s\n", failures_text(stage_failures(tables)).c_str(),
                 shown_text(stability_lead(tables)).c_str());
+    if (const std::string hidden = hidden_text(rows); !hidden.empty()) std::printf("\n%s", hidden.c_str());
     write_report(options.out);
     std::printf("\nReport: %s\n", shown_text((options.out / "report.html").string()).c_str());
     if (options.figure.empty()) return 0;

@@ -133,6 +133,24 @@ std::string failures_text(const std::vector<StageFailure>& failures) {
     return text.empty() ? text : "Where values that are not finite arise, and what spreads them:\n" + text;
 }
 
+std::string hidden_text(const std::vector<StabilityRow>& rows) {
+    std::map<std::string, std::map<std::optional<unsigned>, std::vector<std::string>>>
+        points;  // by stage and number of products
+    for (const StabilityRow& row : rows)
+        for (const auto& [stage, products] : row.zero_products)
+            add_once(points[stage][products], point_text({row.technique, row.point}));
+    std::string text;
+    for (const auto& [stage, numbers] : points)
+        for (const auto& [products, names] : numbers)
+            text += "  " + shown_text(stage) + ": " +
+                    (products ? counted(*products, "product") : "products that cannot be counted") + " (" +
+                    shown_text(joined(names)) + ")\n";
+    if (text.empty()) return text;
+    return "Some shaders multiply by a constant 0, of which a driver may make 0 even of NaN or Inf, as lavapipe does.\n"
+           "The counts of these stages are lower bounds:\n" +
+           text;
+}
+
 json stability_without_scripts(const StabilityResults& tables) {
     json verdicts = json::array(), techniques = json::array(), failures = json::array();
     for (const VerdictName& verdict : verdict_names()) verdicts.push_back({{"name", verdict.name}});

@@ -38,6 +38,10 @@ std::vector<std::pair<std::string, std::vector<size_t>>> verdict_counts(const st
 /// The failures that are sources, and their fixes, as a table for terminals.
 std::string failures_text(const std::vector<StageFailure>& failures);
 
+/// The stages in which NaN or Inf may remain unseen, and the number of products with a constant 0 in each, of which the
+/// driver may make 0 whatever the other number is. "" if there are none. `rows`: as run_stability() returns them.
+std::string hidden_text(const std::vector<StabilityRow>& rows);
+
 /// The values of the section `stability` of page/no_scripts.html: the lead, how often each technique got each
 /// verdict, and the failures.
 nlohmann::json stability_without_scripts(const StabilityResults& tables);

@@ -1,6 +1,7 @@
 #pragma once
 #include "experiments/results/files/columns.h"
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +24,10 @@ struct StageFinding {
     size_t nan = 0, infinite = 0;  ///< values, summed over frames
     double largest = 0;            ///< largest finite magnitude
 };
+
+/// By stage, of those whose shaders have some: products with a constant 0
+/// (experiments/gpu_costs/spirv/zero_products.h). None: they cannot be counted.
+using ZeroProductCounts = std::map<std::string, std::optional<unsigned>>;
 
 /// Defects in the result of one point in one case.
 struct CaseFindings {
@@ -66,6 +71,7 @@ struct StabilityRow : CaseFindings {
     /// For a case that feeds images back: ratio of each change of the mean to the change before.
     std::optional<double> gain;
     std::vector<StageFinding> stages = {};
+    ZeroProductCounts zero_products = {};
 
     static constexpr auto columns() {
         return std::tuple_cat(

@@ -1,10 +1,13 @@
 #include "experiments/study/stability/case_run.h"
 
 #include "core/error.h"
+#include "core/gpu/passes/pass_watcher.h"
+#include "experiments/gpu_costs/spirv/zero_products.h"
 #include "experiments/study/measuring/render_technique.h"
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 namespace {
 
@@ -57,6 +60,38 @@ void scan(std::vector<StageFinding>& findings, const std::string& stage, const s
     }
 }
 
+/// zero_products(), which takes some ms, once for each pipeline. None of a shader whose products cannot be counted.
+std::optional<unsigned> known_zero_products(const PipelineRecipe& recipe) {
+    static std::mutex mutex;
+    static std::map<std::string, std::optional<unsigned>> known;
+    const std::string key = bytes_of({recipe});
+    {
+        const std::lock_guard lock(mutex);
+        if (const auto found = known.find(key); found != known.end()) return found->second;
+    }
+    std::optional<unsigned> products;
+    try {
+        products = zero_products(recipe);
+    } catch (const Error&) {  // the technique runs all the same
+    }
+    const std::lock_guard lock(mutex);
+    return known[key] = products;
+}
+
+/// Sees the shaders of the passes, which run unchanged.
+class ZeroProductWatcher : public PassWatcher {
+public:
+    explicit ZeroProductWatcher(ZeroProductCounts& found) : found_(found) {}
+    std::optional<InstrumentedPipeline> before(const PassRun& run) override {
+        const std::optional<unsigned> products = known_zero_products(run.recipe);
+        if (products != 0u) found_[run.stage] = products;
+        return {};
+    }
+
+private:
+    ZeroProductCounts& found_;
+};
+
 /// `findings`: of every image that the passes write; null: they are not looked at.
 FrameImages render(const Renderer& technique, const CaseFrame& frame, unsigned seed,
                    std::vector<StageFinding>* findings, double& milliseconds) {
@@ -102,7 +137,10 @@ void render_all(CaseResult& run, const Renderer& technique, const CaseFrames& fr
         double milliseconds = 0;
         // Of long sequences some frames are enough.
         const bool is_looked_at = options.is_scanned && (step < 32 || step % 16 == 0);
+        ZeroProductWatcher watcher(run.zero_products);
+        technique.pass_list->watch(options.is_scanned && step == 0 ? &watcher : nullptr);
         FrameImages images = render(technique, frame, options.seed, is_looked_at ? &run.stages : nullptr, milliseconds);
+        technique.pass_list->watch(nullptr);
         run.milliseconds = step ? std::min(run.milliseconds, milliseconds) : milliseconds;
         const float most = what.feeds_back ? std::numeric_limits<float>::max() : brightest(*frame.host);
         judge(run, images, *frame.host, most, step > last_fault);

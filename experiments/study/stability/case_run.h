@@ -7,13 +7,14 @@ inline constexpr unsigned stability_seed = 1;  ///< seed of all random numbers
 struct CaseResult : CaseFindings {
     HostImage specular;                ///< of the last frame
     std::vector<StageFinding> stages;  ///< in the order in which they first ran
+    ZeroProductCounts zero_products;   ///< of the first frame's passes
     double milliseconds = 0;           ///< time of the fastest frame
     std::vector<double> means;         ///< by frame: mean of the specular radiance of pixels that reflect
 };
 
 struct CaseOptions {
     unsigned seed = stability_seed;
-    bool is_scanned = false;  ///< scans every image of every stage, which takes most of the time
+    bool is_scanned = false;  ///< scans every image and shader of every stage, which takes most of the time
 };
 
 /// Renders the frames of `what`, after those of `before` if it is given, which have another size.

@@ -128,7 +128,7 @@ public:
         StabilityRow row = empty_row(what_, point.technique, point.point);
         CaseResult run = run_case(device_, point, what_, frames_, {.is_scanned = true}, before_ ? &*before_ : nullptr);
         static_cast<CaseFindings&>(row) = run;
-        row.stages = std::move(run.stages);
+        row.stages = std::move(run.stages), row.zero_products = std::move(run.zero_products);
         if (!row.refusal.empty()) return judged(row);
         const BenignRun& benign = benign_run(point, stability_seed);
         set_errors(row, what_.has_truth() ? relative_error(frames_, run.specular) : std::nullopt, benign.error);
