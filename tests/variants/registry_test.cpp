@@ -2,6 +2,7 @@
 #include "core/files.h"
 #include "core/gpu/pipelines/shader.h"
 #include "tests/error_message.h"
+#include "tests/variants/recommended_presets.h"
 #include "tests/variants/technique_fixture.h"
 #include "variants/declared/declared_entry.h"
 #include "variants/denoisers/denoisers.h"
@@ -186,8 +187,7 @@ TEST(Registry, RecommendedPresetsRepairTheirInputs) {
     for (const TechniqueEntry& entry : technique_table()) {
         if (!entry.is_ssrlabs()) continue;  // of another test of this process
         for (const Preset& preset : entry.presets) {
-            if (!preset.name.starts_with("best") && !preset.name.starts_with("rooms_") && preset.name != "corrected")
-                continue;
+            if (!is_recommended(preset)) continue;
             EXPECT_EQ(preset.parameters.value("repair_inputs", false), true) << entry.name << ":" << preset.name;
             ++count;
         }
