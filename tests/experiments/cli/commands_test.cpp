@@ -102,8 +102,8 @@ TEST_F(CommandLine, JudgesFrames) {
     for (const char* ratio : {"0.99", "nan", "inf", "five", "-1"}) {
         const Outcome refused = ssrlab("judge now --against before --worse-by " + std::string(ratio));
         EXPECT_EQ(refused.code, 2) << ratio;
-        EXPECT_TRUE(refused.text.starts_with("--worse-by: '" + std::string(ratio) +
-                                             "' must be a ratio of errors from 1 to 1000, for example 1.05\n"))
+        EXPECT_TRUE(refused.text.starts_with("error: --worse-by: '" + std::string(ratio) +
+                                             "' must be a ratio of errors from 1 to 1000, for example 1.05; see"))
             << refused.text;
     }
     expect_mistake("judge now --worse-by 1.05", "--worse-by needs --against");
