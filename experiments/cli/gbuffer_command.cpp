@@ -61,8 +61,9 @@ static void gbuffer_command(const GBufferCommandOptions& options, const CommonOp
         host.exposure_ev = shot.camera.exposure_ev;
         save_gbuffer(folder, host);
         write_png(folder / "gbuffer.png", gbuffer_sheet(host));
-        for (const char* file : {"gbuffer.exr", "gbuffer.png", "camera.json"})
-            std::printf("%s\n", shown_text((folder / file).string()).c_str());
+        for (const std::filesystem::path& file :
+             {folder / "gbuffer.exr", folder / "gbuffer.png", folder / "camera.json"})
+            std::printf("%s\n", shown_text(file.string()).c_str());
     }
     save_environment(out, shot.scene.environment);
     std::printf("%s\n", shown_text((out / "environment.json").string()).c_str());

@@ -234,10 +234,12 @@ class SharpEdges(unittest.TestCase):
             self.assertNotIn("\x1b", self.terminal(80, *words, TERM="dumb"))
 
     def test_progress_fits(self):
-        drawn = re.findall(r"(?:^|\r)(\[[^\r\n]+)", self.terminal(40, "run", "study.json", "--out", "drawn", "--no-report"))
+        said = self.terminal(24, "reference", "fence", "--size", "64", "36", "--seconds", "2", "--out", "drawn.exr")  # long enough for lines
+        drawn = re.findall(r"(?:^|\r)(\[[^\r\n]+)", said)
         self.assertGreater(len(drawn), 0)
         for line in drawn:
-            self.assertLess(len(line), 40)
+            self.assertLess(len(line), 24)
+        self.assertTrue(any(len(line) == 23 for line in drawn), "no line was cut")
 
 
 if __name__ == "__main__":
