@@ -36,6 +36,7 @@ NOT_RUN = {  # by a part of the line
     "tune my_engine.json": "runs a program that the reader has",
     "tune my_search.json": "is a search of any name; that of search.json is run",
     "noise_picture": "renders references for a minute",
+    "gate_page": "writes a page of this repository; a test of its own checks the page",
 }
 # Of a command: options that replace those of the line, or stand beside them.
 QUICK = {

@@ -48,3 +48,12 @@ def p_holm(effects, degrees):
         most = max(most, min((len(p_values) - place) * p_values[i], 1.0))
         adjusted[i] = most
     return adjusted
+
+
+def share(values):
+    """(share, low, high) of ones among zeros and ones: Wilson's 95 % interval (1927)."""
+    n, z = len(values), 1.959964
+    part = sum(values) / n
+    middle = (part + z * z / (2 * n)) / (1 + z * z / n)
+    half = z * math.sqrt(part * (1 - part) / n + z * z / (4 * n * n)) / (1 + z * z / n)
+    return part, middle - half, middle + half

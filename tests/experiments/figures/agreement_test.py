@@ -8,6 +8,7 @@ import types
 import unittest
 
 
+from ssrlab import statistics
 from ssrlab.mistakes import ResultsError
 from ssrlab.tables import agreement, documents, formats, limits, means, summary_file
 from ssrlab.tables.cell import Cell
@@ -77,7 +78,7 @@ class Agreement(unittest.TestCase):
             self.assertEqual(note(over=over, sample=None), "In brackets 95 % intervals.")
 
     def test_shares_have_wilsons_interval(self):
-        share, low, high = agreement.share_of_pairs([1.0] * 8 + [0.0] * 2)
+        share, low, high = statistics.share([1.0] * 8 + [0.0] * 2)
         self.assertEqual(share, 0.8)
         self.assertAlmostEqual(low, 0.4902, places=4)  # Wilson 1927 for 8 of 10
         self.assertAlmostEqual(high, 0.9433, places=4)

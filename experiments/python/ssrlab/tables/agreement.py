@@ -1,7 +1,6 @@
 """How far metrics agree with one another, and with people's judgements: rows for tables, in the form of a study's files."""
 
 import itertools
-import math
 
 from ssrlab.csv_files import number, read_rows
 from ssrlab.mistakes import ResultsError
@@ -72,12 +71,3 @@ def eye_rows(results, rows, judgements):
                 "what": "pairs ordered alike",
                 "value": repr(float((first < second) == (judged["nearer"] == "first"))),
             }
-
-
-def share_of_pairs(values):
-    """(share, low, high): Wilson's 95 % interval."""
-    n, z = len(values), 1.959964
-    share = sum(values) / n
-    middle = (share + z * z / (2 * n)) / (1 + z * z / n)
-    half = z * math.sqrt(share * (1 - share) / n + z * z / (4 * n * n)) / (1 + z * z / n)
-    return share, middle - half, middle + half

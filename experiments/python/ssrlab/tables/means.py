@@ -83,7 +83,7 @@ def _arithmetic_mean(parts, assets):
 
 def _mean_of_pairs(parts):
     """The share of pairs, which are the sample."""
-    return Cell(parts[0].table, parts[0].row, parts[0].column, *agreement.share_of_pairs([c.value for c in parts]), mean_of=len(parts))
+    return Cell(parts[0].table, parts[0].row, parts[0].column, *statistics.share([c.value for c in parts]), mean_of=len(parts))
 
 
 def _mean_of_agreement(parts, assets):

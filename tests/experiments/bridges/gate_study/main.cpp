@@ -4,7 +4,7 @@
 //     gate_study GATE.csv [RUNS [DRAWS [TECHNIQUE]]]
 //
 // Each scene gets RUNS comparisons without a defect, and DRAWS with each defect. GATE.csv gets the counts of each
-// scene, standard error the table of experiments/docs/gate.md.
+// scene, of which `python3 experiments/python gate_page` makes the tables and the picture of experiments/docs/gate.md.
 #include "core/error.h"
 #include "core/exr/exr.h"
 #include "core/gpu/device.h"
@@ -257,36 +257,6 @@ void write(std::FILE* file, const char* technique, const std::string& kind, cons
     std::fflush(file);
 }
 
-/// The counts over scenes, in the order in which kinds and strengths first come.
-class GateTable {
-public:
-    void add(const std::string& kind, const std::string& strength, const Counts& c) {
-        auto at = std::ranges::find(rows_, std::pair(kind, strength), &Row::first);
-        if (at == rows_.end()) at = rows_.insert(at, {{kind, strength}, {}});
-        Counts& sum = at->second;
-        sum.runs += c.runs, sum.error += c.error, sum.flicker += c.flicker, sum.ghosts += c.ghosts;
-        for (size_t i = 0; i < tolerances.size(); ++i) sum.worse[i] += c.worse[i], sum.better[i] += c.better[i];
-    }
-
-    /// Of experiments/docs/gate.md.
-    void print(std::FILE* file) const {
-        std::fprintf(
-            file,
-            "| defect | strength | runs | worse | error | flicker | ghosts | better | worse, `--worse-by 1.05` "
-            "|\n|---|---|---|---|---|---|---|---|---|\n");
-        for (const auto& [name, c] : rows_) {
-            const auto percent = [runs = c.runs](unsigned count) { return 100.0 * count / runs; };
-            std::fprintf(file, "| %s | %s | %u | %.1f %% | %.1f %% | %.1f %% | %.1f %% | %.1f %% | %.1f %% |\n",
-                         name.first.c_str(), name.second.c_str(), c.runs, percent(c.worse[0]), percent(c.error),
-                         percent(c.flicker), percent(c.ghosts), percent(c.better[0]), percent(c.worse[1]));
-        }
-    }
-
-private:
-    using Row = std::pair<std::pair<std::string, std::string>, Counts>;
-    std::vector<Row> rows_;
-};
-
 }  // namespace
 
 int main(int argc, char** argv) try {
@@ -303,12 +273,11 @@ int main(int argc, char** argv) try {
     Device device;
     for (const Renderings& of : renderings) {
         if (argc > 4 && std::string(of.technique) != argv[4]) continue;
-        GateTable table;
         for (const GateScene& scene : scenes) {
             fs::remove_all(folder), fs::create_directories(folder);
             const Gate gate(device, scene, of, folder);
             const auto keep = [&](const std::string& kind, const std::string& strength, const Counts& counts) {
-                write(file, of.technique, kind, strength, scene.scene, counts), table.add(kind, strength, counts);
+                write(file, of.technique, kind, strength, scene.scene, counts);
             };
             // Without random numbers there is nothing to draw: frames without a defect are identical.
             if (of.depends_on_seed()) keep("none", "no defect", gate.without_defect(runs));
@@ -318,8 +287,6 @@ int main(int argc, char** argv) try {
             const unsigned refused = gate.refuses_nan();
             keep("NaN", "one value of an image", {.runs = 1, .worse = {refused, refused}});
         }
-        std::fprintf(stderr, "\n%s:\n", of.technique);
-        table.print(stderr);
     }
     fs::remove_all(folder);
     std::fclose(file);
