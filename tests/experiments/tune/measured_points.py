@@ -4,8 +4,7 @@ usage: PYTHONPATH=experiments/python python3 tests/experiments/tune/measured_poi
 
 NAME: of experiments/studies/configs/tune_NAME.json. FOLDER keeps the study. Writes measured_points/NAME.json beside this program:
 `axes`, `declared` and `start` as Space takes them, and `points`: values in the order of axes, null for those that are not active, then the
-logarithms of error and counted operations over the baseline's, means over the scenes. The files here were drawn by another generator of
-random numbers, and the first with one seed."""
+logarithms of error and counted operations over the baseline's, means over the scenes."""
 
 import json
 import math

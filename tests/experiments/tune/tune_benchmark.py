@@ -3,7 +3,7 @@
 usage: PYTHONPATH=experiments/python python3 tests/experiments/tune/tune_benchmark.py [SEEDS [POINTS]]
 
 Three spaces: the made-up one of tune_test.py, and two techniques whose points measured_points.py rendered at random; boosted trees give their
-values between. Batches have 8 points. A front is judged by the area that it dominates, up to the baseline's error and the largest budget,
+values between (scikit-learn, Debian: python3-sklearn). Batches have 8 points. A front is judged by the area that it dominates, up to the baseline's error and the largest budget,
 as a share of the area of all points that any search here found. Beside the optimiser: random points, and Optuna's TPE of the same batches
 if Optuna is installed (Debian: python3-optuna)."""
 
@@ -16,6 +16,7 @@ import warnings
 import numpy as np
 import tune_test as made_up
 from scipy import stats
+from sklearn.ensemble import GradientBoostingRegressor
 from ssrlab.tune.proposals import Proposals, front_of, gains, key_of
 from ssrlab.tune.space import Space
 
@@ -23,46 +24,9 @@ BATCH, BUDGET = 8, math.log(2)
 SHARES = (0.8, 0.9, 0.95)
 
 
-class Tree:
-    """A regression tree: splits by the greatest fall of squared error, as deep as `depth`, with LEAST rows or more on each side."""
-
-    LEAST = 4
-
-    def __init__(self, rows, values, depth, random):
-        self.value, self.axis = values.mean(), None
-        best = 0.0
-        for axis in random.permutation(rows.shape[1])[: math.ceil(0.6 * rows.shape[1])] if depth else ():
-            order = np.argsort(rows[:, axis], kind="stable")
-            at, sums = rows[order, axis], np.cumsum(values[order] - self.value)[:-1]
-            below = np.arange(1, len(values))
-            falls = sums**2 / below + sums**2 / (len(values) - below)
-            falls[(at[1:] == at[:-1]) | (below < self.LEAST) | (len(values) - below < self.LEAST)] = 0
-            if len(falls) and falls.max() > best:
-                best, split = falls.max(), int(np.argmax(falls))
-                self.axis, self.limit = axis, (at[split] + at[split + 1]) / 2
-        if self.axis is not None:
-            is_low = rows[:, self.axis] <= self.limit
-            self.low, self.high = (Tree(rows[side], values[side], depth - 1, random) for side in (is_low, ~is_low))
-
-    def __call__(self, row):
-        if self.axis is None:
-            return self.value
-        return (self.low if row[self.axis] <= self.limit else self.high)(row)
-
-
-class Boosted:
-    """The sum of trees, each fitted to what those before leave of a part of the rows (Friedman 2002, "Stochastic gradient boosting")."""
-
-    def __init__(self, rows, values, trees=120, rate=0.1, depth=4):
-        random, left = np.random.default_rng(0), values - values.mean()
-        self.mean, self.rate, self.trees = values.mean(), rate, []
-        for _ in range(trees):
-            part = random.random(len(rows)) < 0.7
-            self.trees.append(Tree(rows[part], left[part], depth, random))
-            left = left - rate * np.array([self.trees[-1](row) for row in rows])
-
-    def __call__(self, row):
-        return self.mean + self.rate * sum(tree(row) for tree in self.trees)
+def fitted(rows, values):
+    """Friedman 2002, "Stochastic gradient boosting"."""
+    return GradientBoostingRegressor(n_estimators=120, max_depth=4, min_samples_leaf=4, subsample=0.7, max_features=0.6, random_state=0).fit(rows, values)
 
 
 class Measured:
@@ -74,15 +38,14 @@ class Measured:
         self.space, self.name = Space(table["axes"], table["declared"], table["start"]), name
         points = [{a.name: v for a, v in zip(self.space.axes, row) if v is not None} for row in table["points"]]
         rows, values = np.array([self.space.coordinates(p) for p in points]), np.array([row[-2:] for row in table["points"]])
-        self.models = [Boosted(rows, column) for column in values.T]
+        self.models = [fitted(rows, column) for column in values.T]
         held = np.arange(len(rows)) % 5 == 0  # a fifth tells how well the rest predicts it
-        parts = [Boosted(rows[~held], column[~held]) for column in values.T]
-        off = [np.array([m(r) for r in rows[held]]) - column[held] for m, column in zip(parts, values.T)]
+        off = [fitted(rows[~held], column[~held]).predict(rows[held]) - column[held] for column in values.T]
         self.explained = [1 - (o**2).mean() / column[held].var() for o, column in zip(off, values.T)]
 
     def __call__(self, values):
-        row = self.space.coordinates(values)
-        return tuple(float(model(row)) for model in self.models)
+        row = [self.space.coordinates(values)]
+        return tuple(float(model.predict(row)[0]) for model in self.models)
 
 
 class MadeUp:

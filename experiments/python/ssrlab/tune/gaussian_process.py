@@ -2,7 +2,8 @@
 for Machine Learning", algorithm 2.1 and section 5.4.1).
 
 Points are rows of coordinates from 0 to 1. The covariance is the squared exponential with a length scale for each coordinate, plus noise.
-Length scales and noise are the most probable ones, given priors that keep few points from being overfitted."""
+Length scales and noise are the most probable ones, given priors that keep few points from being overfitted. scikit-learn's process has no
+such priors: with it, searches of `mcguire_dda` took 1.9 times as many points to 80 % of the best area (tests/experiments/tune)."""
 
 import math
 
