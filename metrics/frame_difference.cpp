@@ -44,10 +44,6 @@ DifferencePlanes difference_planes(const HostImage& test_before, const HostImage
     return planes;
 }
 
-double masked_sum(const Plane& plane, const Mask& mask) {
-    return ordered_sum(plane.values.size(), [&](size_t i) { return mask.inside[i] ? plane.values[i] : 0.0; });
-}
-
 }  // namespace
 
 void FrameDifference::add(const HostImage& test_before, const HostImage& test, const MetricReference& reference_before,

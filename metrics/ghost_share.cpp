@@ -46,17 +46,13 @@ SharePlanes share_planes(const HostImage& test, const Side& a, const Side& b, co
             planes.change.error.values[p] += change_a * change_b / 3;
             planes.change.swapped.values[p] += (change_a * change_a - change_b * change_b) / 2 / 3;
             if (!variance) continue;
-            of_change.add(1.0 / 3, (change_a + change_b) / 2, 2.0 * variance->values[i]);
+            of_change.add(1.0 / 3, (change_a + change_b) / 2, 2.0 * variance->values[i]);  // of two images, at most
             of_remaining.add(1.0 / 3, (change_a + change_b + error_a + error_b) / 2, variance->values[i]);
         }
         planes.change.variance.values[p] = of_change.value();
         planes.remaining.variance.values[p] = of_remaining.value();
     }
     return planes;
-}
-
-double sum_inside(const Plane& plane, const Mask& mask) {
-    return ordered_sum(plane.values.size(), [&](size_t i) { return mask.inside[i] ? plane.values[i] : 0.0; });
 }
 
 /// 1.96 standard errors of the sum. The few pixels at edges that change most carry most of it, for which
@@ -89,13 +85,23 @@ void GhostShare::add(const HostImage& test, const MetricReference& before, const
                      has_halves ? std::min(before.halves->samples, now.halves->samples) : 0, finite);
     for (size_t m = 0; m < masks.size(); ++m) {
         const Mask inside = intersection(masks[m], finite);
-        sums[m].remaining += sum_inside(planes.remaining.error, inside);
-        sums[m].change += sum_inside(planes.change.error, inside);
+        sums[m].remaining += masked_sum(planes.remaining.error, inside);
+        sums[m].change += masked_sum(planes.change.error, inside);
         add_noise(sums[m].remaining_noise, planes.remaining, inside);
         add_noise(sums[m].change_noise, planes.change, inside);
         sums[m].pixels += inside.count();
         sums[m].left_out += masks[m].count() - inside.count();
     }
+}
+
+NoisyMap GhostShare::Sums::noise() const {
+    const double share = remaining / change;
+    NoisyMap noise = remaining_noise;
+    for (size_t i = 0; i < noise.swapped.values.size(); ++i) {
+        noise.swapped.values[i] -= share * change_noise.swapped.values[i];
+        noise.variance.values[i] += share * share * change_noise.variance.values[i];
+    }
+    return noise;
 }
 
 std::vector<TemporalScore> GhostShare::scores() const {
@@ -119,7 +125,8 @@ std::vector<TemporalScore> GhostShare::scores() const {
         }
         row.value = s.remaining / s.change;
         if (!has_halves) continue;
-        if (const auto half_width = noise_half_width(s.remaining_noise, full_mask(s.remaining_noise.swapped.extent)))
+        const NoisyMap noise = s.noise();
+        if (const auto half_width = noise_half_width(noise, full_mask(noise.swapped.extent)))
             row.low = row.value - *half_width / s.change, row.high = row.value + *half_width / s.change;
     }
     return scores;

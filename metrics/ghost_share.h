@@ -21,9 +21,9 @@ struct GhostShare {
     ///     sum of (x_t - r_t) (h_t - r_t) / sum of (h_t - r_t)^2,    h_1 = r_0,    h_t = 0.9 h_(t-1) + 0.1 r_(t-1)
     ///
     /// 0: frames hold nothing of earlier images. 1: they are a history of the truth. Both sums are over frames, pixels
-    /// and channels. Products of independent halves of references keep them free of noise; intervals are those of the
-    /// first sum by noise_half_width(). No value where the change is below four times 1.96 standard errors of its own.
-    /// Empty where the truth never changes.
+    /// and channels. Products of independent halves of references keep them free of noise; intervals are those of
+    /// Sums::noise() by noise_half_width(). No value where the change is below four times 1.96 standard errors of its
+    /// own. Empty where the truth never changes.
     std::vector<TemporalScore> scores() const;
 
     struct Sums {
@@ -31,6 +31,9 @@ struct GhostShare {
         double remaining = 0, change = 0;        ///< the two sums, per channel
         NoisyMap remaining_noise, change_noise;  ///< 0 outside the mask
         size_t pixels = 0, left_out = 0;
+
+        /// The noise of the share, times `change`: of remaining - share * change, to first order.
+        NoisyMap noise() const;
     };
     std::vector<Sums> sums;  ///< of each mask
     bool has_halves = true;

@@ -20,6 +20,11 @@ inline double masked_mean(const Plane& plane, const Mask& mask) {
     return sum / double(pooled_count(plane, mask));
 }
 
+/// The sum over the pixels inside the mask, for planes without a margin.
+inline double masked_sum(const Plane& plane, const Mask& mask) {
+    return ordered_sum(plane.values.size(), [&](size_t i) { return mask.inside[i] ? plane.values[i] : 0.0; });
+}
+
 /// How most metrics pool their one layer.
 inline double pooled_mean(std::span<const Plane> layers, const Mask& mask) { return masked_mean(layers[0], mask); }
 

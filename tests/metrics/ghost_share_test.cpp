@@ -1,6 +1,7 @@
 #include "metrics/ghost_share.h"
 #include "core/error.h"
 #include "metrics/statistics/estimates.h"
+#include "metrics/statistics/quantiles.h"
 #include "tests/metrics/sequences.h"
 
 #include <gtest/gtest.h>
@@ -70,26 +71,34 @@ TEST(GhostShare, AnErrorThatIsNoOldImageIsNoGhost) {
     EXPECT_NEAR(scores_of(frames, exact)[0].value, 0, 1e-9);
 }
 
+/// Both sums hold the noise of the references: the first one's alone would cover 75 % at -0.5.
 TEST(GhostShare, TheReferencesNoiseIsTakenOutWithoutBias) {
-    Random random(5);
-    const std::vector<HostImage> truth = truths(6), frames = with_history(truth, 0.2);
-    std::vector<double> values;
-    int covered = 0;
-    constexpr int runs = 80;
-    for (int run = 0; run < runs; ++run) {
-        std::vector<MetricReference> references;
-        for (const HostImage& image : truth) references.push_back(noisy_reference(image, 0.3f, random));
-        const TemporalScore score = scores_of(frames, references)[0];
-        ASSERT_TRUE(score.corrected && score.low && score.high);
-        values.push_back(score.value);
-        covered += *score.low <= 0.2 && 0.2 <= *score.high;
+    const std::vector<HostImage> truth = truths(6);
+    for (const double share : {-0.5, 0.2, 1.0, 2.0}) {
+        Random random(5);
+        const std::vector<HostImage> frames = with_history(truth, share);
+        std::vector<double> values, half_widths;
+        int covered = 0;
+        constexpr int runs = 80;
+        for (int run = 0; run < runs; ++run) {
+            std::vector<MetricReference> references;
+            for (const HostImage& image : truth) references.push_back(noisy_reference(image, 0.3f, random));
+            const TemporalScore score = scores_of(frames, references)[0];
+            ASSERT_TRUE(score.corrected && score.low && score.high);
+            values.push_back(score.value), half_widths.push_back((*score.high - *score.low) / 2);
+            covered += *score.low <= share && share <= *score.high;
+        }
+        const Estimate mean = mean_estimate(values);
+        EXPECT_LT(mean.low, share);
+        EXPECT_GT(mean.high, share);
+        EXPECT_LT(mean.high - mean.low, 0.02 * std::max(1.0, std::abs(share)))
+            << "the test would see a bias of a twentieth";
+        // 95 % of 80, less four deviations of a binomial count: 76 - 8.
+        EXPECT_GE(covered, 68) << share;
+        // 1.99 deviations, which 80 runs know to 8 %: within three of that.
+        const double deviation = (mean.high - mean.low) / 2 / student_t_quantile(0.975, runs - 1) * std::sqrt(runs);
+        EXPECT_NEAR(mean_estimate(half_widths).value, 1.99 * deviation, 0.24 * 1.99 * deviation) << share;
     }
-    const Estimate mean = mean_estimate(values);
-    EXPECT_LT(mean.low, 0.2);
-    EXPECT_GT(mean.high, 0.2);
-    EXPECT_LT(mean.high - mean.low, 0.02) << "the test would see a bias of a twentieth";
-    // 95 % of 80, less four deviations of a binomial count: 76 - 8.
-    EXPECT_GE(covered, 68);
 }
 
 TEST(GhostShare, SaysNothingWhereTheTruthDoesNotVisiblyChange) {

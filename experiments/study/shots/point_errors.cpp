@@ -105,7 +105,7 @@ void PointErrors::keep_noise(const SeedErrors& seed) {
         keep("frame_difference_relative", s.mask, s.noise[1], double(s.pixels));
     }
     for (const GhostShare::Sums& s : seed.ghosts.sums)
-        if (seed.ghosts.has_halves && s.change > 0) keep("ghost_share", s.mask, s.remaining_noise, s.change);
+        if (seed.ghosts.has_halves && s.change > 0) keep("ghost_share", s.mask, s.noise(), s.change);
 }
 
 void PointErrors::add_whole(const SeedErrors& seed) {
