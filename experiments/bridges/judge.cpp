@@ -200,7 +200,6 @@ JudgedFrames judge_frames(const JudgeSettings& settings) {
     RunSettings run = settings.run;
     run.replaces = true;
     run.write_report = page_meanwhile(settings.run);
-    remove_verdict(run.out);
     run_study(study, run);
     JudgedFrames judged{.errors = errors_of(run.out, study.primary)};
     try {

@@ -7,6 +7,7 @@
 #include "experiments/results/cells/stale_files.h"
 #include "experiments/results/cells/study_rows.h"
 #include "experiments/results/evaluation.h"
+#include "experiments/results/verdicts/verdict_text.h"
 #include "experiments/study/config/comparisons.h"
 #include "experiments/study/manifest_entries.h"
 #include "experiments/study/measuring/times/timing.h"
@@ -94,13 +95,14 @@ StudyAnswers write_results(StudySession& study, bool is_complete, const nlohmann
         write_parameters(study.settings.out, study.config.techniques);
         write_technique_copies(study.settings.out, study.config.techniques);
     }
+    remove_verdict(study.settings.out);  // of other numbers, as the report that is replaced or removed
     StudyAnswers answers;
     if (study.settings.write_report) {
         const SpentTime::Span span(study.spent, "report");
         answers = study.settings.write_report(study.settings.out);
     } else {
         std::error_code error;
-        std::filesystem::remove(study.settings.out / "report.html", error);  // of other numbers
+        std::filesystem::remove(study.settings.out / "report.html", error);
     }
     manifest["run"] = run_entry(study);
     write_text(file, manifest.dump(1) + "\n");

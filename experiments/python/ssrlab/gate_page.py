@@ -30,6 +30,8 @@ def sums(rows):
     """{technique: {(kind, strength): {column: count over the scenes}}}, in the order of the rows."""
     found = {}
     for row in rows:
+        if row["kind"] == "NaN":  # refused, so that nothing was judged
+            continue
         counts = found.setdefault(row["technique"], {}).setdefault((row["kind"], row["strength"]), dict.fromkeys(("runs", *COLUMNS), 0))
         for column in counts:
             counts[column] += int(row[column])
@@ -74,7 +76,7 @@ def draw(found):
     from ssrlab.figures import style
 
     style.apply()
-    kinds = [kind for kind in dict.fromkeys(kind for kind, _ in next(iter(found.values()))) if kind not in ("none", "NaN")]
+    kinds = [kind for kind in dict.fromkeys(kind for kind, _ in next(iter(found.values()))) if kind != "none"]
     figure = plt.figure(figsize=(style.DOUBLE_COLUMN, 0.85 * style.DOUBLE_COLUMN), layout="constrained")
     above, below = figure.subfigures(2, 1, height_ratios=(14, 1))
     places = above.subplots(3, 3, sharey=True)

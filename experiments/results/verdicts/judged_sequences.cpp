@@ -34,9 +34,18 @@ bool is_zero(const BySeed& values) {
 
 /// Of a side that flickers and one that does not at all, which needs no statistics.
 Evidence certain_flicker(const std::string& shot, bool is_worse) {
-    const double ratio = is_worse ? INFINITY : 0;
-    return {
-        .shot = shot, .what = judged_number::flicker, .change = ratio, .low = ratio, .high = ratio, .p_different = 0};
+    return {.shot = shot,
+            .what = judged_number::flicker,
+            .change = is_worse ? INFINITY : 0,
+            .p_different = 0,
+            .no_interval = is_worse ? "the earlier frames have none" : "only the earlier frames have any"};
+}
+
+/// The value of a seed; a side with one image has all seeds, as in effects.
+std::optional<double> value_of(const BySeed& side, unsigned seed) {
+    if (side.size() == 1) return side.begin()->second;
+    const auto found = side.find(seed);
+    return found == side.end() ? std::nullopt : found->second;
 }
 
 const std::vector<float>* noise_sums(std::span<const ReferenceNoise> noise, const std::string& shot,
@@ -69,17 +78,18 @@ struct Shares {
         return sum / double(before.size());
     }
 
-    /// now - factor * before - constant. The variances of seeds and of noise add, with Satterthwaite's degrees of
-    /// freedom (as jackknifed_ratio() has them); each group of noise is one component.
-    Difference less(double factor, double constant = 0) const {
+    /// of_now * now - of_before * before - constant. The variances of seeds and of noise add, with Satterthwaite's
+    /// degrees of freedom (as jackknifed_ratio() has them); each group of noise is one component.
+    Difference difference(double of_now, double of_before, double constant = 0) const {
         const double n = double(now.size());
         double sum = 0, squares = 0;
-        for (size_t s = 0; s < now.size(); ++s) sum += now[s] - factor * before[s];
-        for (size_t s = 0; s < now.size(); ++s) squares += std::pow(now[s] - factor * before[s] - sum / n, 2);
+        const auto of_seed = [&](size_t s) { return of_now * now[s] - of_before * before[s]; };
+        for (size_t s = 0; s < now.size(); ++s) sum += of_seed(s);
+        for (size_t s = 0; s < now.size(); ++s) squares += std::pow(of_seed(s) - sum / n, 2);
         const double of_seeds = n > 1 ? squares / (n - 1) / n : 0;
         double variance = of_seeds, share = n > 1 ? of_seeds * of_seeds / (n - 1) : 0;
         for (size_t g = 0; g < std::min(noise_now.size(), noise_before.size()); ++g) {
-            const double part = std::pow(noise_now[g] - factor * noise_before[g], 2);
+            const double part = std::pow(of_now * noise_now[g] - of_before * noise_before[g], 2);
             variance += part, share += part * part;
         }
         return {sum / n - constant, std::sqrt(variance), share > 0 ? variance * variance / share : 1};
@@ -89,11 +99,14 @@ struct Shares {
 Evidence evidence_of(const std::string& shot, const Shares& shares, const JudgeLimits& limits) {
     const double before = shares.mean_before(), more = limits.worse_by - 1;
     const bool is_ghost = std::abs(before) >= visible_ghost;
-    const Difference change = shares.less(1);
-    const Difference beyond =
-        is_ghost ? shares.less(before > 0 ? 1 + more : 1 - more) : shares.less(1, more * visible_ghost);
+    const Difference change = shares.difference(1, 1);
+    const Difference beyond = is_ghost ? shares.difference(1, before > 0 ? 1 + more : 1 - more)
+                                       : shares.difference(1, 1, more * visible_ghost);
     const double allowed = more * std::max(std::abs(before), visible_ghost);
     const Difference less = {-change.value, change.standard_error, change.degrees};
+    // A share below 0 is no ghost: more is worse where it is above 0, and less is better where it was above 0.
+    const double p_worse = std::max(beyond.p_above(), shares.difference(1, 0).p_above()),
+                 p_better = std::max(less.p_above(), shares.difference(0, -1).p_above());
     const double half_width =
         change.standard_error > 0 ? student_t_quantile(0.975, change.degrees) * change.standard_error : 0;
     return {
@@ -103,7 +116,7 @@ Evidence evidence_of(const std::string& shot, const Shares& shares, const JudgeL
         .low = change.value - half_width,
         .high = change.value + half_width,
         .no_change = 0,
-        .p_different = std::min(1.0, 2 * std::min(beyond.p_above(), less.p_above())),
+        .p_different = std::min(1.0, 2 * std::min(p_worse, p_better)),
         .p_equivalent =
             p_beyond_limits(change.value, std::max(visible_ghost, allowed), change.standard_error, change.degrees),
         .detectable = allowed + (beyond.standard_error > 0
@@ -130,10 +143,11 @@ std::vector<Evidence> evidence_of_flicker(std::span<const EffectRow> effects, st
                    PointName(r.against_technique, r.against_point) == against;
         });
         const bool is_known = row != effects.end() && row->p && row->ratio && row->low && row->high;
-        evidence.push_back(is_known ? evidence_of_ratio(*row, judged_number::flicker, limits, primary.margin)
-                                    : Evidence{.shot = shot,
-                                               .what = judged_number::flicker,
-                                               .why = row == effects.end() ? interval::no_value : row->interval});
+        evidence.push_back(is_known
+                               ? evidence_of_ratio(*row, judged_number::flicker, limits, primary.margin)
+                               : Evidence{.shot = shot,
+                                          .what = judged_number::flicker,
+                                          .no_interval = row == effects.end() ? interval::no_value : row->interval});
     }
     return evidence;
 }
@@ -144,9 +158,9 @@ std::vector<Evidence> evidence_of_ghosts(std::span<const ResultRow> rows, std::s
     std::vector<Evidence> evidence;
     for (const auto& [shot, sides] : values_over_frames(rows, "ghost_share", mask, point, against)) {
         Shares shares;
-        for (const auto& [seed, now] : sides.now)
-            if (const auto before = sides.before.find(seed); now && before != sides.before.end() && before->second)
-                shares.now.push_back(*now), shares.before.push_back(*before->second);
+        for (const auto& [seed, value] : sides.now.size() == 1 ? sides.before : sides.now)
+            if (const auto now = value_of(sides.now, seed), before = value_of(sides.before, seed); now && before)
+                shares.now.push_back(*now), shares.before.push_back(*before);
         if (shares.now.empty()) continue;
         const auto *own = noise_sums(noise, shot, mask, point), *other = noise_sums(noise, shot, mask, against);
         if (own && other) shares.noise_now = *own, shares.noise_before = *other;

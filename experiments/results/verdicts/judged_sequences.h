@@ -10,16 +10,17 @@
 inline constexpr double visible_ghost = 0.05;
 
 /// The evidence on flicker: the ratio of frame_difference, which is the squared change between frames that the truth
-/// does not have. Limits are those of errors. A shot where neither side flickers at all has none. Where a ratio cannot
-/// be decided, the evidence says why, and decides nothing. `rows`: of `effects`.
+/// does not have. Limits are those of errors. A shot where neither side flickers at all has none. A ratio without an
+/// interval stays undecided, and the evidence says why. `rows`: of `effects`.
 std::vector<Evidence> evidence_of_flicker(std::span<const EffectRow> effects, std::span<const ResultRow> rows,
                                           const PrimaryComparisons& primary, const PointName& point,
                                           const PointName& against, const JudgeLimits& limits);
 
 /// The evidence on ghosts: ghost_share less that of the earlier frames, b. A tolerance R allows (R - 1) max(|b|,
 /// visible_ghost) more. Equivalent shares differ by less than visible_ghost, or than the tolerance allows if that is
-/// more. Student's t over common seeds, with what the reference's `noise` leaves of the difference. Shots where the
-/// truth does not visibly change have none.
+/// more. Shares below 0 are no ghosts: a rise to 0 is not worse, and a fall from 0 is not better. Student's t over
+/// common seeds, with what the reference's `noise` leaves of the difference. Shots where the truth does not visibly
+/// change have none.
 std::vector<Evidence> evidence_of_ghosts(std::span<const ResultRow> rows, std::span<const ReferenceNoise> noise,
                                          const std::string& mask, const PointName& point, const PointName& against,
                                          const JudgeLimits& limits);

@@ -34,7 +34,7 @@ struct Evidence {
     double no_change = 1;                      ///< 1; ghosts: 0
     double p_different = 1, p_equivalent = 1;  ///< of "not worse by the tolerance, nor better"; of "not equivalent"
     double detectable = 1;                     ///< the change that 95 % of such comparisons alone would call worse
-    std::string why = {};                      ///< why nothing can be decided; else empty
+    std::string no_interval = {};              ///< why `low`, `high` and `detectable` are not known; else empty
 };
 
 struct JudgedView : Evidence {

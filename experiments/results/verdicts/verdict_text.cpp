@@ -6,6 +6,7 @@
 #include "core/list_text.h"
 #include "core/number_text.h"
 #include "core/path_inside.h"
+#include "experiments/results/verdicts/judged_sequences.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,10 +34,7 @@ std::string change_text(const JudgedView& view) {
 
 std::string sentence_on(const JudgedView& view, const PrimaryComparisons& primary, const std::string& before) {
     const std::string start = view.shot + ": " + view.what + " (" + judged_metric(view, primary) + ") ";
-    if (!view.why.empty()) return start + view.verdict + ", " + view.why;
-    if (!std::isfinite(view.change)) return start + view.verdict + ": frames of " + before + " have none";
-    if (view.what == judged_number::flicker && view.change == 0)
-        return start + view.verdict + ": only frames of " + before + " have any";
+    if (!view.no_interval.empty()) return start + view.verdict + ", " + view.no_interval;
     const bool is_share = view.what == judged_number::ghosts;
     const std::string end =
         ": " + view.verdict + " (p " + number_text(view.p_holm, 2) + "; " + number_text(view.detectable, 3);
@@ -58,21 +56,36 @@ std::string where_text(const Judgement& judged) {
 }
 
 Lines rules_of(const Judgement& judged, const JudgeLimits& limits) {
-    const std::string more = limits.worse_by > 1 ? "certainly more than " + number_text(limits.worse_by) + " times that"
-                                                 : "certainly more than that";
-    return {"Tolerance: a number of these frames is worse if it is " + more + " of the earlier frames.",
-            "It is equivalent if it certainly changed by less than " + percent_text(limits.most_equivalent() - 1) + ".",
-            counted(judged.views.size(), "number") + " of all views " + (judged.views.size() == 1 ? "is" : "are") +
-                " judged together: at most " + percent_text(judge_significance) +
-                " of runs without a change are called worse or better."};
+    const bool has_tolerance = limits.worse_by > 1,
+               has_ghosts = std::ranges::count(judged.views, judged_number::ghosts, &JudgedView::what) > 0,
+               has_flicker = std::ranges::count(judged.views, judged_number::flicker, &JudgedView::what) > 0;
+    const std::string what = has_flicker ? "Error or flicker" : "An error";
+    Lines rules = {what + " of these frames is worse if it is certainly more than " +
+                       (has_tolerance ? number_text(limits.worse_by) + " times that" : "that") +
+                       " of the earlier frames.",
+                   what + " is equivalent if it certainly changed by less than " +
+                       percent_text(limits.most_equivalent() - 1) + "."};
+    if (has_ghosts)
+        rules.push_back("A share of ghosts is worse if it certainly rose" +
+                        (has_tolerance ? " by more than " + number_text(limits.worse_by - 1) +
+                                             " times the earlier share, or times " + number_text(visible_ghost) +
+                                             " if that is more"
+                                       : "") +
+                        ". It is equivalent if it certainly changed by less than " + number_text(visible_ghost) +
+                        (has_tolerance ? " or than that" : "") + ".");
+    rules.push_back(counted(judged.views.size(), "number") + " of all views " +
+                    (judged.views.size() == 1 ? "is" : "are") + " judged together: at most " +
+                    percent_text(judge_significance) + " of runs without a change are called worse or better.");
+    return rules;
 }
 
 json numbers_json(const Judgement& judged) {
     json all = json::array();
     for (const JudgedView& view : judged.views) {
         json number = {{"shot", view.shot}, {"what", view.what}, {"verdict", view.verdict}, {"p", view.p_holm}};
-        if (!view.why.empty()) number["why"] = view.why;
-        if (view.why.empty() && std::isfinite(view.change))
+        if (!view.no_interval.empty())
+            number["why"] = view.no_interval;
+        else
             number.update({{"change", view.change},
                            {"low", view.low},
                            {"high", view.high},

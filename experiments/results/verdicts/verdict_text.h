@@ -39,5 +39,5 @@ struct VerdictLead {
 /// malformed.
 std::optional<VerdictLead> read_verdict(const std::filesystem::path& folder);
 
-/// Removes verdict.json, for example before the frames are judged again.
+/// Removes verdict.json, which was of other numbers.
 void remove_verdict(const std::filesystem::path& folder);

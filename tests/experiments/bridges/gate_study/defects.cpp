@@ -63,12 +63,6 @@ HostImage blend(const HostImage& a, const HostImage& b, float share_of_b) {
     return mixed;
 }
 
-std::string percent(float share) {
-    std::string text = std::to_string(100 * share);
-    text.erase(text.find_last_not_of('0') + 1);
-    return (text.back() == '.' ? text.substr(0, text.size() - 1) : text) + " %";
-}
-
 /// Replaces pixels that `is_lost` chooses by what shows without screen-space reflections.
 template <class IsLost>
 Frames with_lost(const PlayedFrames& played, std::mt19937& random, float share, const IsLost& may_be_lost) {
@@ -84,7 +78,7 @@ Frames with_lost(const PlayedFrames& played, std::mt19937& random, float share, 
 std::vector<Defect> all_defects() {
     std::vector<Defect> all;
     for (const float a : {0.05f, 0.1f, 0.2f, 0.4f})
-        all.push_back({"ghost trails", percent(a) + " of the light of two frames ago",
+        all.push_back({"ghost trails", percent_text(a) + " of the light of two frames ago",
                        [a](const PlayedFrames& played, std::mt19937&) {
                            return each(played, [&](HostImage& frame, size_t t) {
                                const HostImage& old = played.shown[t < 2 ? 0 : t - 2];
@@ -93,21 +87,21 @@ std::vector<Defect> all_defects() {
                            });
                        }});
     for (const float a : {0.05f, 0.1f, 0.2f, 0.4f})
-        all.push_back({"lagging history", "weight " + percent(a) + " of the last frame",
+        all.push_back({"lagging history", "weight " + percent_text(a) + " of the last frame",
                        [a](const PlayedFrames& played, std::mt19937&) {
                            Frames frames = played.shown;
                            for (size_t t = 1; t < frames.size(); ++t) frames[t] = blend(frames[t], frames[t - 1], a);
                            return frames;
                        }});
     for (const float a : {0.01f, 0.02f, 0.05f, 0.1f})
-        all.push_back({"flicker", "brightness +-" + percent(a), [a](const PlayedFrames& played, std::mt19937&) {
+        all.push_back({"flicker", "brightness +-" + percent_text(a), [a](const PlayedFrames& played, std::mt19937&) {
                            return each(played, [&](HostImage& frame, size_t t) {
                                for (float& v : frame.values) v *= t % 2 ? 1 + a : 1 - a;
                            });
                        }});
     for (const float a : {0.1f, 0.25f, 0.5f, 1.0f})
         all.push_back(
-            {"shifted reflection", percent(a) + " of a pixel", [a](const PlayedFrames& played, std::mt19937&) {
+            {"shifted reflection", percent_text(a) + " of a pixel", [a](const PlayedFrames& played, std::mt19937&) {
                  return each(played, [&](HostImage& frame, size_t) {
                      const HostImage from = frame;
                      frame = made_of(from, [&](int x, int y, unsigned c) {
@@ -116,34 +110,35 @@ std::vector<Defect> all_defects() {
                  });
              }});
     for (const float a : {0.25f, 0.5f, 1.0f, 2.0f})
-        all.push_back({"too blurred a mip", percent(a) + " of a level", [a](const PlayedFrames& played, std::mt19937&) {
-                           return each(played, [&](HostImage& frame, size_t) {
-                               frame = a > 1 ? mip(frame, 2) : blend(frame, mip(frame, 1), a);
-                           });
-                       }});
+        all.push_back(
+            {"too blurred a mip", percent_text(a) + " of a level", [a](const PlayedFrames& played, std::mt19937&) {
+                 return each(played, [&](HostImage& frame, size_t) {
+                     frame = a > 1 ? mip(frame, 2) : blend(frame, mip(frame, 1), a);
+                 });
+             }});
     for (const float a : {0.005f, 0.02f, 0.05f, 0.2f})
         all.push_back(
-            {"missing rays", percent(a) + " of the pixels", [a](const PlayedFrames& played, std::mt19937& random) {
+            {"missing rays", percent_text(a) + " of the pixels", [a](const PlayedFrames& played, std::mt19937& random) {
                  return with_lost(played, random, a, [&](size_t t, size_t p) { return played.reflects[t][p]; });
              }});
     for (const float a : {0.01f, 0.02f, 0.05f, 0.1f})
-        all.push_back({"too bright", percent(a), [a](const PlayedFrames& played, std::mt19937&) {
+        all.push_back({"too bright", percent_text(a), [a](const PlayedFrames& played, std::mt19937&) {
                            return each(played, [&](HostImage& frame, size_t) {
                                for (float& v : frame.values) v *= 1 + a;
                            });
                        }});
     for (const float sigma : {0.5f, 1.0f})
-        all.push_back({"wrong roughness", "blurred by " + percent(sigma) + " of a pixel",
+        all.push_back({"wrong roughness", "blurred by " + percent_text(sigma) + " of a pixel",
                        [sigma](const PlayedFrames& played, std::mt19937&) {
                            return each(played, [&](HostImage& frame, size_t) { frame = gaussian(frame, sigma); });
                        }});
     for (const float a : {0.5f, 1.0f})
-        all.push_back({"wrong roughness", "sharpened by " + percent(a), [a](const PlayedFrames& played, std::mt19937&) {
-                           return each(played,
-                                       [&](HostImage& frame, size_t) { frame = blend(frame, gaussian(frame, 1), -a); });
-                       }});
+        all.push_back(
+            {"wrong roughness", "sharpened by " + percent_text(a), [a](const PlayedFrames& played, std::mt19937&) {
+                 return each(played, [&](HostImage& frame, size_t) { frame = blend(frame, gaussian(frame, 1), -a); });
+             }});
     for (const float a : {0.1f, 0.25f, 0.5f, 1.0f})
-        all.push_back({"holes where surfaces appear", percent(a) + " of these pixels",
+        all.push_back({"holes where surfaces appear", percent_text(a) + " of these pixels",
                        [a](const PlayedFrames& played, std::mt19937& random) {
                            return with_lost(played, random, a, [&](size_t t, size_t p) { return played.is_new[t][p]; });
                        }});

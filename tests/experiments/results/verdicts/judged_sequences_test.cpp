@@ -98,6 +98,54 @@ TEST(JudgedSequences, TheReferencesNoiseIsPartOfGhosts) {
     EXPECT_EQ(verdict_on(ghosts({0.12}, {0.1}, 1, {of_now, of_before})), judgement::worse) << "common noise cancels";
 }
 
+TEST(JudgedSequences, AShareBelowZeroIsNoGhost) {
+    const std::vector<double> below = {-0.3, -0.3}, none = {0, 0}, above = {0.3, 0.3};
+    EXPECT_EQ(verdict_on(ghosts(none, below)), judgement::undecided) << "a repair";
+    EXPECT_EQ(verdict_on(ghosts(below, none)), judgement::undecided) << "no ghost was there";
+    EXPECT_EQ(verdict_on(ghosts(above, below)), judgement::worse);
+    EXPECT_EQ(verdict_on(ghosts(below, above)), judgement::better);
+}
+
+TEST(JudgedSequences, ASideWithOneImageHasAllSeeds) {
+    // As if each seed were compared with it: the scatter of four images is not lost.
+    const std::vector<double> four = {0.1, 0.2, 0.15, 0.25};
+    const Evidence one_sided = ghosts(four, {0.1}).at(0), paired = ghosts(four, {0.1, 0.1, 0.1, 0.1}).at(0);
+    EXPECT_EQ(one_sided.p_different, paired.p_different);
+    EXPECT_GT(one_sided.p_different, 0.01);
+    EXPECT_EQ(ghosts({0.1}, four).at(0).p_different, one_sided.p_different);
+}
+
+/// Made-up runs with one image a side, which differ by the noise of references of their own alone.
+TEST(JudgedSequences, TheReferencesNoiseAloneGivesAsFewAlarms) {
+    std::mt19937_64 random(4);
+    std::normal_distribution<double> normal;
+    constexpr int runs = 4000;
+    int alarms = 0;
+    for (int run = 0; run < runs; ++run) {
+        std::vector<ReferenceNoise> noise;
+        double shares[2] = {0.1, 0.1};
+        for (const PointName& name : {now, before}) {
+            ReferenceNoise& of_side = noise.emplace_back(ReferenceNoise{.shot = "room",
+                                                                        .frame = over_frames,
+                                                                        .technique = name.first,
+                                                                        .point = name.second,
+                                                                        .target = primary.target,
+                                                                        .metric = "ghost_share",
+                                                                        .mask = primary.mask,
+                                                                        .sums = {}});
+            for (size_t g = 0; g < noise_groups; ++g) {  // of which the halves' sign is chance
+                of_side.sums.push_back(float(0.01 * normal(random)));
+                shares[name == before] += (random() & 1 ? 1 : -1) * double(of_side.sums.back());
+            }
+        }
+        const std::string verdict = verdict_on(ghosts({shares[0]}, {shares[1]}, 1, noise));
+        alarms += verdict == judgement::worse || verdict == judgement::better;
+    }
+    // 1 %: 40, and four deviations of a binomial count are 25.
+    EXPECT_LE(alarms, 65);
+    EXPECT_GE(alarms, 15);
+}
+
 TEST(JudgedSequences, WhatCannotBeAGhostIsNotJudged) {
     EXPECT_TRUE(evidence_of_ghosts({}, {}, primary.mask, now, before, {}).empty());
     const std::vector<ResultRow> rows = {row(now, 0, "ghost_share", {}), row(before, 0, "ghost_share", {})};
@@ -117,7 +165,7 @@ TEST(JudgedSequences, FlickerIsARatioAndNeedsNoneWhereOneSideIsStill) {
               judgement::equivalent);
     const std::vector<Evidence> undecided = flicker({-0.01, 0.01}, {0.1, 0.1});
     EXPECT_EQ(verdict_on(undecided), judgement::undecided);
-    EXPECT_EQ(undecided.at(0).why, interval::not_positive);
+    EXPECT_EQ(undecided.at(0).no_interval, interval::not_positive);
 }
 
 /// Made-up runs of a renderer that did not change, with seeds that scatter in all three numbers. With a true rate of 1

@@ -37,10 +37,12 @@ TEST(VerdictText, NamesWhatGotWorseAndWhereFirst) {
                evidence("a", judged_number::ghosts, 0.2, 1e-9)});
     const VerdictText text = verdict_text(judged, {}, {.worse_by = 1.05}, "before");
     EXPECT_EQ(text.headline, "worse against before: error in b; ghosts in a");
-    EXPECT_EQ(
-        text.rules.front(),
-        "Tolerance: a number of these frames is worse if it is certainly more than 1.05 times that of the earlier "
-        "frames.");
+    EXPECT_EQ(text.rules[0],
+              "An error of these frames is worse if it is certainly more than 1.05 times that of the earlier frames.");
+    EXPECT_EQ(text.rules[1], "An error is equivalent if it certainly changed by less than 5 %.");
+    EXPECT_EQ(text.rules[2],
+              "A share of ghosts is worse if it certainly rose by more than 0.05 times the earlier share, or times 0.05 "
+              "if that is more. It is equivalent if it certainly changed by less than 0.05 or than that.");
     ASSERT_EQ(text.numbers.size(), 3u);
     EXPECT_EQ(
         text.numbers[0],
@@ -56,12 +58,14 @@ TEST(VerdictText, NamesWhatGotWorseAndWhereFirst) {
 
 TEST(VerdictText, SaysWhyANumberIsNotDecided) {
     Evidence lost = evidence("a", judged_number::flicker, 1, 1);
-    lost.why = "none: an error is not above 0";
+    lost.no_interval = "none: an error is not above 0";
     Evidence sudden = evidence("b", judged_number::flicker, INFINITY, 0);
+    sudden.no_interval = "the earlier frames have none";
     const VerdictText text = verdict_text(judge({lost, sudden}), {}, {}, "before");
-    EXPECT_EQ(text.numbers[0], "b: flicker (frame_difference) worse: frames of before have none");
+    EXPECT_EQ(text.numbers[0], "b: flicker (frame_difference) worse, the earlier frames have none");
     EXPECT_EQ(text.numbers[1], "a: flicker (frame_difference) undecided, none: an error is not above 0");
-    EXPECT_NE(text.rules.front().find("certainly more than that of the earlier frames."), std::string::npos);
+    EXPECT_EQ(text.rules[0],
+              "Error or flicker of these frames is worse if it is certainly more than that of the earlier frames.");
 }
 
 TEST(VerdictText, IsKeptInAFileForThePage) {
