@@ -73,11 +73,15 @@ private:
                 return all;
             }
             case spv::OpCompositeExtract: {
+                // A part of a vector, or a column or a component of a matrix; structures and arrays are not followed.
                 const Components from = of(i[3]);
-                if (std::ranges::find(from, Known::nothing) == from.end() && !from.empty())
-                    return Components(unknown(type).size(), from.size() > i[4] ? from[i[4]] : Known::finite);
-                const bool is_of_vector = module_.type_of(i[3]).op == spv::OpTypeVector;
-                return is_of_vector ? Components{from[i[4]]} : unknown(type);
+                const spv::Op whole = module_.type_of(i[3]).op;
+                if (whole != spv::OpTypeVector && whole != spv::OpTypeMatrix) return unknown(type);
+                if (from.size() != module_.components(module_.type_of(i[3])[1])) return unknown(type);
+                const size_t parts = unknown(type).size(),
+                             rows = i.words.size() > 5 ? module_.components(module_.type_of(i[3])[2]) : parts;
+                const size_t first = i[4] * rows + (i.words.size() > 5 ? i[5] : 0);
+                return {from.begin() + std::ptrdiff_t(first), from.begin() + std::ptrdiff_t(first + parts)};
             }
             case spv::OpLoad: {
                 const spv::StorageClass storage = module_.storage_of(i[3]);

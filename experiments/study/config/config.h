@@ -45,17 +45,17 @@ struct ShotConfig {
 
     std::string label, group;  ///< names of the shot and of its group in tables; "": by its name, no group
 
-    /// Where the config names scene and camera: "study.json:3:6: shots[0]". Two places may play the same.
+    /// Where the config names scene and camera: "study.json:3:6: shots[0]".
     struct Places {
         std::string scene, camera;
-        bool operator==(const Places&) const { return true; }
+        bool operator==(const Places&) const = default;
     };
     Places named_at;
 
-    /// Whether both shots are equal except for label and group.
+    /// Whether both shots are equal except for label, group and places.
     bool is_played_like(const ShotConfig& other) const {
         ShotConfig named_alike = other;
-        named_alike.label = label, named_alike.group = group;
+        named_alike.label = label, named_alike.group = group, named_alike.named_at = named_at;
         return *this == named_alike;
     }
     bool operator==(const ShotConfig&) const = default;

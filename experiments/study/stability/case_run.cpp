@@ -84,7 +84,11 @@ public:
     explicit ZeroProductWatcher(ZeroProductCounts& found) : found_(found) {}
     std::optional<InstrumentedPipeline> before(const PassRun& run) override {
         const std::optional<unsigned> products = known_zero_products(run.recipe);
-        if (products != 0u) found_[run.stage] = products;
+        if (products == 0u) return {};
+        const auto [at, is_new] = found_.try_emplace(run.stage, products);
+        // Several pipelines may share a stage: its largest count, or that one cannot be counted.
+        if (!is_new)
+            at->second = at->second && products ? std::optional(std::max(*at->second, *products)) : std::nullopt;
         return {};
     }
 
