@@ -12,6 +12,7 @@
 #include "metrics/color_map.h"
 #include "metrics/compare_video.h"
 #include "metrics/compared_files.h"
+#include "metrics/cvvdp_metric.h"
 
 #include <algorithm>
 #include <cmath>
@@ -124,6 +125,7 @@ Comparison compare_images(const CompareOptions& options) {
     choose_flip_exposures(comparison, reference);
     CompareOptions& used = comparison.options;
     if (needs_display(used)) {
+        comparison.is_radiance = reference.is_radiance;
         choose_display(used, reference.is_radiance);
         warn_of_clipped(count_clipped(reference.linear, used.settings), used.reference, used.settings,
                         comparison.warnings);
@@ -148,11 +150,12 @@ Comparison compare_images(const CompareOptions& options) {
 /// What a JOD of this comparison depends on; PU21 codes depend on the light alone.
 nlohmann::json viewing_json(const Comparison& comparison) {
     const CompareOptions& options = comparison.options;
-    const Viewing& viewing = options.settings.viewing;
-    nlohmann::json json = {{"display", viewing.display.name},
-                           {"pixels_per_degree", viewing.display.pixels_per_degree},
-                           {"version", cvvdp_0_5_6_calibration().version}};
+    const Viewing viewing = exposed_viewing(options.settings);
+    nlohmann::json json = {{"display", viewing.display.name}};
     if (viewing.display.transfer == Transfer::linear) json["nits_per_unit"] = viewing.nits_per_unit;
+    if (!is_asked_for(options, "cvvdp_0_5_6")) return json;
+    json["pixels_per_degree"] = viewing.display.pixels_per_degree;
+    json["version"] = cvvdp_0_5_6_calibration().version;
     if (!options.video) return json;
     json["frames_per_second"] = options.video->frames_per_second;
     json["padding"] = name_of(options.video->padding);
@@ -163,10 +166,13 @@ nlohmann::json viewing_json(const Comparison& comparison) {
 
 std::string viewing_text(const Comparison& comparison, const Metric& metric) {
     const CompareOptions& options = comparison.options;
-    const Viewing& viewing = options.settings.viewing;
+    const Viewing viewing = exposed_viewing(options.settings);
     std::string text = viewing.display.name;
     if (viewing.display.transfer == Transfer::linear)
         text += ", " + number_text(viewing.nits_per_unit, 6) + " nits per unit";
+    else if (comparison.is_radiance)
+        text += ", exposure " + number_text(options.settings.exposure_ev) + " EV, tone map " +
+                name_of(options.settings.tone_map);
     if (metric.name != "cvvdp_0_5_6") return text;
     text += ", " + number_text(viewing.display.pixels_per_degree, 6) + " pixels per degree";
     if (options.video)

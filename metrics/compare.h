@@ -39,6 +39,7 @@ struct CompareResult {
 struct Comparison {
     CompareOptions options;  ///< as used, with the chosen metrics and exposures
     glm::uvec2 extent{0, 0};
+    bool is_radiance = true;  ///< of the reference; else display codes
     PixelCounts reference_counts, test_counts;
     size_t pixels = 0;                     ///< finite in both images, of all frames
     size_t frames = 1, pooled_frames = 1;  ///< of a video: those that were read, and those that were pooled

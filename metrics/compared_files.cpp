@@ -51,7 +51,8 @@ void report_bad_pixels(Comparison& comparison) {
         std::string text = file.string() + ": " + std::to_string(counts.nan) + " pixels with NaN, " +
                            std::to_string(counts.infinite) + " with Inf, " + std::to_string(counts.negative) +
                            " negative";
-        if (counts.non_finite() > 0) text += "; NaN and Inf are left out of every metric";
+        if (counts.non_finite() > 0)
+            text += "; NaN and Inf count in no metric: such pixels are left out, or black in both images";
         if (counts.non_finite() > 0 && comparison.options.fail_on_non_finite)
             fail(text.substr(0, text.find(';')), "; NaN and Inf must not occur");
         comparison.warnings.push_back(text);

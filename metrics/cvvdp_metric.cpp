@@ -38,8 +38,8 @@ Metric cvvdp_metric() {
             .better = Better::higher,
             .doc =
                 "ColorVideoVDP 0.5.6 of stills, of the whole image: 10 for no visible difference, and one less where "
-                "75 % of observers prefer the other image; linear radiance with 203 cd/m2 for 1, on the display "
-                "standard_hdr_linear (Mantiuk et al. 2024)",
+                "75 % of observers prefer the other image; linear radiance with 203 cd/m2 x 2^exposure for 1, on the "
+                "display standard_hdr_linear (Mantiuk et al. 2024)",
             .layers = cvvdp_layers,
             .pool = score_of_all,
             .greatest = 10,

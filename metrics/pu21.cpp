@@ -4,6 +4,7 @@
 #include "metrics/pooling.h"
 #include "metrics/ssim.h"
 
+#include <tbb/parallel_for.h>
 #include <algorithm>
 #include <cmath>
 
@@ -78,7 +79,7 @@ std::vector<Metric> pu21_metrics() {
          .formula = "ssim_pu21_banding_glare_channels",
          .unit = "1",
          .better = higher,
-         .doc = "As ssim, PU21 codes of the light that a display shows, with the range 256 (Mantiuk and Azimi 2021)",
+         .doc = "As ssim, PU21 codes of what standard_hdr_linear shows, with the range 256 (Mantiuk and Azimi 2021)",
          .layers = code_similarities,
          .pool = pooled_mean,
          .greatest = 1,

@@ -193,8 +193,9 @@ double mean_background(const FloatPlane& achromatic) {
 
 }  // namespace
 
-BandDifference band_difference(const BandLevels& levels, const Band& band, const CvvdpCalibration& calibration,
-                               const PerCvvdpChannel<double>& map_weights, FloatPlane* map, BandStages* stages) {
+PerCvvdpChannel<double> band_difference(const BandLevels& levels, const Band& band, const CvvdpCalibration& calibration,
+                                        const PerCvvdpChannel<double>& map_weights, FloatPlane* map,
+                                        BandStages* stages) {
     const unsigned width = levels.test[0].width, height = levels.test[0].height;
     if (map) std::ranges::fill(map->values, 0.0f);
     if (stages) resize(*stages, levels.test.size(), width, height);
@@ -208,14 +209,16 @@ BandDifference band_difference(const BandLevels& levels, const Band& band, const
         const unsigned begin = unsigned(i) * strip_rows;
         sums[i] = strips.local().sums(begin, std::min(begin + strip_rows, height));
     });
-    BandDifference all;
+    PerCvvdpChannel<double> all{};
     for (const PerCvvdpChannel<double>& of_strip : sums)
-        for (unsigned c = 0; c < cvvdp_channels; ++c) all.mean_square[c] += of_strip[c] / (double(width) * height);
+        for (unsigned c = 0; c < cvvdp_channels; ++c) all[c] += of_strip[c] / (double(width) * height);
     return all;
 }
 
-BandDifference base_band_difference(const BandLevels& levels, const Band& band, const CvvdpCalibration& calibration,
-                                    const PerCvvdpChannel<double>& map_weights, FloatPlane* map, BandStages* stages) {
+PerCvvdpChannel<double> base_band_difference(const BandLevels& levels, const Band& band,
+                                             const CvvdpCalibration& calibration,
+                                             const PerCvvdpChannel<double>& map_weights, FloatPlane* map,
+                                             BandStages* stages) {
     const unsigned width = levels.test[0].width, height = levels.test[0].height;
     const unsigned channels = unsigned(levels.test.size());
     if (map) std::ranges::fill(map->values, 0.0f);
@@ -229,7 +232,7 @@ BandDifference base_band_difference(const BandLevels& levels, const Band& band, 
     const float background[2] = {float(mean_background(level[0][0])), float(mean_background(level[1][0]))};
     const float log2_background = std::log2(background[1]);
     const float epsilon = float(calibration.epsilon);
-    BandDifference all;
+    PerCvvdpChannel<double> all{};
     for (unsigned c = 0; c < channels; ++c) {
         float sensitivity = 0;
         band.sensitivity.row(c, &log2_background, &sensitivity, 1);
@@ -242,8 +245,8 @@ BandDifference base_band_difference(const BandLevels& levels, const Band& band, 
                 if (stages) stages->contrast[image][c].values[i] = contrast[image];
             }
             difference.values[i] = std::abs(contrast[0] - contrast[1]) * sensitivity;
-            all.mean_square[c] += double(difference.values[i]) * (difference.values[i] + 2 * calibration.epsilon) /
-                                  double(difference.values.size());
+            all[c] += double(difference.values[i]) * (difference.values[i] + 2 * calibration.epsilon) /
+                      double(difference.values.size());
         }
         if (map)
             add_fourth_powers(difference.values.data(), float(map_weights[c]), epsilon, map->values.data(),

@@ -25,17 +25,15 @@ struct Band {
     bool is_doubled;  ///< contrasts count twice in all bands but the first and the base band
 };
 
-/// What is known of the differences in a band.
-struct BandDifference {
-    PerCvvdpChannel<double> mean_square{};  ///< mean over the pixels of (D + eps)^2 - eps^2
-};
-
-/// The differences D that are seen in one band-pass band: contrasts times sensitivity, masked by what both images
-/// have. `map`, if not nullptr, gets the norm over the channels of D times `map_weights`. `stages`, if not nullptr,
-/// gets all values between.
-BandDifference band_difference(const BandLevels& levels, const Band& band, const CvvdpCalibration& calibration,
-                               const PerCvvdpChannel<double>& map_weights, FloatPlane* map, BandStages* stages);
+/// The mean over the pixels of (D + eps)^2 - eps^2, where D are the differences that are seen in one band-pass band:
+/// contrasts times sensitivity, masked by what both images have. `map`, if not nullptr, gets the norm over the channels
+/// of D times `map_weights`. `stages`, if not nullptr, gets all values between.
+PerCvvdpChannel<double> band_difference(const BandLevels& levels, const Band& band, const CvvdpCalibration& calibration,
+                                        const PerCvvdpChannel<double>& map_weights, FloatPlane* map,
+                                        BandStages* stages);
 
 /// The same of the base band, the coarsest level itself, which is not masked. `levels` needs no coarser one.
-BandDifference base_band_difference(const BandLevels& levels, const Band& band, const CvvdpCalibration& calibration,
-                                    const PerCvvdpChannel<double>& map_weights, FloatPlane* map, BandStages* stages);
+PerCvvdpChannel<double> base_band_difference(const BandLevels& levels, const Band& band,
+                                             const CvvdpCalibration& calibration,
+                                             const PerCvvdpChannel<double>& map_weights, FloatPlane* map,
+                                             BandStages* stages);

@@ -20,8 +20,9 @@ void check(const HostImage& reference, const HostImage& test, glm::uvec2 extent)
 }
 
 void check(const Viewing& viewing) {
-    if (!(viewing.nits_per_unit > 0 && viewing.nits_per_unit <= 1e9))
-        fail("nits per unit = ", viewing.nits_per_unit, " is outside (0, 1e9]");
+    if (viewing.display.transfer == Transfer::linear && !(viewing.nits_per_unit > 0 && viewing.nits_per_unit <= 1e9))
+        fail("a radiance of 1 would be shown with ", viewing.nits_per_unit,
+             " cd/m2, which is outside (0, 1e9]; change --nits-per-unit or --exposure");
 }
 
 FrameChannels frame_channels(glm::uvec2 extent, unsigned channels) {
@@ -57,8 +58,7 @@ CvvdpScore CvvdpStills::score(const HostImage& reference, const HostImage& test,
     FloatPlane map;
     score.frames.push_back(comparison_.compare(channels_, has_map ? &map : nullptr));
     if (has_map) add_jod_map(map, calibration_, score.map);
-    score.pooled = pooled_difference(score.frames, opponent_channels, true, calibration_);
-    score.jod = jod(score.pooled, calibration_);
+    score.jod = jod(pooled_difference(score.frames, opponent_channels, true, calibration_), calibration_);
     return score;
 }
 
@@ -132,8 +132,7 @@ CvvdpScore CvvdpVideo::score() {
              ": give more frames, or choose another padding");
     if (count_ < window() && padding_ == TemporalPadding::symmetric && score_.frames.empty())
         for (size_t frame = 0; frame < count_; ++frame) pool(frame);
-    score_.pooled = pooled_difference(score_.frames, cvvdp_channels, false, calibration_);
-    score_.jod = jod(score_.pooled, calibration_);
+    score_.jod = jod(pooled_difference(score_.frames, cvvdp_channels, false, calibration_), calibration_);
     for (double& v : score_.map.values) v /= double(score_.frames.size());
     return std::move(score_);
 }

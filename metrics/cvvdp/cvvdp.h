@@ -6,15 +6,13 @@
 #include "metrics/plane.h"
 
 #include <functional>
-#include <optional>
 
 // ColorVideoVDP (Mantiuk et al. 2024, "ColorVideoVDP: A visual difference predictor for image, video and display
 // distortions", ACM TOG 43(4)): how visible the differences of two images or videos are.
 
-/// A score, and what it was pooled from.
+/// A score, and what it is pooled from.
 struct CvvdpScore {
-    double jod = 10;                         ///< jod() of `pooled`
-    double pooled = 0;                       ///< pooled_difference()
+    double jod = 10;                         ///< jod() of pooled_difference()
     std::vector<VisibleDifferences> frames;  ///< of the frames that were pooled
     size_t non_finite = 0;                   ///< pixels, of all frames, that were black because of NaN or Inf
     /// 10 minus the JOD that each pixel's difference would have, the mean over the frames. No share of the score: bands

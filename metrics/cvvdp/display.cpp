@@ -34,7 +34,7 @@ const Display& display_named(const std::string& name) { return find_named(displa
 
 namespace {
 
-void light_of_codes(const float* __restrict codes, float* __restrict light, size_t count, float scale, float offset) {
+void light_of_codes(const float* codes, float* light, size_t count, float scale, float offset) {
     for (size_t i = 0; i < count; ++i) {
         const float code = std::min(std::max(codes[i], 0.0f), 1.0f);
         const float power = fast_power((code + 0.055f) * (1 / 1.055f), 2.4f);
@@ -42,8 +42,8 @@ void light_of_codes(const float* __restrict codes, float* __restrict light, size
     }
 }
 
-void light_of_radiance(const float* __restrict radiance, float* __restrict light, size_t count, float scale, float low,
-                       float high, float offset) {
+void light_of_radiance(const float* radiance, float* light, size_t count, float scale, float low, float high,
+                       float offset) {
     for (size_t i = 0; i < count; ++i) light[i] = std::min(std::max(scale * radiance[i], low), high) + offset;
 }
 

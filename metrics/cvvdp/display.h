@@ -43,5 +43,5 @@ struct Viewing {
 };
 
 /// light[i] = cd/m2 of value[i], a finite value of one of R, G, B, for `count` values. Codes are clamped to [0, 1],
-/// linear light to [max(0.005, black), peak].
+/// linear light to [max(0.005, black), peak]. `light` may be `values`.
 void displayed_light(const Viewing& viewing, const float* values, float* light, size_t count);

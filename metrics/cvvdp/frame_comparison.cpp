@@ -6,12 +6,11 @@
 
 FrameComparison::FrameComparison(glm::uvec2 extent, double pixels_per_degree, unsigned channels,
                                  const CvvdpCalibration& calibration)
-    : calibration_(calibration),
-      frequencies_(band_frequencies(extent, pixels_per_degree)),
-      is_still_(channels < cvvdp_channels) {
-    for (size_t b = 0; b < frequencies_.size(); ++b)
-        bands_.push_back({.sensitivity = BandSensitivity(frequencies_[b], calibration),
-                          .is_doubled = b > 0 && b + 1 < frequencies_.size()});
+    : calibration_(calibration), is_still_(channels < cvvdp_channels) {
+    const std::vector<double> frequencies = band_frequencies(extent, pixels_per_degree);
+    for (size_t b = 0; b < frequencies.size(); ++b)
+        bands_.push_back({.sensitivity = BandSensitivity(frequencies[b], calibration),
+                          .is_doubled = b > 0 && b + 1 < frequencies.size()});
     for (const glm::uvec2 size : coarser_sizes(extent, unsigned(bands_.size()) - 1))
         coarser_levels_.push_back({float_planes(channels, size.x, size.y), float_planes(channels, size.x, size.y)});
 }
@@ -38,11 +37,10 @@ VisibleDifferences FrameComparison::compare(const FrameChannels& frame, FloatPla
         BandStages* band_stages = stages ? &(*stages)[b] : nullptr;
         if (b == base) {
             differences.push_back(
-                base_band_difference(levels, bands_[b], calibration_, map_weights, band_map, band_stages).mean_square);
+                base_band_difference(levels, bands_[b], calibration_, map_weights, band_map, band_stages));
         } else {
             levels.coarser_test = level(b + 1)[0], levels.coarser_reference = level(b + 1)[1];
-            differences.push_back(
-                band_difference(levels, bands_[b], calibration_, map_weights, band_map, band_stages).mean_square);
+            differences.push_back(band_difference(levels, bands_[b], calibration_, map_weights, band_map, band_stages));
         }
     }
     if (map) *map = collapsed(std::move(maps));

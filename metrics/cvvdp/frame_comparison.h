@@ -19,13 +19,10 @@ public:
     VisibleDifferences compare(const FrameChannels& frame, FloatPlane* map = nullptr,
                                std::vector<BandStages>* stages = nullptr);
 
-    const std::vector<double>& frequencies() const { return frequencies_; }  ///< of the bands, cycles per degree
-
 private:
     FloatPlane collapsed(std::vector<FloatPlane> bands) const;
 
     const CvvdpCalibration& calibration_;
-    std::vector<double> frequencies_;
     std::vector<Band> bands_;
     std::vector<FrameChannels> coarser_levels_;
     bool is_still_;

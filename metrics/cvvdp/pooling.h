@@ -3,7 +3,7 @@
 
 #include <vector>
 
-/// The mean square of the differences in one frame, [band][channel]: BandDifference::mean_square of each.
+/// The mean square of the differences in one frame, [band][channel]: band_difference() of each.
 using VisibleDifferences = std::vector<PerCvvdpChannel<double>>;
 
 /// One number of what an observer notices, 0 for nothing, from the frames of a video or from a still. `channels` is 3

@@ -78,7 +78,7 @@ TEST(Cvvdp, GreyStepsOfAWholeImageAreNotSeenAndCastsAre) {
 }
 
 TEST(Cvvdp, JodFollowsItsCurve) {
-    // Values of the fact sheet's curve, given there with 6 digits after the point.
+    // 10 - 0.0439569391310215 Q^0.9302042722702026 with 6 digits after the point.
     EXPECT_NEAR(jod(1, calibration()), 9.956043, 5e-7);
     EXPECT_NEAR(jod(10, calibration()), 9.625690, 5e-7);
     EXPECT_NEAR(jod(100, calibration()), 6.812604, 5e-7);
