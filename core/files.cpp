@@ -20,6 +20,10 @@ std::string lower_case_extension(const std::filesystem::path& file) {
 
 static const char* const elsewhere = "; choose a folder that you may write to and that has space";
 
+void fail_write(const std::filesystem::path& file, const std::string& reason) {
+    fail_machine("cannot write ", file.string(), ": ", reason, elsewhere);
+}
+
 void create_folder(const std::filesystem::path& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
@@ -46,10 +50,6 @@ void write_atomically(const std::filesystem::path& file,
     std::filesystem::remove_all(temporary, error);  // of a killed process, or a link that waits there
     try {
         write(temporary);
-    } catch (const MachineError& fault) {
-        std::filesystem::remove_all(temporary, error);
-        const std::string said = fault.what();
-        throw MachineError(said.starts_with("cannot write") && !said.ends_with(elsewhere) ? said + elsewhere : said);
     } catch (...) {
         std::filesystem::remove_all(temporary, error);
         throw;
@@ -58,7 +58,7 @@ void write_atomically(const std::filesystem::path& file,
     if (error) {
         const std::string reason = error.message();
         std::filesystem::remove_all(temporary, error);
-        fail_machine("cannot write ", file.string(), ": ", reason, elsewhere);
+        fail_write(file, reason);
     }
 }
 
@@ -68,7 +68,7 @@ void write_text(const std::filesystem::path& file, std::string_view text) {
         std::ofstream out(temporary, std::ios::binary);
         out.write(text.data(), std::streamsize(text.size()));
         out.close();
-        if (!out) fail_machine("cannot write ", file.string(), ": ", errno ? std::strerror(errno) : "unknown reason");
+        if (!out) fail_write(file, errno ? std::strerror(errno) : "unknown reason");
     });
 }
 

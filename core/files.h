@@ -11,6 +11,9 @@ std::string lower_case_extension(const std::filesystem::path& file);
 /// Makes the folder and those above it. Fails with MachineError if that is impossible.
 void create_folder(const std::filesystem::path& folder);
 
+/// Fails with MachineError: a file cannot be written for this reason, and what to do.
+[[noreturn]] void fail_write(const std::filesystem::path& file, const std::string& reason);
+
 /// Calls `write` with a name beside `file` for a file or a folder, then renames that to `file`; removes it if `write`
 /// throws. Makes the folders above `file`, and removes leftovers beside it (leftovers.h). Fails with MachineError if a
 /// folder or the new name cannot be made.

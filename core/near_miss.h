@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 /// The text as messages show it: the middle of a long one is left out, and so are the data of data URIs.
 std::string shortened(const std::string& text);
@@ -19,12 +20,21 @@ std::string nearest_name(std::string_view name, std::span<const std::string> cho
 /// choices the nearest are named, and the command that lists all, if it is given.
 std::string suggestion(std::string_view name, std::span<const std::string> choices, const std::string& command = "");
 
+/// The command that lists all names, for suggestion().
+struct ListedBy {
+    std::string command;
+};
+
 /// The entry with that `name`; fails with "<what> 'NAME'; did you mean ..." if there is none.
 template <std::ranges::borrowed_range Entries, class... What>
-auto& find_named(Entries&& entries, const std::string& name, const What&... what) {
+auto& find_named(Entries&& entries, const std::string& name, const ListedBy& by, const What&... what) {
     const auto name_of = [](const auto& entry) -> const std::string& { return entry.name; };
     const auto found = std::ranges::find(entries, name, name_of);
     if (found == std::ranges::end(entries))
-        fail(what..., " '", shortened(name), "'", suggestion(name, names_of(entries, name_of)));
+        fail(what..., " '", shortened(name), "'", suggestion(name, names_of(entries, name_of), by.command));
     return *found;
+}
+template <std::ranges::borrowed_range Entries, class... What>
+auto& find_named(Entries&& entries, const std::string& name, const What&... what) {
+    return find_named(std::forward<Entries>(entries), name, ListedBy{}, what...);
 }

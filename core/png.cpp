@@ -165,7 +165,7 @@ void write_png(const std::filesystem::path& file, const HostImage& rgb, float ex
     png.format = PNG_FORMAT_RGB;
     write_atomically(file, [&](const std::filesystem::path& temporary) {
         if (!png_image_write_to_file(&png, temporary.c_str(), 0, bytes.data(), 0, nullptr))
-            fail_machine("cannot write ", file.string(), ": ", png.message);
+            fail_write(file, png.message);
     });
 }
 

@@ -81,7 +81,7 @@ void write_exr(const std::filesystem::path& file, const LayeredImage& image) {
             out.setFrameBuffer(frame);
             out.writePixels(int(extent.y));
         } catch (const std::exception& e) {
-            fail_machine("cannot write ", file.string(), ": ", errno ? std::strerror(errno) : e.what());
+            fail_write(file, errno ? std::strerror(errno) : e.what());
         }
     });
 }

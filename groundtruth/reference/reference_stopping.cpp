@@ -195,9 +195,10 @@ void resume_plan(const ReferenceState& state, RenderClock& clock) {
     const bool has_target = !state.earlier.values.empty();
     clock.cuts_pass = has_target;
     clock.time_limit = has_target ? state.settings.max_seconds : uniform.seconds;
-    clock.all_samples = has_target
-                            ? std::accumulate(state.sample_goal.values.begin(), state.sample_goal.values.end(), 0.0)
-                            : expected_samples(state);
+    const bool is_uniform = std::ranges::max(state.sample_goal.values) <= float(state.level);
+    clock.all_samples = is_uniform && !has_target
+                            ? expected_samples(state)
+                            : std::accumulate(state.sample_goal.values.begin(), state.sample_goal.values.end(), 0.0);
 }
 
 bool plan_pass(ReferenceState& state, RenderClock& clock) {

@@ -68,7 +68,8 @@ void say_image_based_light(GltfFile& file) {
 std::array<int, 3> version_in(const std::string& generator) {
     std::array<int, 3> version{};
     const size_t at = generator.rfind(" v");
-    if (at != generator.npos) std::sscanf(generator.c_str() + at, " v%d.%d.%d", &version[0], &version[1], &version[2]);
+    if (at != generator.npos)
+        std::sscanf(generator.c_str() + at, " v%9d.%9d.%9d", &version[0], &version[1], &version[2]);
     return version;
 }
 

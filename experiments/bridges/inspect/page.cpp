@@ -3,6 +3,7 @@
 #include "core/list_text.h"
 #include "core/number_text.h"
 #include "core/shown_text.h"
+#include "core/wrapped_text.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -11,11 +12,6 @@
 namespace {
 
 constexpr size_t most_rows = 8, widest_name = 40;
-
-/// Characters that a terminal shows: bytes of UTF-8 that begin one.
-size_t width_of(const std::string& text) {
-    return size_t(std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
-}
 
 std::string text_of(const Description& value) {
     if (value.is_string()) return shown_text(value.get<std::string>());
@@ -32,10 +28,7 @@ std::string color_text(const Description& rgb) {
 std::string name_text(const Description& name, bool has_all) {
     const std::string text = text_of(name);
     if (text.empty()) return "(no name)";
-    if (has_all || width_of(text) <= widest_name) return text;
-    size_t end = widest_name - 3;
-    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // no character is cut
-    return text.substr(0, end) + "...";
+    return has_all ? text : cut_to(text, widest_name);
 }
 
 class Page {
@@ -67,12 +60,12 @@ public:
         for (const auto& row : rows)
             for (size_t i = 0; i < row.size(); ++i) {
                 if (i == widths.size()) widths.push_back(0);
-                widths[i] = std::max(widths[i], width_of(row[i]));
+                widths[i] = std::max(widths[i], letters_of(row[i]));
             }
         for (const auto& row : rows) {
             std::string text = " ";
             for (size_t i = 0; i < row.size(); ++i)
-                text += " " + row[i] + std::string(1 + widths[i] - width_of(row[i]), ' ');
+                text += " " + row[i] + std::string(1 + widths[i] - letters_of(row[i]), ' ');
             text.erase(text.find_last_not_of(' ') + 1);
             line(text);
         }

@@ -15,11 +15,7 @@ namespace {
 using nlohmann::json;
 
 const Parameter& find_parameter(const ParameterSet& declared, const std::string& name, const std::string& where) {
-    const auto found = std::ranges::find(declared, name, &Parameter::name);
-    if (found == declared.end())
-        fail(where, ": unknown parameter '", shortened(name), "'",
-             suggestion(name, names_of(declared, &Parameter::name), "ssrlab describe TECHNIQUE"));
-    return *found;
+    return find_named(declared, name, ListedBy{"ssrlab describe TECHNIQUE"}, where, ": unknown parameter");
 }
 
 /// The number as the parameter holds it: in whole steps, or as a float32.
