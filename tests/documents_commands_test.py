@@ -21,6 +21,7 @@ from document_lines import ROOT, all_command_lines, all_mentions
 
 SSRLAB = Path(sys.argv[1]).resolve()
 sys.path.insert(0, str(ROOT / "experiments/python"))
+os.environ.pop("COLUMNS", None)  # which would wrap what is compared
 os.environ["MPLBACKEND"] = "Agg"
 
 

@@ -96,7 +96,8 @@ void add_compare(Commands& line) {
     option(command, "--display NAME", compare.display,
            "Display that shows the images to cvvdp_0_5_6, psnr_pu21 and ssim_pu21: " +
                joined(names_of(displays(), &Display::name)) +
-               ". Default: standard_hdr_linear for radiance, standard_4k for .png");
+               ". Default: standard_hdr_linear for radiance, standard_4k for .png")
+        ->check(name_among(names_of(displays(), &Display::name)));
     option(command, "--nits-per-unit N", compare.nits_per_unit,
            "Light of radiance 1 on a linear display (cd/m2). Default: 203, the white of ITU-R BT.2408")
         ->check(positive());

@@ -1,8 +1,8 @@
 #pragma once
 #include "experiments/study/config/config.h"
 
-/// The folder of the configs that come with ssrlab.
-std::filesystem::path included_studies();
+/// The studies that come with ssrlab (experiments/studies/studies.json): by group, and by the name of their config.
+nlohmann::ordered_json included_studies();
 
 /// The file of a study: `asked`, or the included one of this name if there is no such file. Fails with Error, and
 /// suggests the nearest name, if `asked` is a mere name that neither has.

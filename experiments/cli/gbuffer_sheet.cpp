@@ -21,12 +21,13 @@ constexpr std::array<uint16_t, 26> sheet_letters = {
     025755, 065656, 034443, 065556, 074647, 074644, 034553, 055755, 072227, 011152, 055655, 044447, 057755,
     065555, 025552, 065644, 025563, 065655, 034216, 072222, 055557, 055552, 055775, 055255, 055222, 071247};
 
-void write_sheet_label(HostImage& sheet, glm::uvec2 at, std::string_view text) {
+/// Of a narrow picture only the label's beginning, up to the column `end`.
+void write_sheet_label(HostImage& sheet, glm::uvec2 at, std::string_view text, unsigned end) {
     for (size_t n = 0; n < text.size(); ++n)
         for (unsigned y = 0; y < 5 * sheet_letter_scale; ++y)
             for (unsigned x = 0; x < 3 * sheet_letter_scale; ++x) {
                 const glm::uvec2 place = at + glm::uvec2(unsigned(n) * 4 * sheet_letter_scale + x, y);
-                if (text[n] < 'a' || text[n] > 'z' || place.x >= sheet.extent.x) continue;
+                if (text[n] < 'a' || text[n] > 'z' || place.x >= end) continue;
                 const unsigned bit = 14 - (y / sheet_letter_scale * 3 + x / sheet_letter_scale);
                 if (sheet_letters[size_t(text[n] - 'a')] >> bit & 1)
                     sheet.set_rgb(size_t(place.y) * sheet.extent.x + place.x, glm::vec3(0));
@@ -90,7 +91,7 @@ HostImage gbuffer_sheet(const HostGBuffer& gbuffer) {
     HostImage sheet({sheet_columns * room.x - sheet_gap, rows * room.y - sheet_gap}, 3, 1.0f);
     for (unsigned n = 0; n < pictures.size(); ++n) {
         const glm::uvec2 corner = glm::uvec2(n % sheet_columns, n / sheet_columns) * room;
-        write_sheet_label(sheet, corner + 2u, pictures[n].label);
+        write_sheet_label(sheet, corner + 2u, pictures[n].label, corner.x + picture.x);
         for (unsigned y = 0; y < picture.y; ++y)
             for (unsigned x = 0; x < picture.x; ++x) {
                 const size_t i = size_t(y * step) * gbuffer.extent().x + x * step;

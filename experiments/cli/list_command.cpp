@@ -54,8 +54,7 @@ void list_metrics(std::ostream& out, const Metrics& metrics) {
 }
 
 void list_included_studies(std::ostream& out) {
-    const std::filesystem::path file = included_studies().parent_path() / "studies.json";
-    const auto groups = nlohmann::ordered_json::parse(read_text(file));
+    const nlohmann::ordered_json groups = included_studies();
     for (const auto& [group, studies] : groups.items()) {
         out << group << '\n';
         for (const auto& [name, study] : studies.items())

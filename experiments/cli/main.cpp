@@ -54,7 +54,11 @@ void add_commands(Commands& line) {
 /// `ssrlab` alone and `ssrlab help` mean --help, `ssrlab help COMMAND` means `ssrlab COMMAND --help`.
 std::vector<std::string> with_help_option(std::vector<std::string> words) {
     if (words.empty() || words.front() == "help") {
+        if (words.size() > 2)
+            fail("`ssrlab help` takes one command, not ", words.size() - 1, "; for example `ssrlab help ", words[1],
+                 "`");
         if (!words.empty()) words.erase(words.begin());
+        if (words == std::vector<std::string>{"help"}) words.clear();
         words.push_back("--help");
     }
     return words;
@@ -75,9 +79,6 @@ int parse_words(std::vector<std::string> words, const std::vector<EndedPoint>& e
     app.set_version_flag(
         "--version", [] { return build_info().dump(); },
         "Print version, commit and the hash of all code, as manifest.json has them");
-    app.add_flag_callback(
-           "--check-lines", [] {}, "Read lines from the standard input, and print what is wrong with each")
-        ->group("");
     Commands line(app);
     line.ended = ended;
     add_commands(line);
@@ -193,10 +194,13 @@ bool runs_no_shader(const std::vector<std::string_view>& words) {
 }
 
 /// Ends without destructors of static objects: those of glslang's tables take as long as all else of `ssrlab --help`.
-/// A sanitizer looks for leaks in the usual end.
+/// Sanitizers look around in the usual end.
 int end_at_once(int code) {
-#ifndef __SANITIZE_ADDRESS__
-    std::cout.flush();
+    if (!std::cout.flush() || std::fflush(stdout) != 0) {
+        say_error("the output cannot be written: is the disk full?");
+        code = 3;
+    }
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
     std::fflush(nullptr);
     std::_Exit(code);
 #endif
@@ -210,8 +214,8 @@ int main(int argc, char** argv) {
     keep_freed_memory();
     const std::vector<std::string_view> words(argv + std::min(argc, 1), argv + argc);
     const auto parse = [&](const std::vector<EndedPoint>& ended) {
-        return exit_code_of(argc, argv, [&] { return parse_and_run(argc, argv, ended); });
+        return end_at_once(exit_code_of(argc, argv, [&] { return parse_and_run(argc, argv, ended); }));
     };
-    if (runs_no_shader(words)) return end_at_once(parse({}));
+    if (runs_no_shader(words)) return parse({});
     return end_at_once(exit_code_of(argc, argv, [&] { return supervised(parse, words.front() == "run"); }));
 }

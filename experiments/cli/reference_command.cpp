@@ -1,6 +1,7 @@
 // The commands that need no Vulkan device: reference, compare.
 #include "core/cache_folder.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "core/gbuffer/scene_facts.h"
 #include "core/number_text.h"
 #include "core/png.h"
@@ -78,7 +79,7 @@ void print_ladder(const LadderSummary& ladder) {
 }  // namespace
 
 static void reference_command(const ReferenceCommandOptions& options, const CommonOptions& common) {
-    if (options.out.extension() == ".png")
+    if (lower_case_extension(options.out) == ".png")
         fail("--out ", options.out,
              ": a reference is an EXR file; name FILE.exr, and a PNG of the image is written beside it");
     const Shot shot = load_single_shot(options.shot, common);

@@ -7,7 +7,10 @@
 
 namespace {
 
-bool is_option(const std::string& word) { return word.size() > 1 && word.front() == '-'; }
+/// "-1" is a number.
+bool is_option(const std::string& word) {
+    return word.size() > 1 && word[0] == '-' && !(word[1] >= '0' && word[1] <= '9') && word[1] != '.';
+}
 
 /// "CONFIG.json", "--out DIR": an argument or option as a usage line has it.
 std::string written(const CLI::Option& option) {
@@ -39,6 +42,14 @@ std::vector<std::string> arguments_where(const CLI::App& command, const std::fun
     return arguments;
 }
 
+/// Of an option with too few or too many values.
+std::string mismatch(const CLI::Option& option) {
+    const int least = option.get_items_expected_min(), most = option.get_items_expected_max();
+    if (least > 1) return "needs " + std::to_string(least) + " values: " + written(option);
+    if (int(option.count()) > most) return "was given more than once; give it once: " + written(option);
+    return "needs a value: " + written(option);
+}
+
 std::string mistake(const CLI::App& command, const CLI::ParseError& refusal) {
     const std::string name = command.get_parent() ? "`ssrlab " + command.get_name() + "`" : "`ssrlab`";
     const std::vector<std::string> left_over = command.remaining();
@@ -63,7 +74,7 @@ std::string mistake(const CLI::App& command, const CLI::ParseError& refusal) {
         const std::string what = refusal.what();
         for (const CLI::Option* option : command.get_options())
             if (what.starts_with(option->get_name() + ":"))
-                return "option '" + option->get_name() + "' needs a value: " + written(*option);
+                return "option '" + option->get_name() + "' " + mismatch(*option);
     }
     return refusal.what();
 }

@@ -14,16 +14,17 @@ class CommandLine(argparse.ArgumentParser):
     def __init__(self, **settings):
         super().__init__(allow_abbrev=False, **settings)
 
-    def parse_args(self, args=None, namespace=None):
-        words = sys.argv[1:] if args is None else args
-        if self._subparsers is None:  # before argparse asks for what is missing, which may be the option's value
-            for word in words[: words.index("--") if "--" in words else None]:
-                if word.startswith("--") and word.partition("=")[0] not in self._option_string_actions:
-                    self.error(self._unknown_option(word.partition("=")[0]))
-        arguments, left_over = self.parse_known_args(words, namespace)
+    def parse_known_args(self, args=None, namespace=None):
+        words = sys.argv[1:] if args is None else list(args)
+        if self._subparsers is not None:  # which are CommandLines themselves
+            return super().parse_known_args(words, namespace)
+        for word in words[: words.index("--") if "--" in words else None]:  # before argparse asks for what is missing
+            if word.startswith("--") and word.partition("=")[0] not in self._option_string_actions:
+                self.error(self._unknown_option(word.partition("=")[0]))
+        arguments, left_over = super().parse_known_args(words, namespace)
         if left_over:
             self.error(self._refusal_of(left_over))
-        return arguments
+        return arguments, []
 
     def _refusal_of(self, left_over):
         for word in left_over:

@@ -20,9 +20,9 @@ from pathlib import Path
 SSRLAB = Path(sys.argv[1]).resolve()
 BARE = re.compile(r"Traceback|terminate called|what\(\)|std::|basic_string|CLI::|json\.exception|Exception|Error:|a fault of ssrlab|core dumped")
 WAY_OUT = re.compile(
-    r"did you mean '[^']+'\?|known are: |names are: |there are none|it has |the table has |"  # names to choose from
+    r"did you mean '[^']+'\?|known are: |names are: |there are none|it has [^ ]+, |the table has |"  # names to choose from
     r"`(ssrlab|experiments/)[^`]+`|as in: ssrlab|as in '|see `|experiments/\S+\.md says|"  # a command to run
-    r"\b(must|choose|check|write|add|give|name|remove|install|takes)\b")  # what to change
+    r"\bmust |[;:,] (choose|check|write|add|give|name|remove|install) ")  # what to change
 BARE_TERMINAL = {"TERM": "xterm-256color"}
 EXITS = {"diff": {0, 1, 2, 3}}
 SCRIPTS = ("figures", "tables")
@@ -78,6 +78,7 @@ class SharpEdges(unittest.TestCase):
         page = self.run_words("--help")
         self.assertEqual(self.run_words().out, page.out)
         self.assertEqual(self.run_words("help").out, page.out)
+        self.assertEqual(self.run_words("help", "help").out, page.out)
         for command in self.commands:
             self.assertRegex(page.out, rf"(?m)^  {command} ", command)
         self.assertEqual(self.run_words("help", "run").out, self.run_words("run", "--help").out)
@@ -113,6 +114,9 @@ class SharpEdges(unittest.TestCase):
         self.refused("figures", "o", "--chioce", "c.json", says="did you mean '--choice'?")
         self.refused("--versoin", says="did you mean '--version'?")
         self.refused("run", "study.json", "--out", says="'--out' needs a value: --out DIR")
+        self.refused("plan", "study.json", "--json", "a", "--json", "b", says="'--json' was given more than once")
+        self.refused("gbuffer", "fence", "--size", "480", says="'--size' needs 2 values: --size")
+        self.refused("help", "run", "plan", says="`ssrlab help` takes one command")
 
     def test_misspelt_names(self):
         for words, says in {
@@ -177,6 +181,18 @@ class SharpEdges(unittest.TestCase):
             self.check(ran, (2,))
             self.assertIn(says, ran.err, str(ran))
             self.assertRegex(ran.err, r"error: wrong\.json:\d+:\d+: ", str(ran))
+
+    def test_an_included_study_is_found_beside_its_results(self):
+        (self.folder / "quickstart").mkdir()
+        self.check(self.run_words("plan", "quickstart"), (0,))
+        self.refused("plan", "paper_figures", says="`ssrlab list studies` lists all")  # a choice of figures, no study
+
+    def test_output_that_is_lost_is_a_fault(self):
+        for words in (["list", "metrics"], ["needs", "fence", "--size", "8", "8"]):
+            with open("/dev/full", "w", encoding="utf-8") as full:
+                ran = subprocess.run([SSRLAB, *words], cwd=self.folder, env=self.environment, stdout=full, stderr=subprocess.PIPE, text=True)
+            self.assertEqual(ran.returncode, 3, words)
+            self.assertIn("the output cannot be written", ran.stderr)
 
     def test_results_lack_names(self):
         self.refused("tradeoff", "results", "--metric", "flop", says="specular flip all")
