@@ -243,7 +243,8 @@ TEST(Cvvdp, RefusesWhatItCannotCompare) {
     };
     says("20x21", [&] { score(image, noise({20, 21}, 1)); });
     says("three of a colour", [&] { score(HostImage({20, 20}, 4), HostImage({20, 20}, 4)); });
-    says("nits per unit = 0", [&] { CvvdpStills({20, 20}, {on("standard_4k").display, 0}); });
+    says("would be shown with 0 cd/m2", [&] { CvvdpStills({20, 20}, {on("standard_hdr_linear").display, 0}); });
+    EXPECT_NO_THROW(CvvdpStills({20, 20}, {on("standard_4k").display, 0})) << "codes have no radiance";
     says("at least two frames, but has 1", [&] { video_score({image}, {image}, 30, TemporalPadding::replicate); });
     says("need 9 frames before one can be scored, but there are 2", [&] {
         video_score({image, image}, {image, image}, 30, TemporalPadding::warm_up);

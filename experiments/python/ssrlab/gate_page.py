@@ -58,10 +58,10 @@ def table(defects):
 def filled(text, found):
     """The page with these tables, each between its markers."""
     for technique, defects in found.items():
-        begin, end = f"<!-- table of {technique} -->\n\n", "\n\n<!-- end of table -->"
+        begin, end = f"<!-- gate table {technique} -->\n\n", "\n\n<!-- end of table -->"
         text, places = re.subn(re.escape(begin) + ".*?" + re.escape(end), lambda _: begin + table(defects) + end, text, flags=re.DOTALL)
         if places != 1:
-            raise ResultsError(f"{PAGE}: {places} places are marked for the table of {technique}, and 1 is needed")
+            raise ResultsError(f"{PAGE}: {places} places are marked for the gate table of {technique}, and 1 is needed")
     return text
 
 

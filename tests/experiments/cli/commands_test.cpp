@@ -38,10 +38,12 @@ TEST_F(CommandLine, ComparesVisibility) {
     const Outcome video =
         ssrlab("compare r_#.exr t_#.exr --metric cvvdp_0_5_6 --display standard_fhd --fps 30 --padding symmetric");
     EXPECT_EQ(video.code, 0);
-    EXPECT_TRUE(
-        std::regex_match(video.text, std::regex(R"(cvvdp_0_5_6 [0-9.]+ \(standard_fhd, 37\.8425 pixels per degree, 30 )"
-                                                R"(frames per second, padding symmetric, 2 frames pooled, version )"
-                                                R"(0\.5\.6\)\n)")))
+    EXPECT_TRUE(std::regex_match(
+        video.text,
+        std::regex(
+            R"(cvvdp_0_5_6 [0-9.]+ \(standard_fhd, exposure 0 EV, tone map none, 37\.8425 pixels per degree, 30 )"
+            R"(frames per second, padding symmetric, 2 frames pooled, version )"
+            R"(0\.5\.6\)\n)")))
         << video.text;
     EXPECT_EQ(ssrlab("compare r_0.exr r_0.exr --metric cvvdp_0_5_6").text.substr(0, 15), "cvvdp_0_5_6 10 ");
 

@@ -92,7 +92,7 @@ TEST(JudgedSequences, TheReferencesNoiseIsPartOfGhosts) {
     of_before.point = "before";
     EXPECT_EQ(verdict_on(ghosts({0.12}, {0.1}, 1, {of_now, of_before})), judgement::worse)
         << "no noise is left of the difference";
-    for (size_t g = 0; g < noise_groups; ++g) of_now.sums[g] = g % 2 ? 0.01f : -0.01f;  // a standard error of 0.16
+    for (size_t g = 0; g < noise_groups; ++g) of_now.sums[g] = g % 2 ? 0.0025f : -0.0025f;  // a standard error of 0.04
     EXPECT_EQ(verdict_on(ghosts({0.12}, {0.1}, 1, {of_now, of_before})), judgement::undecided);
     of_before.sums = of_now.sums;
     EXPECT_EQ(verdict_on(ghosts({0.12}, {0.1}, 1, {of_now, of_before})), judgement::worse) << "common noise cancels";

@@ -40,9 +40,10 @@ TEST(VerdictText, NamesWhatGotWorseAndWhereFirst) {
     EXPECT_EQ(text.rules[0],
               "An error of these frames is worse if it is certainly more than 1.05 times that of the earlier frames.");
     EXPECT_EQ(text.rules[1], "An error is equivalent if it certainly changed by less than 5 %.");
-    EXPECT_EQ(text.rules[2],
-              "A share of ghosts is worse if it certainly rose by more than 0.05 times the earlier share, or times 0.05 "
-              "if that is more. It is equivalent if it certainly changed by less than 0.05 or than that.");
+    EXPECT_EQ(
+        text.rules[2],
+        "A share of ghosts is worse if it certainly rose by more than 0.05 times the earlier share, or times 0.05 "
+        "if that is more. It is equivalent if it certainly changed by less than 0.05 or than that.");
     ASSERT_EQ(text.numbers.size(), 3u);
     EXPECT_EQ(
         text.numbers[0],
