@@ -29,6 +29,11 @@ const std::vector<TemporalMetric>& temporal_metrics() {
          "truth's change"},
         {"settling_length", "squared_error_step_0.05", "frames", lower,
          "Frames after a change until the squared error is within 5 % of its first step above its final level"},
+        {"cvvdp_0_5_6_video", "colorvideovdp_0.5.6_video", "JOD", higher,
+         "As cvvdp_0_5_6, of the frames as a video at the scene's frame rate: it also sees flicker, ghosts and lag. "
+         "The "
+         "target is the image, in which all light but the reflections is the truth's",
+         "", 10},
     };
     return table;
 }

@@ -19,7 +19,8 @@ struct TemporalMetric {
 };
 
 /// flicker, flicker_relative, flicker_correlation (flicker.h); frame_difference, frame_difference_relative
-/// (frame_difference.h); ghost_share (ghost_share.h); ghost_length, settling_length (ghost.h).
+/// (frame_difference.h); ghost_share (ghost_share.h); ghost_length, settling_length (ghost.h); cvvdp_0_5_6_video
+/// (video_jod.h).
 const std::vector<TemporalMetric>& temporal_metrics();
 
 /// Fails on an unknown name, with the nearest known one.

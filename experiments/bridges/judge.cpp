@@ -100,7 +100,7 @@ Config study_of(const JudgeSettings& settings, const std::string& engine) {
     json study = {{"title", engine},
                   {"shots", shots_of(settings)},
                   {"techniques", techniques},
-                  {"metrics", {"mse", "flip", "relmse"}},
+                  {"metrics", {"mse", "flip", "relmse", "cvvdp_0_5_6"}},
                   {"masks", {"all", "reflective", "edge", "roughness_0_0.1", "roughness_0.1_0.3", "roughness_0.3_0.6"}},
                   {"targets", {"specular", "image"}},
                   {"primary", {{"margin", settings.limits.margin}}},

@@ -46,6 +46,7 @@ struct JudgedFrames {
 };
 
 /// Measures a renderer's frames in all views of their folder, by a study in settings.run.out whose report has masks,
-/// maps and numbers. The verdict is of the error, and of flicker and ghosts where a view has several frames.
+/// maps and numbers. The verdict is of the error, and of flicker, ghosts and visibility where a view has several
+/// frames.
 /// verdict.json holds it, and the page begins with it. Fails with Error if a view cannot be found or compared.
 JudgedFrames judge_frames(const JudgeSettings& settings);

@@ -62,7 +62,7 @@ void add_judge(Commands& line) {
         "judge",
         "Judge frames of another renderer by the truth, and compare them with earlier frames of that renderer. The "
         "verdict is better, worse, equivalent, undecided or identical. It is of the error, and of sequences also of "
-        "flicker and ghosts. At most 1 % of runs without a change are called worse or better",
+        "flicker, ghosts and visibility. At most 1 % of runs without a change are called worse or better",
         "ssrlab judge my_frames");
     option(command, "frames FRAMES", judge.frames,
            "Folder with external.json and SCENE.CAMERA.WIDTHxHEIGHT/fFRAME.sSEED.exr, as `experiments/docs/judge.md` "

@@ -84,16 +84,26 @@ CvvdpVideo::CvvdpVideo(glm::uvec2 extent, const Viewing& viewing, double frames_
     check(viewing);
 }
 
-void CvvdpVideo::add(const HostImage& reference, const HostImage& test) {
+void CvvdpVideo::remember(const HostImage& reference, const HostImage& test) {
     check(reference, test, extent_);
     const size_t slot = count_ % window();
     if (slot == window_.size()) window_.push_back(frame_channels(extent_, opponent_channels));
     score_.non_finite += to_opponent(reference, test, viewing_, window_[slot][1], window_[slot][0]);
     ++count_;
+}
+
+void CvvdpVideo::add(const HostImage& reference, const HostImage& test) {
+    remember(reference, test);
     if (count_ < window() && padding_ != TemporalPadding::replicate) return;
     // A mirrored start shows the second frame and later ones, so frames wait until the first window is full.
     const size_t first = count_ == window() && padding_ == TemporalPadding::symmetric ? 0 : count_ - 1;
-    for (size_t frame = first; frame < count_; ++frame) pool(frame);
+    for (size_t frame = std::max(first, earlier_); frame < count_; ++frame) pool(frame);
+}
+
+void CvvdpVideo::add_earlier(const HostImage& reference, const HostImage& test) {
+    if (count_ > earlier_) fail("earlier frames of a video must be added before those that are scored");
+    remember(reference, test);
+    ++earlier_;
 }
 
 /// The frame that is seen at a time, which may be before the first.
@@ -131,7 +141,7 @@ CvvdpScore CvvdpVideo::score() {
         fail("the filters over time need ", window(), " frames before one can be scored, but there are ", count_,
              ": give more frames, or choose another padding");
     if (count_ < window() && padding_ == TemporalPadding::symmetric && score_.frames.empty())
-        for (size_t frame = 0; frame < count_; ++frame) pool(frame);
+        for (size_t frame = earlier_; frame < count_; ++frame) pool(frame);
     score_.jod = jod(pooled_difference(score_.frames, cvvdp_channels, false, calibration_), calibration_);
     for (double& v : score_.map.values) v /= double(score_.frames.size());
     return std::move(score_);

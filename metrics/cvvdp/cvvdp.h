@@ -63,6 +63,9 @@ public:
     /// The next frame of both; see CvvdpStills::score().
     void add(const HostImage& reference, const HostImage& test);
 
+    /// A frame before the first that is scored: the filters see it. Fails with Error after add().
+    void add_earlier(const HostImage& reference, const HostImage& test);
+
     /// The score of all frames. Fails with Error below two frames, or below a full window with
     /// TemporalPadding::warm_up.
     CvvdpScore score();
@@ -75,6 +78,7 @@ public:
         on_frame;
 
 private:
+    void remember(const HostImage& reference, const HostImage& test);
     void pool(size_t frame);
     size_t shown_at(int64_t frame) const;
 
@@ -87,6 +91,6 @@ private:
     FrameComparison comparison_;
     std::vector<FrameChannels> window_;  ///< opponent channels, [frame modulo window]
     FrameChannels channels_;
-    size_t count_ = 0;
+    size_t count_ = 0, earlier_ = 0;  ///< frames, and those before the first that is scored
     CvvdpScore score_;
 };

@@ -13,7 +13,7 @@ import {pointListeners} from "../sections/parts.js";
 import {answerChoice, answerOf, chosenPoint} from "../study/answers.js";
 import {chipKinds, howEstimated, timedOn, timesOf, totalTime} from "../study/costs.js";
 import {manifestShots, ofShot, pointKey, pointLabel, report, shortShot} from "../study/data.js";
-import {headline, headlineMetrics, headlineRows} from "../study/errors.js";
+import {headline, headlineMetrics, headlineRows, jodMetric} from "../study/errors.js";
 import {allPoints} from "../study/points.js";
 import {interval, number, percent, preferred, unique} from "../values.js";
 import {addressedView} from "../viewer/keep.js";
@@ -97,7 +97,8 @@ function answerInShort(shot) {
 export function drawAnswerCharts() {
     const {shot} = answerChoice, metrics = headlineMetrics();
     const size = {width: metrics.length > 1 ? 420 : 840, height: 320, open: choosePoint};
-    const charts = metrics.map(metric => errorTimeChart(shot, headlineRows(shot, metric), size)).filter(Boolean);
+    const rows = [...metrics.map(metric => headlineRows(shot, metric)), headlineRows(shot, jodMetric(), "image")];
+    const charts = rows.map(ofMetric => errorTimeChart(shot, ofMetric, size)).filter(Boolean);
     at("answer-charts").replaceChildren(...(metrics.length ? charts : [timeTable(shot)]));
     drawBudget(shot);
     markChosenPoint();
@@ -111,7 +112,7 @@ export function drawAnswerCharts() {
 
 /// How the charts are read.
 const chartNote = shot => (timesOf(shot).length || costAxis.kind !== "time" ? "Lower left is better. Dashed steps join the least errors within each time. " :
-                                                  "Lower is better. ") +
+                                                  "Lower is better. ") + (jodMetric() ? "In JOD, higher is better. " : "") +
     (costAxis.kind in chipKinds ? `Times are estimates. ${howEstimated()} ` : "") +
     "[a, b] and lines at marks are 95 % intervals.";
 

@@ -18,6 +18,7 @@ const temporalTables = [
         metrics: ["frame_difference", "frame_difference_relative", "ghost_share"],
         hasDisoccluded: true
     },
+    {title: "As seen: distance from the truth as a video", metrics: ["cvvdp_0_5_6_video"]},
     {title: "After a change: ghosts", metrics: ["ghost_length", "settling_length"]}
 ];
 const temporalChoice = {}, frameChoice = {};
@@ -38,14 +39,18 @@ export function showTemporal() {
 
 function showTemporalTables(rows) {
     const tables = h("div", {id: "temporal-tables"});
-    const draw = () => tables.replaceChildren(
-        ...temporalTables.flatMap(t => temporalTable(t, rows.filter(r => r.mask === temporalChoice.mask))));
-    at("temporal").append(h("div", {class: "controls"}, choiceBoxes(temporalChoice, ["mask"], rows, draw)), tables);
+    const ofMasks = rows.filter(r => !isOfWholeImage(r));
+    const draw = () => tables.replaceChildren(...temporalTables.flatMap(
+        t => temporalTable(t, rows.filter(r => r.mask === temporalChoice.mask || isOfWholeImage(r)))));
+    at("temporal").append(h("div", {class: "controls"}, choiceBoxes(temporalChoice, ["mask"], ofMasks, draw)), tables);
     drawnPart(tables, draw);
 }
 
 const isDisoccluded = r =>
     r.mask === "disoccluded" && r.target === "specular" && r.metric === "relmse" && !isSingleChange(r);
+
+/// Bands of frequencies reach over the whole image, whatever mask is chosen.
+const isOfWholeImage = r => r.metric === "cvvdp_0_5_6_video";
 
 /// One row per shot and point that has such values.
 function temporalTable({title, metrics, hasDisoccluded}, all) {

@@ -68,8 +68,8 @@ export function againstNone(row, rows) {
 }
 
 /// Rows of the shot of the headline's target and mask, by the name of a metric.
-export const headlineRows = (shot, metric) => {
-    const {target, mask} = headline;
+export const headlineRows = (shot, metric, target = headline.target) => {
+    const {mask} = headline;
     const of = ofShot(report.errors, shot).filter(r => r.metric === metric && r.value !== null);
     const narrow = (rows, key, wanted) => rows.filter(r => r[key] === preferred(unique(rows.map(r => r[key])), wanted));
     return narrow(narrow(of, "target", target), "mask", mask);
@@ -81,5 +81,9 @@ export const headlineMetrics = () => {
     const first = headlineMetric(report.errors);
     return [first, otherMetric(first, report.errors)].filter(Boolean).map(key => key.split("|")[0]);
 };
+
+/// The metric of visibility in JOD, of sequences if there are any; undefined if the study has none.
+export const jodMetric = () => ["cvvdp_0_5_6_video", "cvvdp_0_5_6"].find(
+    metric => report.errors.some(r => r.metric === metric && r.value !== null));
 
 export const rowText = row => `${row.metric} ${number(row.value)} ${interval(row)}${unitText(row.metric)}`;

@@ -20,7 +20,7 @@ COUNTS = ROOT / "tests/experiments/bridges/gate_study/gate.csv"
 PAGE = ROOT / "experiments/docs/gate.md"
 PICTURE = ROOT / "experiments/docs/pictures/gate.svg"
 COLUMNS = {  # of the counts, with their names on the page
-    "worse": "worse", "worse_error": "error", "worse_flicker": "flicker", "worse_ghosts": "ghosts", "better": "better",
+    "worse": "worse", "worse_error": "error", "worse_flicker": "flicker", "worse_ghosts": "ghosts", "worse_visibility": "visibility", "better": "better",
     "worse_tolerance": "worse, `--worse-by 1.05`",
 }  # fmt: skip
 WITH_INTERVAL = ("worse", "worse_tolerance")

@@ -14,5 +14,6 @@ Judgement judge_rows(const MeasuredRows& rows, const std::vector<ComparedPoint>&
     const auto add = [&](std::vector<Evidence> more) { std::ranges::move(more, std::back_inserter(evidence)); };
     add(evidence_of_flicker(effects, rows.results, primary, point, against, limits));
     add(evidence_of_ghosts(rows.results, rows.reference_noise, primary.mask, point, against, limits));
+    add(evidence_of_visibility(rows.results, rows.reference_noise, point, against, limits));
     return judge(evidence);
 }

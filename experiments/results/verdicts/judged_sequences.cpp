@@ -1,6 +1,7 @@
 #include "experiments/results/verdicts/judged_sequences.h"
 
 #include "experiments/results/verdicts/power.h"
+#include "metrics/direction.h"
 #include "metrics/statistics/quantiles.h"
 
 #include <algorithm>
@@ -49,9 +50,9 @@ std::optional<double> value_of(const BySeed& side, unsigned seed) {
 }
 
 const std::vector<float>* noise_sums(std::span<const ReferenceNoise> noise, const std::string& shot,
-                                     const std::string& mask, const PointName& point) {
+                                     const std::string& metric, const std::string& mask, const PointName& point) {
     for (const ReferenceNoise& n : noise)
-        if (n.shot == shot && PointName(n.technique, n.point) == point && n.metric == "ghost_share" && n.mask == mask)
+        if (n.shot == shot && PointName(n.technique, n.point) == point && n.metric == metric && n.mask == mask)
             return &n.sums;
     return nullptr;
 }
@@ -67,7 +68,7 @@ struct Difference {
     }
 };
 
-/// Shares of ghosts of common seeds, and of the groups of the reference's noise.
+/// Shares of ghosts, or distances in JOD: of common seeds, and of the groups of the reference's noise.
 struct Shares {
     std::vector<double> now, before;
     std::vector<float> noise_now, noise_before;
@@ -96,29 +97,47 @@ struct Shares {
     }
 };
 
-Evidence evidence_of(const std::string& shot, const Shares& shares, const JudgeLimits& limits) {
-    const double before = shares.mean_before(), more = limits.worse_by - 1;
-    const bool is_ghost = std::abs(before) >= visible_ghost;
+/// Of the seeds that both sides have.
+Shares shares_of(const BothSides& sides) {
+    Shares shares;
+    for (const auto& [seed, value] : sides.now.size() == 1 ? sides.before : sides.now)
+        if (const auto now = value_of(sides.now, seed), before = value_of(sides.before, seed); now && before)
+            shares.now.push_back(*now), shares.before.push_back(*before);
+    return shares;
+}
+
+/// What Shares are of.
+struct Judged {
+    const char* what;        ///< judged_number::
+    double visible;          ///< the least share that counts
+    bool has_nothing_below;  ///< shares below 0 are no ghosts; distances never are below 0
+};
+
+Evidence evidence_of(const std::string& shot, const Judged& judged, const Shares& shares, const JudgeLimits& limits) {
+    const double before = shares.mean_before(), more = limits.worse_by - 1, visible = judged.visible;
+    const bool is_visible = std::abs(before) >= visible;
     const Difference change = shares.difference(1, 1);
-    const Difference beyond = is_ghost ? shares.difference(1, before > 0 ? 1 + more : 1 - more)
-                                       : shares.difference(1, 1, more * visible_ghost);
-    const double allowed = more * std::max(std::abs(before), visible_ghost);
+    const Difference beyond =
+        is_visible ? shares.difference(1, before > 0 ? 1 + more : 1 - more) : shares.difference(1, 1, more * visible);
+    const double allowed = more * std::max(std::abs(before), visible);
     const Difference less = {-change.value, change.standard_error, change.degrees};
-    // A share below 0 is no ghost: more is worse where it is above 0, and less is better where it was above 0.
-    const double p_worse = std::max(beyond.p_above(), shares.difference(1, 0).p_above()),
-                 p_better = std::max(less.p_above(), shares.difference(0, -1).p_above());
+    double p_worse = beyond.p_above(), p_better = less.p_above();
+    if (judged.has_nothing_below) {  // more is worse where it is above 0, and less is better where it was above 0
+        p_worse = std::max(p_worse, shares.difference(1, 0).p_above());
+        p_better = std::max(p_better, shares.difference(0, -1).p_above());
+    }
     const double half_width =
         change.standard_error > 0 ? student_t_quantile(0.975, change.degrees) * change.standard_error : 0;
     return {
         .shot = shot,
-        .what = judged_number::ghosts,
+        .what = judged.what,
         .change = change.value,
         .low = change.value - half_width,
         .high = change.value + half_width,
         .no_change = 0,
         .p_different = std::min(1.0, 2 * std::min(p_worse, p_better)),
         .p_equivalent =
-            p_beyond_limits(change.value, std::max(visible_ghost, allowed), change.standard_error, change.degrees),
+            p_beyond_limits(change.value, std::max(visible, allowed), change.standard_error, change.degrees),
         .detectable = allowed + (beyond.standard_error > 0
                                      ? effects_seen(beyond.degrees, judge_significance, 0.95) * beyond.standard_error
                                      : 0)};
@@ -157,14 +176,29 @@ std::vector<Evidence> evidence_of_ghosts(std::span<const ResultRow> rows, std::s
                                          const JudgeLimits& limits) {
     std::vector<Evidence> evidence;
     for (const auto& [shot, sides] : values_over_frames(rows, "ghost_share", mask, point, against)) {
-        Shares shares;
-        for (const auto& [seed, value] : sides.now.size() == 1 ? sides.before : sides.now)
-            if (const auto now = value_of(sides.now, seed), before = value_of(sides.before, seed); now && before)
-                shares.now.push_back(*now), shares.before.push_back(*before);
+        Shares shares = shares_of(sides);
         if (shares.now.empty()) continue;
-        const auto *own = noise_sums(noise, shot, mask, point), *other = noise_sums(noise, shot, mask, against);
+        const auto *own = noise_sums(noise, shot, "ghost_share", mask, point),
+                   *other = noise_sums(noise, shot, "ghost_share", mask, against);
         if (own && other) shares.noise_now = *own, shares.noise_before = *other;
-        evidence.push_back(evidence_of(shot, shares, limits));
+        evidence.push_back(evidence_of(shot, {judged_number::ghosts, visible_ghost, true}, shares, limits));
+    }
+    return evidence;
+}
+
+std::vector<Evidence> evidence_of_visibility(std::span<const ResultRow> rows, std::span<const ReferenceNoise> noise,
+                                             const PointName& point, const PointName& against,
+                                             const JudgeLimits& limits) {
+    std::vector<Evidence> evidence;
+    for (const auto& [shot, sides] : values_over_frames(rows, "cvvdp_0_5_6_video", "all", point, against)) {
+        Shares shares = shares_of(sides);
+        const auto *own = noise_sums(noise, shot, "cvvdp_0_5_6_video", "all", point),
+                   *other = noise_sums(noise, shot, "cvvdp_0_5_6_video", "all", against);
+        if (shares.now.empty() || !own || !other) continue;
+        shares.noise_now = *own, shares.noise_before = *other;
+        for (std::vector<double>* side : {&shares.now, &shares.before})
+            for (double& jod : *side) jod = greatest_value("cvvdp_0_5_6_video") - jod;
+        evidence.push_back(evidence_of(shot, {judged_number::visibility, visible_jod, false}, shares, limits));
     }
     return evidence;
 }

@@ -19,19 +19,20 @@ inline constexpr const char* identical = "identical";  ///< the same bytes, so n
 /// Significance of each verdict over all views: builds are judged daily, and each false alarm costs a morning.
 inline constexpr double judge_significance = 0.01;
 
-/// What can get worse. A perceptual quality (JOD) would be one more name, with a function that returns its evidence.
+/// What can get worse.
 namespace judged_number {
-inline constexpr const char* error = "error";      ///< the primary error of each view
-inline constexpr const char* flicker = "flicker";  ///< of sequences, see judged_sequences.h
-inline constexpr const char* ghosts = "ghosts";    ///< likewise
+inline constexpr const char* error = "error";            ///< the primary error of each view
+inline constexpr const char* flicker = "flicker";        ///< of sequences, see judged_sequences.h
+inline constexpr const char* ghosts = "ghosts";          ///< likewise
+inline constexpr const char* visibility = "visibility";  ///< of differences from the truth, likewise
 }  // namespace judged_number
 
 /// What the measurement says of one number of one shot, before anything is decided.
 struct Evidence {
     std::string shot, what;                    ///< judged_number::
     double change = 1, low = 1, high = 1;      ///< number / that of the earlier frames, with its 95 % interval;
-                                               ///< ghosts: share less that of the earlier frames
-    double no_change = 1;                      ///< 1; ghosts: 0
+                                               ///< ghosts, visibility: share or JOD less that of those
+    double no_change = 1;                      ///< 1; ghosts, visibility: 0
     double p_different = 1, p_equivalent = 1;  ///< of "not worse by the tolerance, nor better"; of "not equivalent"
     double detectable = 1;                     ///< the change that 95 % of such comparisons alone would call worse
     std::string no_interval = {};              ///< why `low`, `high` and `detectable` are not known; else empty

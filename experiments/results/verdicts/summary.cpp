@@ -46,7 +46,7 @@ bool is_one_sided(const ResultRow* row) { return row->low.has_value() != row->hi
 /// Flicker and ghosts are of the pixels of one sequence: their rows' intervals are those of the choice of pixels.
 bool is_of_pixels(const std::string& metric) {
     return std::ranges::count(temporal_metrics(), metric, &TemporalMetric::name) > 0 &&
-           !metric.starts_with("frame_difference");
+           !metric.starts_with("frame_difference") && metric != "cvvdp_0_5_6_video";
 }
 
 /// Whether the interval of a row comes from the noise of its pixels, which it lacks only where that is not trusted

@@ -25,7 +25,8 @@ std::filesystem::path file_in(const std::filesystem::path& folder) { return path
 std::string judged_metric(const JudgedView& view, const PrimaryComparisons& primary) {
     return view.what == judged_number::error     ? primary.metric
            : view.what == judged_number::flicker ? "frame_difference"
-                                                 : "ghost_share";
+           : view.what == judged_number::ghosts  ? "ghost_share"
+                                                 : "cvvdp_0_5_6_video";
 }
 
 std::string change_text(const JudgedView& view) {
@@ -35,18 +36,20 @@ std::string change_text(const JudgedView& view) {
 std::string sentence_on(const JudgedView& view, const PrimaryComparisons& primary, const std::string& before) {
     const std::string start = view.shot + ": " + view.what + " (" + judged_metric(view, primary) + ") ";
     if (!view.no_interval.empty()) return start + view.verdict + ", " + view.no_interval;
-    const bool is_share = view.what == judged_number::ghosts;
-    const std::string end =
-        ": " + view.verdict + " (p " + number_text(view.p_holm, 2) + "; " + number_text(view.detectable, 3);
-    return is_share
-               ? start + change_text(view) + " more than in " + before + end + " more would be seen in 95 % of runs)"
-               : start + change_text(view) + " times that of " + before + end + " times would be seen in 95 % of runs)";
+    const bool is_ratio = view.no_change == 1;
+    const std::string more = is_ratio                                 ? " times"
+                             : view.what == judged_number::visibility ? " JOD further from the truth"
+                                                                      : " more";
+    return start + change_text(view) + more + (is_ratio ? " that of " : " than in ") + before + ": " + view.verdict +
+           " (p " + number_text(view.p_holm, 2) + "; " + number_text(view.detectable, 3) + more +
+           " would be seen in 95 % of runs)";
 }
 
 /// "error in A and B; flicker in A": what has the verdict of the whole.
 std::string where_text(const Judgement& judged) {
     Lines parts;
-    for (const char* what : {judged_number::error, judged_number::flicker, judged_number::ghosts}) {
+    for (const char* what :
+         {judged_number::error, judged_number::flicker, judged_number::ghosts, judged_number::visibility}) {
         Lines shots;
         for (const JudgedView& view : judged.views)
             if (view.what == what && view.verdict == judged.verdict) shots.push_back(view.shot);
@@ -55,24 +58,33 @@ std::string where_text(const Judgement& judged) {
     return joined(parts, "; ");
 }
 
+/// Of a number whose differences are judged: `rose` and `earlier` in words, and the least difference that counts.
+std::string rule_of_differences(const std::string& rose, const std::string& earlier, double visible,
+                                const std::string& unit, const JudgeLimits& limits) {
+    const bool has_tolerance = limits.worse_by > 1;
+    return rose +
+           (has_tolerance ? " by more than " + number_text(limits.worse_by - 1) + " times " + earlier + ", or times " +
+                                number_text(visible) + unit + " if that is more"
+                          : "") +
+           ". It is equivalent if it certainly changed by less than " + number_text(visible) + unit +
+           (has_tolerance ? " or than that" : "") + ".";
+}
+
 Lines rules_of(const Judgement& judged, const JudgeLimits& limits) {
-    const bool has_tolerance = limits.worse_by > 1,
-               has_ghosts = std::ranges::count(judged.views, judged_number::ghosts, &JudgedView::what) > 0,
-               has_flicker = std::ranges::count(judged.views, judged_number::flicker, &JudgedView::what) > 0;
-    const std::string what = has_flicker ? "Error or flicker" : "An error";
+    const auto has = [&](const char* what) { return std::ranges::count(judged.views, what, &JudgedView::what) > 0; };
+    const std::string what = has(judged_number::flicker) ? "Error or flicker" : "An error";
     Lines rules = {what + " of these frames is worse if it is certainly more than " +
-                       (has_tolerance ? number_text(limits.worse_by) + " times that" : "that") +
+                       (limits.worse_by > 1 ? number_text(limits.worse_by) + " times that" : "that") +
                        " of the earlier frames.",
                    what + " is equivalent if it certainly changed by less than " +
                        percent_text(limits.most_equivalent() - 1) + "."};
-    if (has_ghosts)
-        rules.push_back("A share of ghosts is worse if it certainly rose" +
-                        (has_tolerance ? " by more than " + number_text(limits.worse_by - 1) +
-                                             " times the earlier share, or times " + number_text(visible_ghost) +
-                                             " if that is more"
-                                       : "") +
-                        ". It is equivalent if it certainly changed by less than " + number_text(visible_ghost) +
-                        (has_tolerance ? " or than that" : "") + ".");
+    if (has(judged_number::ghosts))
+        rules.push_back(rule_of_differences("A share of ghosts is worse if it certainly rose", "the earlier share",
+                                            visible_ghost, "", limits));
+    if (has(judged_number::visibility))
+        rules.push_back(rule_of_differences(
+            "Visibility is worse if the distance from the truth, 10 less cvvdp_0_5_6_video, certainly rose",
+            "the earlier distance", visible_jod, " JOD", limits));
     rules.push_back(counted(judged.views.size(), "number") + " of all views " +
                     (judged.views.size() == 1 ? "is" : "are") + " judged together: at most " +
                     percent_text(judge_significance) + " of runs without a change are called worse or better.");

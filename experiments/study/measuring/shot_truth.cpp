@@ -48,6 +48,15 @@ bool measures_difference(const Shot& shot, const FrameStep& step) {
            step.frame > std::max(shot.config.frames.front(), shot.config.measure_from);
 }
 
+bool measures_video(const Shot& shot, const Config& config) {
+    const auto names_it = [](const std::vector<std::string>& metrics) {
+        return std::ranges::count(metrics, std::string("cvvdp_0_5_6")) > 0;
+    };
+    const bool has_several =
+        shot.config.repeat > 1 || (shot.config.frames.size() > 1 && !shot.config.measures_last_only);
+    return has_several && (names_it(config.metrics) || names_it(config.frame_metrics));
+}
+
 bool is_after_change(const Shot& shot, const FrameStep& step) {
     return shot.config.change && step.frame >= *shot.config.change;
 }

@@ -57,9 +57,28 @@ void PointErrors::measure_in_passing(SeedErrors& seed, const PoseTruth& truth, c
     add_swapped_errors(noise_, over_frames, "specular", *truth.frame_reference, specular, masks);
 }
 
+/// Frames before the first measured one are what the eye saw earlier, as far back as their truth is known.
+void PointErrors::add_to_video(SeedErrors& seed, const FrameStep& step, const HostImage& specular) const {
+    const Shot& shot = point_.shot;
+    const auto pose = point_.truth.poses.find(step.frame);
+    if (pose == point_.truth.poses.end() || !pose->second->frame_reference) {
+        seed.video.reset();
+        return;
+    }
+    const HostImage& direct = pose->second->direct;
+    const MetricReference& reference = *pose->second->frame_reference;
+    if (!seed.video) seed.video.emplace(direct.extent, reference.settings, shot.scene.frame_rate);
+    const auto image = [&](const HostImage& reflections) { return sum(direct, reflections); };
+    seed.video->add(image(specular),
+                    {image(reference.image), image(reference.halves ? reference.halves->a : reference.image),
+                     image(reference.halves ? reference.halves->b : reference.image)},
+                    !step.is_warm_up && step.frame >= shot.config.measure_from);
+}
+
 void PointErrors::add(SeedErrors& seed, const FrameStep& step, const CompositedImages& images) {
     const HostImage before = std::exchange(seed.before, images.specular);
     if (step.is_held) seed.held.add(images.specular);
+    if (measures_video(point_.shot, point_.config)) add_to_video(seed, step, images.specular);
     if (is_after_change(point_.shot, step)) seed.after_change.push_back(images.specular);
     const FrameTruth* truth = point_.truth.frame(step);
     if (!truth) return;
@@ -77,12 +96,13 @@ void PointErrors::add(SeedErrors& seed, const FrameStep& step, const CompositedI
     if (point_.is_last(step)) measure_last(*truth, images, row, masks);
 }
 
-/// Rows of temporal metrics, which are of `specular` over several frames.
-void PointErrors::add_temporal_rows(unsigned seed, const std::vector<TemporalScore>& scores) {
+/// Rows of temporal metrics, which are over several frames.
+void PointErrors::add_temporal_rows(unsigned seed, const std::vector<TemporalScore>& scores,
+                                    const std::string& target) {
     for (const TemporalScore& s : scores) {
         if (s.pixels + s.left_out == 0) continue;  // nothing of this scene lies under the mask
         ResultRow r = point_.row(over_frames, seed);
-        r.target = "specular", r.metric = s.metric->name, r.formula = s.formula, r.mask = s.mask;
+        r.target = target, r.metric = s.metric->name, r.formula = s.formula, r.mask = s.mask;
         const auto if_finite = [](std::optional<double> v) { return v && std::isfinite(*v) ? v : std::nullopt; };
         r.value = if_finite(s.value), r.uncorrected = s.uncorrected ? if_finite(s.uncorrected) : r.value,
         r.corrected = s.corrected;
@@ -106,9 +126,11 @@ void PointErrors::keep_noise(const SeedErrors& seed) {
     }
     for (const GhostShare::Sums& s : seed.ghosts.sums)
         if (seed.ghosts.has_halves && s.change > 0) keep("ghost_share", s.mask, s.noise(), s.change);
+    if (seed.video && !seed.video->noise().empty())
+        noise_[{"image", "cvvdp_0_5_6_video", "all", over_frames}].add(seed.video->noise());
 }
 
-void PointErrors::add_whole(const SeedErrors& seed) {
+void PointErrors::add_whole(SeedErrors& seed) {
     for (const ResultRow& r : seed.frame_rows)
         if (std::ranges::count(point_.config.frame_masks, r.mask) > 0 && !is_in_full_measure(r)) rows_.push_back(r);
     const std::vector<ResultRow> means = seed.means.rows();
@@ -123,8 +145,9 @@ void PointErrors::add_whole(const SeedErrors& seed) {
     if (!seed.difference.sums.empty()) {
         add_temporal_rows(seed.seed, seed.difference.scores());
         add_temporal_rows(seed.seed, seed.ghosts.scores());
-        keep_noise(seed);
     }
+    if (seed.video) add_temporal_rows(seed.seed, {seed.video->score()}, "image");
+    keep_noise(seed);
     if (!shot.config.change) return;
     const PoseTruth& before =
         *point_.truth.poses.at(*std::ranges::find(shot.steps, *shot.config.change, &FrameStep::frame)->previous_frame);

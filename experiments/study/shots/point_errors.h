@@ -6,6 +6,7 @@
 #include "metrics/flicker.h"
 #include "metrics/frame_difference.h"
 #include "metrics/ghost_share.h"
+#include "metrics/video_jod.h"
 
 #include <set>
 
@@ -17,6 +18,7 @@ struct SeedErrors {
     FlickerMoments held = {};
     FrameDifference difference = {};
     GhostShare ghosts = {};
+    std::optional<VideoJod> video = {};
     std::vector<HostImage> after_change = {};
     HostImage before = {};  ///< `specular` of the previous frame
 };
@@ -31,7 +33,7 @@ public:
     /// Adds one rendered frame, in the order of the shot's steps.
     void add(SeedErrors& seed, const FrameStep& step, const CompositedImages& images);
     /// Adds errors that need all frames of a seed.
-    void add_whole(const SeedErrors& seed);
+    void add_whole(SeedErrors& seed);
     /// Moves everything into the cell once all seeds are complete: rows, splits, the reference's noise, and notes about
     /// missing values.
     void move_to(Cell& cell);
@@ -43,7 +45,9 @@ private:
     void measure_in_passing(SeedErrors& seed, const PoseTruth& truth, const HostImage& specular,
                             std::span<const Mask> masks, const ResultRow& row);
     void keep_noise(const SeedErrors& seed);
-    void add_temporal_rows(unsigned seed, const std::vector<TemporalScore>& scores);
+    void add_to_video(SeedErrors& seed, const FrameStep& step, const HostImage& specular) const;
+    void add_temporal_rows(unsigned seed, const std::vector<TemporalScore>& scores,
+                           const std::string& target = "specular");
     std::vector<SplitRow> rows_of_splits() const;
     std::vector<std::string> notes() const;
     bool is_in_full_measure(const ResultRow& row) const;

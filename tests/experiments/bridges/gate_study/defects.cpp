@@ -1,5 +1,7 @@
 #include "tests/experiments/bridges/gate_study/defects.h"
 
+#include "core/number_text.h"
+
 #include <algorithm>
 #include <cmath>
 

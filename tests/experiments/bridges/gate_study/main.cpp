@@ -54,7 +54,7 @@ constexpr GateScene scenes[] = {{"moving_objects", "main"},     {"moving_emitter
 struct Counts {
     unsigned runs = 0;
     std::array<unsigned, 2> worse = {}, better = {};
-    unsigned error = 0, flicker = 0, ghosts = 0;  ///< worse without a tolerance
+    unsigned error = 0, flicker = 0, ghosts = 0, visibility = 0;  ///< worse without a tolerance
 };
 
 class Gate {
@@ -66,7 +66,7 @@ public:
             text, sizeof text,
             R"({"shots": [{"scene": "%s", "camera": "%s", "resolution": [%u, %u], "frames": [10, 11, 12, 13, 14, 15]}],
             "techniques": [{"technique": "none"}, {"technique": "%s", "seeds": %u}], "reference": {"samples": %u},
-            "metrics": "mse", "masks": ["all", "reflective", "disoccluded"], "targets": ["specular", "image"],
+            "metrics": ["mse", "cvvdp_0_5_6"], "masks": ["all", "reflective", "disoccluded"], "targets": ["specular", "image"],
             "timing": {"frames": 0}})",
             scene.scene, scene.camera, width, height, of.technique, of.pool, samples);
         write_text(folder_ / "study.json", text);
@@ -236,7 +236,8 @@ private:
                 const unsigned is_worse = view.verdict == judgement::worse;
                 (view.what == judged_number::error     ? counts.error
                  : view.what == judged_number::flicker ? counts.flicker
-                                                       : counts.ghosts) += is_worse;
+                 : view.what == judged_number::ghosts  ? counts.ghosts
+                                                       : counts.visibility) += is_worse;
             }
         }
     }
@@ -252,8 +253,8 @@ private:
 
 void write(std::FILE* file, const char* technique, const std::string& kind, const std::string& strength,
            const char* scene, const Counts& c) {
-    std::fprintf(file, "%s,%s,%s,%s,%u,%u,%u,%u,%u,%u,%u,%u\n", technique, kind.c_str(), strength.c_str(), scene,
-                 c.runs, c.worse[0], c.better[0], c.error, c.flicker, c.ghosts, c.worse[1], c.better[1]);
+    std::fprintf(file, "%s,%s,%s,%s,%u,%u,%u,%u,%u,%u,%u,%u,%u\n", technique, kind.c_str(), strength.c_str(), scene,
+                 c.runs, c.worse[0], c.better[0], c.error, c.flicker, c.ghosts, c.visibility, c.worse[1], c.better[1]);
     std::fflush(file);
 }
 
@@ -267,8 +268,8 @@ int main(int argc, char** argv) try {
     if (!file) fail_machine(argv[1], " cannot be written");
     std::fprintf(
         file,
-        "technique,kind,strength,scene,runs,worse,better,worse_error,worse_flicker,worse_ghosts,worse_tolerance,better_"
-        "tolerance\n");
+        "technique,kind,strength,scene,runs,worse,better,worse_error,worse_flicker,worse_ghosts,worse_visibility,worse_"
+        "tolerance,better_tolerance\n");
     const fs::path folder = fs::temp_directory_path() / ("ssrlab-gate-study-" + std::to_string(getpid()));
     Device device;
     for (const Renderings& of : renderings) {

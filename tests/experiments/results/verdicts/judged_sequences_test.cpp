@@ -146,6 +146,35 @@ TEST(JudgedSequences, TheReferencesNoiseAloneGivesAsFewAlarms) {
     EXPECT_GE(alarms, 15);
 }
 
+TEST(JudgedSequences, VisibilityIsTheDistanceFromTheTruthInJod) {
+    // 0.4 JOD from 10, and 0.2 JOD earlier.
+    std::vector<ResultRow> rows = rows_of_metric("cvvdp_0_5_6_video", {9.6, 9.6}, {9.8, 9.8});
+    for (ResultRow& r : rows) r.target = "image", r.mask = "all";
+    ReferenceNoise noise{.shot = "room",
+                         .frame = over_frames,
+                         .technique = "frames",
+                         .point = "now",
+                         .target = "image",
+                         .metric = "cvvdp_0_5_6_video",
+                         .mask = "all",
+                         .sums = {0.001f, -0.002f, 0.001f}};
+    std::vector<ReferenceNoise> both = {noise, noise};
+    both[1].point = "before";
+    const auto judged = [&](double worse_by) {
+        return evidence_of_visibility(rows, both, now, before, {.worse_by = worse_by});
+    };
+    ASSERT_EQ(judged(1).size(), 1u);
+    EXPECT_EQ(judged(1)[0].what, judged_number::visibility);
+    EXPECT_NEAR(judged(1)[0].change, 0.2, 1e-12);
+    EXPECT_EQ(verdict_on(judged(1)), judgement::worse) << "common noise cancels";
+    EXPECT_EQ(verdict_on(judged(1.7)), judgement::worse) << "1.7 times 0.2 JOD is less than 0.4";
+    EXPECT_EQ(verdict_on(judged(2.1)), judgement::equivalent) << "2.1 times 0.2 JOD is more";
+    // Noise that the sides do not share: a standard error of 0.05 sqrt(6).
+    both[0].sums = {0.05f, -0.1f, 0.05f};
+    EXPECT_EQ(verdict_on(judged(1)), judgement::undecided);
+    EXPECT_TRUE(evidence_of_visibility(rows, {}, now, before, {}).empty()) << "a truth too noisy for an interval";
+}
+
 TEST(JudgedSequences, WhatCannotBeAGhostIsNotJudged) {
     EXPECT_TRUE(evidence_of_ghosts({}, {}, primary.mask, now, before, {}).empty());
     const std::vector<ResultRow> rows = {row(now, 0, "ghost_share", {}), row(before, 0, "ghost_share", {})};

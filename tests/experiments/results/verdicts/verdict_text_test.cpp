@@ -18,7 +18,9 @@ Evidence evidence(const std::string& shot, const char* what, double change, doub
             .change = change,
             .low = 0.9 * change,
             .high = 1.1 * change,
-            .no_change = what == std::string(judged_number::ghosts) ? 0.0 : 1.0,
+            .no_change = what == std::string(judged_number::ghosts) || what == std::string(judged_number::visibility)
+                             ? 0.0
+                             : 1.0,
             .p_different = p,
             .detectable = 1.02};
 }
@@ -55,6 +57,19 @@ TEST(VerdictText, NamesWhatGotWorseAndWhereFirst) {
         "runs)");
     EXPECT_EQ(text.deciding, 2u);
     EXPECT_EQ(text.lead().back(), "verdict.json holds all 3 numbers.");
+}
+
+TEST(VerdictText, NamesVisibilityInJod) {
+    const Judgement judged =
+        judge({evidence("a", judged_number::error, 1, 0.5), evidence("a", judged_number::visibility, 0.2, 1e-9)});
+    const VerdictText text = verdict_text(judged, {}, {}, "before");
+    EXPECT_EQ(text.headline, "worse against before: visibility in a");
+    EXPECT_EQ(text.rules[2],
+              "Visibility is worse if the distance from the truth, 10 less cvvdp_0_5_6_video, certainly rose. It is "
+              "equivalent if it certainly changed by less than 0.1 JOD.");
+    EXPECT_EQ(text.numbers[0],
+              "a: visibility (cvvdp_0_5_6_video) 0.2 [0.18, 0.22] JOD further from the truth than in before: worse (p "
+              "2e-09; 1.02 JOD further from the truth would be seen in 95 % of runs)");
 }
 
 TEST(VerdictText, SaysWhyANumberIsNotDecided) {

@@ -1,0 +1,53 @@
+#pragma once
+#include "metrics/cvvdp/cvvdp.h"
+#include "metrics/metric.h"
+#include "metrics/temporal.h"
+
+#include <string>
+#include <vector>
+
+/// cvvdp_0_5_6_video: how visible the differences between a sequence of frames and the truth are, as ColorVideoVDP
+/// scores a video on the display of `cvvdp_0_5_6`.
+///
+/// The truth's noise lowers the score, so the video is scored three times: against the truth, whose noise has the
+/// variance v, and against both of its halves, which have 2 v. From these the interval reaches to no noise.
+class VideoJod {
+public:
+    /// The frames follow each other at `frames_per_second`. Sizes and rates that cannot be scored fail no study:
+    /// score() then has no value, and a note.
+    VideoJod(glm::uvec2 extent, const MetricSettings& settings, double frames_per_second);
+
+    /// The truth of one frame: linear, three channels. Its halves are equal to it where it has no noise.
+    struct Truth {
+        HostImage image, half_a, half_b;
+    };
+
+    /// Adds one frame. Frames before the first scored one are what the eye saw earlier; without them the first frame
+    /// stands for them. Fails with Error on other sizes or channels, and if an earlier frame follows a scored one.
+    void add(const HostImage& test, const Truth& truth, bool is_scored);
+
+    /// The score under the mask `all`, with the 95 % interval of the truth's noise. No value below two frames, or if
+    /// more than `most_undefined` of the pixels of all frames are NaN or Inf. No interval if the variance of the
+    /// truth's noise, as the display shows it, relative to the truth and weighted as relmse, is above `most_noise`.
+    /// Call it once.
+    TemporalScore score();
+
+    /// For each band of frequencies, half the change of the JOD when half A replaces half B as the truth in this band
+    /// alone. Bands of noise are independent, so these are draws of the noise in the JOD. Call it after score(); empty
+    /// without an interval.
+    const std::vector<double>& noise() const { return noise_; }
+
+    static constexpr double most_undefined = 0.01;
+    /// Above, noise of the truth hides what a good test lacks, and no law of its growth leads back.
+    static constexpr double most_noise = 1.0 / 64;
+
+private:
+    enum Reference { whole, half_a, half_b };
+
+    float most_radiance_;             ///< that the display can show
+    std::vector<CvvdpVideo> videos_;  ///< by Reference; empty if there can be no score
+    std::string note_;                ///< why
+    std::vector<double> noise_;
+    double noise_variance_ = 0;  ///< relative to the truth, summed over scored frames
+    size_t pixels_ = 0, undefined_ = 0, scored_ = 0;
+};
