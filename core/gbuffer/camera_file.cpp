@@ -19,6 +19,38 @@ constexpr float max_side = 32768;  // pixels
 
 const std::vector<std::string> depth_formats{"d32f", "d24", "d16"};
 
+constexpr const char *four_rows = "four rows of four numbers", *is_derived = "derived";
+
+const CameraFileKey keys_of_file[] = {
+    {"extent", "[width, height]", "", "size of the layers in pixels, at most 32768"},
+    {"near", "m", "", "distance of the near plane from the camera, above 0; of an orthographic camera 0 is allowed"},
+    {"far", "m", "", "distance of the far plane"},
+    {"clip_from_view", four_rows, "",
+     "projection without jitter, to Vulkan's clip space: x right, y down, z from 0 to 1; with `reversed` from 1 to 0"},
+    {"view_from_world", four_rows, "",
+     "view space is right-handed, with y up, and looks along -z; world space has +Y up"},
+    {"depth_direction", "`standard`, `reversed`", "`standard`", "device depth of the near plane: 0, or 1 if reversed"},
+    {"depth_format", "`d32f`, `d24`, `d16`", "`d32f`", "format of the depth buffer from which `depth` comes"},
+    {"is_orthographic", "true, false", "false", "true if `clip_from_view` has no perspective"},
+    {"jitter", "[x, y]", "[0, 0]",
+     "pixels, x right, y down: a pixel shows the point of its centre plus `jitter` on the screen of `clip_from_view`"},
+    {"previous_jitter", "[x, y]", "[0, 0]",
+     "jitter of the previous frame; in a sequence, that of its camera.json is taken"},
+    {"previous_clip_from_view", four_rows, "no previous frame",
+     "matrix of the previous frame; in a sequence, it must be the same as in that frame's camera.json"},
+    {"previous_view_from_world", four_rows, "no previous frame", "the same for `view_from_world`; write both or none"},
+    {"exposure_ev", "-100 to 100", "0", "pictures and FLIP show radiance times 2 to this power"},
+    {"frame", "a whole number", "0", "number of the frame; studies count frames themselves"},
+    {"seed", "a whole number", "0", "seed of random numbers; studies have their own seeds"},
+    {"view_from_clip", four_rows, is_derived, "inverse of `clip_from_view`; ssrlab refuses values that contradict it"},
+    {"world_from_view", four_rows, is_derived, "inverse of `view_from_world`"},
+    {"clip_from_world", four_rows, is_derived, "`clip_from_view` times `view_from_world`"},
+    {"world_from_clip", four_rows, is_derived, "inverse of `clip_from_world`"},
+    {"previous_view_from_clip", four_rows, is_derived, "the same of the previous frame"},
+    {"previous_world_from_view", four_rows, is_derived, "the same of the previous frame"},
+    {"previous_clip_from_world", four_rows, is_derived, "the same of the previous frame"},
+};
+
 /// The shortest decimal that reads back as the same bits; JSON's integer 0 would lose the sign of -0.
 json exact(float value) { return value == 0 ? json(double(value)) : json_number(value); }
 
@@ -165,6 +197,8 @@ void read_matrices(JsonObject& object, CameraData& c) {
 }
 
 }  // namespace
+
+std::span<const CameraFileKey> camera_file_keys() { return keys_of_file; }
 
 void write_camera(const std::filesystem::path& file, const CameraFile& f) {
     const CameraData& c = f.camera;

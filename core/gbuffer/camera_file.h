@@ -2,8 +2,18 @@
 #include "core/scene/camera.h"
 
 #include <filesystem>
+#include <span>
 
-/// camera.json of a saved G-buffer; see gbuffer_file.h for its keys.
+/// A key of camera.json, for readers.
+struct CameraFileKey {
+    const char *name, *values;
+    const char* initial;  ///< "": required
+    const char* meaning;
+};
+/// All keys that read_camera() knows, in the order in which a writer meets them.
+std::span<const CameraFileKey> camera_file_keys();
+
+/// camera.json of a saved G-buffer.
 struct CameraFile {
     CameraData camera{};
     DepthFormat depth_format = DepthFormat::d32f;

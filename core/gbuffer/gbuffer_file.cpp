@@ -20,9 +20,9 @@ namespace {
 /// Fills what the file lacks; returns what is taken in its place, by layer.
 std::map<std::string, std::string> fill_defaults(HostGBuffer& g, const std::set<std::string>& found) {
     std::map<std::string, std::string> absent;
-    const auto missing = [&](const char* layer, const char* text) {
-        return !found.contains(layer) && absent.emplace(layer, text).second;
-    };
+    for (const GBufferLayer& layer : gbuffer_layers())
+        if (!found.contains(layer.name) && layer.image != &HostGBuffer::dielectric_f0)  // which empty stands for 0.04
+            absent[layer.name] = layer.if_absent;
     const auto is_background = [&](size_t i) { return g.depth.values[i] == g.camera.depth.z; };
     const auto ensure = [&](HostImage& image, unsigned channels) {
         if (image.values.empty()) image = HostImage(g.extent(), channels);
@@ -30,19 +30,14 @@ std::map<std::string, std::string> fill_defaults(HostGBuffer& g, const std::set<
     ensure(g.geometric_normal, 4), ensure(g.emission, 4), ensure(g.motion, 2), ensure(g.material_id, 1);
     ensure(g.previous_depth, 1), ensure(g.previous_normal, 4);
 
-    if (missing("geometric_normal", "the shading normal is taken"))
-        copy_channels(g.normal, 0, g.geometric_normal, 0, 3);
-    missing("emission", "0 is taken");
-    missing("motion", "0 is taken");
-    missing("fallback", "0 is taken");
-    missing("lit", "a reference must provide it");
-    if (missing("specular", "1 is taken, and 0 in the background"))
+    if (absent.contains("geometric_normal")) copy_channels(g.normal, 0, g.geometric_normal, 0, 3);
+    if (absent.contains("specular"))
         for (size_t i = 0; i < g.depth.pixel_count(); ++i) g.emission.values[4 * i + 3] = is_background(i) ? 0 : 1;
-    if (missing("material_id", "1 is taken, and 0 in the background"))
+    if (absent.contains("material_id"))
         for (size_t i = 0; i < g.depth.pixel_count(); ++i) g.material_id.values[i] = is_background(i) ? 0 : 1;
-    if (missing("previous_depth", "depth is taken")) g.previous_depth = g.depth;
-    if (missing("previous_normal", "normal is taken")) copy_channels(g.normal, 0, g.previous_normal, 0, 3);
-    if (missing("previous_roughness", "roughness is taken")) copy_channels(g.normal, 3, g.previous_normal, 3, 1);
+    if (absent.contains("previous_depth")) g.previous_depth = g.depth;
+    if (absent.contains("previous_normal")) copy_channels(g.normal, 0, g.previous_normal, 0, 3);
+    if (absent.contains("previous_roughness")) copy_channels(g.normal, 3, g.previous_normal, 3, 1);
     return absent;
 }
 

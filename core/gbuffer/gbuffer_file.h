@@ -39,36 +39,8 @@ std::map<std::string, size_t> count_non_finite(const HostGBuffer& gbuffer);
 /// are float32 or half, of one extent, pixel for pixel in screen order (first row at the top). The picture is the
 /// display window; how its channels are found is in gbuffer_layers.h.
 ///
-/// gbuffer.exr: layer (channels)    meaning                                                   if absent
-///   depth (Z)                      device depth of camera.json's direction and format; the   required
-///                                  far plane's value where nothing was drawn
-///   normal (X Y Z)                 unit shading normal, world space, +Y up                   required
-///   roughness (Y)                  perceptual: GGX alpha = roughness^2                       required
-///   base_color (R G B)             linear Rec.709                                            required
-///   metalness (Y)                                                                            required
-///   lit (R G B)                    emitted and diffusely reflected radiance, linear; the     a reference must
-///                                  environment where nothing was drawn                       provide it
-///   geometric_normal (X Y Z)       unit normal of the triangle, towards the camera           normal
-///   emission (R G B)               emitted radiance                                          0
-///   specular (Y)                   scales what dielectrics reflect: at normal incidence      1; 0 in the background
-///                                  dielectric_f0, at grazing incidence 1; 0: nothing
-///   dielectric_f0 (R G B)          what dielectrics reflect at normal incidence, from 0 to   0.04
-///                                  1; an index of refraction n gives ((n - 1) / (n + 1))^2
-///   motion (X Y)                   uv now - uv before (0..1 over the screen, y down),        0
-///                                  without jitter
-///   material_id (Y)                whole number (uint32 or float), 0 in the background       1; 0 in the background
-///   previous_depth (Z)             as depth, of the frame before                             depth
-///   previous_normal (X Y Z), previous_roughness (Y)                                          normal, roughness
-///   fallback (R G B)               radiance to reflect where the technique finds nothing     0
-///
-/// camera.json: "extent" [width, height], "depth_direction" "standard" or "reversed", "depth_format" "d32f", "d24" or
-/// "d16", "near" and "far" (m), "clip_from_view" and "view_from_world" (each four rows of four numbers; Vulkan clip
-/// space: y down, z in [0, 1]; without jitter). Optional: "frame" and "seed" (0), "is_orthographic" (false), "jitter"
-/// and "previous_jitter" (pixels, [0, 0]), "previous_clip_from_view" and "previous_view_from_world" (of the frame
-/// before; both or none), "exposure_ev" (0: FLIP and pictures show radiance times 2^EV), and what is derived from them:
-/// "view_from_clip", "world_from_view", "clip_from_world", "world_from_clip", "previous_clip_from_world",
-/// "previous_world_from_view", "previous_view_from_clip", which ssrlab writes so that its own files come back bit by
-/// bit.
+/// gbuffer.exr has the layers of gbuffer_layers(), and camera.json the keys of camera_file_keys(). The keys that follow
+/// from others are written so that ssrlab's own files come back bit by bit.
 void save_gbuffer(const std::filesystem::path& folder, const HostGBuffer& gbuffer);
 
 struct LoadedGBuffer {

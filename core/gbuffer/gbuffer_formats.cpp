@@ -1,17 +1,15 @@
 #include "core/gbuffer/gbuffer_formats.h"
 
+#include "core/gbuffer/gbuffer_images.h"
+
 PassChanges gbuffer_changes(GBufferFormats formats) {
     if (formats == GBufferFormats::exact) return {};
-    static const std::map<std::string, Format> packed = {{"geometric_normal", Format::rgba16f},
-                                                         {"normal", Format::rgba16f},
-                                                         {"previous_normal", Format::rgba16f},
-                                                         {"base_color", Format::rgba8},
-                                                         {"dielectric_f0", Format::rgba16f},
-                                                         {"emission", Format::rgba16f},
-                                                         {"motion", Format::rg16f},
-                                                         {"lit", Format::rgba16f},
-                                                         {"lit_without_specular", Format::rgba16f},
-                                                         {"fallback", Format::rgba16f}};
+    static const std::map<std::string, Format> packed = [] {
+        std::map<std::string, Format> formats = {{"lit_without_specular", Format::rgba16f}};
+        for (const GBufferImage& image : gbuffer_images())
+            if (image.packed != image.exact) formats[image.name] = image.packed;
+        return formats;
+    }();
     return {.format_of =
                 [](const std::string& image, Format asked) {
                     const auto found = packed.find(image);

@@ -13,22 +13,41 @@ namespace {
 
 using G = HostGBuffer;
 const GBufferLayer all_layers[] = {
-    {"depth", "Z", &G::depth, 0, 1, true},
-    {"normal", "XYZ", &G::normal, 0, 4, true},
-    {"roughness", "Y", &G::normal, 3, 4, true},
-    {"base_color", "RGB", &G::base_color, 0, 4, true},
-    {"metalness", "Y", &G::base_color, 3, 4, true},
-    {"lit", "RGB", &G::lit, 0, 4},
-    {"geometric_normal", "XYZ", &G::geometric_normal, 0, 4},
-    {"emission", "RGB", &G::emission, 0, 4},
-    {"specular", "Y", &G::emission, 3, 4},
-    {"dielectric_f0", "RGB", &G::dielectric_f0, 0, 4},
-    {"motion", "XY", &G::motion, 0, 2},
-    {"material_id", "Y", &G::material_id, 0, 1, false, PixelType::uint32},
-    {"previous_depth", "Z", &G::previous_depth, 0, 1},
-    {"previous_normal", "XYZ", &G::previous_normal, 0, 4},
-    {"previous_roughness", "Y", &G::previous_normal, 3, 4},
-    {"fallback", "RGB", &G::fallback, 0, 4},
+    {"depth", "Z", &G::depth, 0, 1,
+     "device depth, from 0 to 1, as `depth_direction` of camera.json says; exactly 1, or 0 if reversed, where there is "
+     "no surface",
+     ""},
+    {"normal", "XYZ", &G::normal, 0, 4, "unit shading normal in world space, away from the surface", ""},
+    {"roughness", "Y", &G::normal, 3, 4, "perceptual roughness, from 0 to 1; GGX alpha is its square", ""},
+    {"base_color", "RGB", &G::base_color, 0, 4, "base colour, linear Rec. 709, from 0 to 1", ""},
+    {"metalness", "Y", &G::base_color, 3, 4, "from 0 to 1", ""},
+    {"lit", "RGB", &G::lit, 0, 4,
+     "radiance that the surface emits and reflects diffusely towards the camera; the environment's where there is no "
+     "surface",
+     "a reference must provide it"},
+    {"geometric_normal", "XYZ", &G::geometric_normal, 0, 4,
+     "unit normal of the triangle in world space, towards the camera", "the shading normal is taken"},
+    {"emission", "RGB", &G::emission, 0, 4, "emitted radiance, also a part of `lit`", "0 is taken"},
+    {"specular", "Y", &G::emission, 3, 4,
+     "factor of what dielectrics reflect, from 0 to 1; 0: no reflection; metals do not use it",
+     "1 is taken, and 0 in the background"},
+    {"dielectric_f0", "RGB", &G::dielectric_f0, 0, 4,
+     "reflectance of dielectrics at normal incidence, from 0 to 1; of an index of refraction n: ((n - 1) / (n + 1))^2",
+     "0.04 is taken"},
+    {"motion", "XY", &G::motion, 0, 2,
+     "position on the screen minus that in the previous frame, without jitter; uv from 0 to 1, x right, y down",
+     "0 is taken; in a sequence, the motion that follows from depth and cameras"},
+    {"material_id", "Y", &G::material_id, 0, 1,
+     "whole number of the material, from 1 to 2^24; 0 where there is no surface", "1 is taken, and 0 in the background",
+     PixelType::uint32},
+    {"previous_depth", "Z", &G::previous_depth, 0, 1, "`depth` of the previous frame, in that frame's pixels",
+     "that of the previous frame is taken, or else `depth`"},
+    {"previous_normal", "XYZ", &G::previous_normal, 0, 4, "`normal` of the previous frame",
+     "that of the previous frame is taken, or else `normal`"},
+    {"previous_roughness", "Y", &G::previous_normal, 3, 4, "`roughness` of the previous frame",
+     "that of the previous frame is taken, or else `roughness`"},
+    {"fallback", "RGB", &G::fallback, 0, 4, "radiance to reflect where a ray hits nothing",
+     "0 is taken, unless there is an environment.json"},
 };
 
 std::vector<std::string> layer_names() { return names_of(all_layers, &GBufferLayer::name); }
@@ -85,7 +104,7 @@ private:
     void choose(const GBufferLayer& wanted) {
         const ExrLayer* layer = find_layer(header_, layers_, wanted.name);
         if (!layer) {
-            if (wanted.is_required) refuse_missing(wanted);
+            if (wanted.is_required()) refuse_missing(wanted);
             return;
         }
         auto found = components(*layer, wanted.channels);

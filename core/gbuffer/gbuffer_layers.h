@@ -10,9 +10,10 @@ struct GBufferLayer {
     const char *name, *channels;
     HostImage HostGBuffer::*image;
     unsigned first_channel, image_channels;
-    bool is_required = false;
-    PixelType type = PixelType::float32;
+    const char *meaning, *if_absent;      ///< `if_absent`: a sentence on what is taken instead; "" of required layers
+    PixelType type = PixelType::float32;  ///< that ssrlab writes
 
+    bool is_required() const { return *if_absent == 0; }
     unsigned count() const { return unsigned(std::char_traits<char>::length(channels)); }
 };
 std::span<const GBufferLayer> gbuffer_layers();

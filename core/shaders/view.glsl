@@ -3,12 +3,13 @@
 #define SHADERS_VIEW_GLSL
 #include "core/shared/camera.h"
 
-// uv and device depth of a view-space position in front of the camera.
+// The uv and device depth of a view-space position in front of the camera.
 vec3 screen_from_view(vec3 vs_position) {
     vec4 clip = camera.clip_from_view * vec4(vs_position, 1.0);
     return vec3(clip.xy / clip.w * 0.5 + 0.5, clip.z / clip.w);
 }
 
+// View-space position (m) of a uv and a device depth.
 vec3 view_from_screen(vec2 uv, float device_depth) {
     vec4 view = camera.view_from_clip * vec4(uv * 2.0 - 1.0, device_depth, 1.0);
     return view.xyz / view.w;
@@ -28,6 +29,7 @@ float camera_depth(float device_depth) {
            (device_depth * clip_from_view[2][3] - clip_from_view[2][2]);
 }
 
+// World-space position (m) of a uv and a device depth.
 vec3 world_from_screen(vec2 uv, float device_depth) {
     return (camera.world_from_view * vec4(view_from_screen(uv, device_depth), 1.0)).xyz;
 }
@@ -35,6 +37,7 @@ vec3 world_from_screen(vec2 uv, float device_depth) {
 // True where the depth buffer still holds its clear value: nothing was drawn there.
 bool is_background(float device_depth) { return device_depth == camera.depth.z; }
 
+// False for the threads of a workgroup that lie beyond the image.
 bool is_on_screen(ivec2 pixel) {
     return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, ivec2(camera.extent.xy)));
 }

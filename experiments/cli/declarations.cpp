@@ -1,13 +1,19 @@
 #include "experiments/cli/declarations.h"
 
+#include "core/gbuffer/camera_file.h"
+#include "core/gbuffer/gbuffer_images.h"
+#include "core/gbuffer/gbuffer_layers.h"
+#include "core/gpu/format.h"
 #include "core/list_text.h"
 #include "core/scene/scene_family.h"
+#include "experiments/results/files/image_layers.h"
 #include "experiments/results/files/manifest.h"
 #include "experiments/results/results_schema.h"
 #include "experiments/study/config/config.h"
 #include "metrics/metric.h"
 #include "metrics/temporal.h"
 #include "variants/denoisers/denoisers.h"
+#include "variants/passes/provided_images.h"
 #include "variants/registry.h"
 #include "variants/tracers/tracers.h"
 
@@ -118,10 +124,61 @@ json families() {
     return all;
 }
 
+json shader_images() {
+    json gbuffer = json::array(), provided = json::array();
+    for (const GBufferImage& image : gbuffer_images())
+        gbuffer.push_back({{"name", image.name},
+                           {"format", name_of(image.exact)},
+                           {"packed", name_of(image.packed)},
+                           {"meaning", image.meaning},
+                           {"background", image.background}});
+    for (const ProvidedImage& image : ProvidedImages::described())
+        provided.push_back({{"name", image.name}, {"format", image.format}, {"meaning", image.meaning}});
+    return {{"gbuffer", gbuffer}, {"provided", provided}};
+}
+
+json capture_files() {
+    json layers = json::array(), keys = json::array();
+    for (const GBufferLayer& layer : gbuffer_layers())
+        layers.push_back({{"name", layer.name},
+                          {"channels", layer.channels},
+                          {"type", layer.type == PixelType::uint32 ? "uint" : "float"},
+                          {"meaning", layer.meaning},
+                          {"if_absent", layer.if_absent}});
+    for (const CameraFileKey& key : camera_file_keys())
+        keys.push_back(
+            {{"name", key.name}, {"values", key.values}, {"default", key.initial}, {"meaning", key.meaning}});
+    return {{"layers", layers}, {"camera", keys}};
+}
+
+json described(std::span<const DescribedLayer> layers) {
+    json all = json::array();
+    for (const DescribedLayer& layer : layers)
+        all.push_back({{"name", layer.name}, {"channels", layer.channels}, {"meaning", layer.meaning}});
+    return all;
+}
+
+json image_layers() {
+    const ReferenceLayers of_references = reference_layers();
+    return {{"estimates", described(of_references.estimates)},
+            {"others", described(of_references.others)},
+            {"rungs", described(of_references.rungs)},
+            {"of_rungs", described(of_references.of_rungs)},
+            {"results", described(result_image_kinds())}};
+}
+
 }  // namespace
 
 json declarations(const CLI::App& app) {
-    return {{"commands", commands_of(app)}, {"keys", key_descriptions()},  {"columns", results_schema({})["resources"]},
-            {"techniques", techniques()},   {"tracers", tracers()},        {"denoisers", denoisers()},
-            {"metrics", metrics()},         {"scene_families", families()}};
+    return {{"commands", commands_of(app)},
+            {"keys", key_descriptions()},
+            {"columns", results_schema({})["resources"]},
+            {"techniques", techniques()},
+            {"tracers", tracers()},
+            {"denoisers", denoisers()},
+            {"metrics", metrics()},
+            {"scene_families", families()},
+            {"shader_images", shader_images()},
+            {"capture_files", capture_files()},
+            {"image_layers", image_layers()}};
 }

@@ -1,12 +1,14 @@
 #include "core/error.h"
 #include "core/exr/exr.h"
 #include "core/files.h"
+#include "core/gbuffer/camera_file.h"
 #include "core/gbuffer/gbuffer_transfer.h"
 #include "core/json.h"
 #include "tests/gbuffer/test_scenes.h"
 
 #include <gtest/gtest.h>
 #include <cstring>
+#include <set>
 
 namespace {
 
@@ -98,6 +100,26 @@ TEST_F(gbuffer_file, a_capture_of_another_engine_may_leave_out_the_optional) {
          {derived.view_from_clip * g.camera.clip_from_view, derived.world_from_clip * g.camera.clip_from_world})
         for (int i = 0; i < 4; ++i)
             EXPECT_NEAR(glm::length(product[i] - glm::mat4(1)[i]), 0, 1e-4f);  // a float32 inverse
+}
+
+TEST_F(gbuffer_file, camera_json_has_the_keys_that_writers_are_told) {
+    save_gbuffer(folder_, rendered(6));
+    std::set<std::string> written, told;
+    const nlohmann::json camera = read_json(folder_ / "camera.json");
+    for (const auto& [key, value] : camera.items()) written.insert(key);
+    for (const CameraFileKey& key : camera_file_keys()) told.insert(key.name);
+    EXPECT_EQ(told, written);
+}
+
+TEST_F(gbuffer_file, needs_the_keys_that_writers_are_told_are_required) {
+    save_gbuffer(folder_, rendered(0));
+    const nlohmann::json whole = read_json(folder_ / "camera.json");
+    for (const CameraFileKey& key : camera_file_keys()) {
+        nlohmann::json without = whole;
+        if (!without.erase(key.name)) continue;
+        write_text(folder_ / "camera.json", without.dump());
+        EXPECT_EQ(load_error().find(key.name) != std::string::npos, *key.initial == 0) << key.name << load_error();
+    }
 }
 
 TEST_F(gbuffer_file, errors_name_file_and_layer) {

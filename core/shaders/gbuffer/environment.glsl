@@ -12,10 +12,11 @@ layout(push_constant) uniform EnvironmentConstants {
 uniform sampler2D environment;
 uniform sampler2D prefiltered_environment;
 
-// 0: constant, 1: gradient, 2: image, 3: per pixel, from a file. A pass that says which (environment_kind.glsl) has it
+// True for the type: 0: constant, 1: gradient, 2: image, 3: per pixel, from a file. A pass that says which (environment_kind.glsl) has it
 // compiled in: the branches of the others cost time in every ray though none takes them.
 bool is_environment(uint type) { return environment_kind == any_environment ? environment_type == type : environment_kind == type; }
 
+// A texel of the environment's image, which goes on around in x.
 vec3 environment_texel(int x, int y, ivec2 size) {
     return texelFetch(environment, ivec2((x + size.x) % size.x, clamp(y, 0, size.y - 1)), 0).rgb;
 }
@@ -40,6 +41,7 @@ vec3 environment_along_ray(ivec2 pixel, vec3 direction) {
     return is_environment(3u) ? texelFetch(environment, pixel, 0).rgb : environment_radiance(direction);
 }
 
+// Radiance from a direction, blurred as one level of the prefiltered environment.
 vec3 prefiltered_level(uint level, vec3 direction) {
     PrefilterTap tap = prefilter_tap(level, environment_uv(direction, 0.0));
     vec3 top = mix(texelFetch(prefiltered_environment, ivec2(tap.columns.x, tap.rows.x), 0).rgb,
@@ -49,7 +51,7 @@ vec3 prefiltered_level(uint level, vec3 direction) {
     return mix(top, bottom, tap.fraction.y);
 }
 
-// mean_over_lobe() of core/gbuffer/prefiltered_environment.h.
+// Mean radiance over a specular lobe about a direction: mean_over_lobe() of core/gbuffer/prefiltered_environment.h.
 vec3 mean_over_lobe(vec3 direction, float roughness) {
     if (environment_type == 0u) return environment_color.rgb;
     PrefilterBlend blend = prefilter_blend(roughness);
