@@ -33,6 +33,8 @@ GROUPS = {
         "experiments/docs/reference/commands": "Commands",
         "experiments/docs/reference/study_keys": "Keys of a config",
         "experiments/docs/reference/result_columns": "Columns of the results",
+        "experiments/docs/reference/shaders": "What shaders read and call",
+        "experiments/docs/reference/image_files": "Layers of image files",
         "experiments/docs/reference/techniques/README": "Techniques",
         "experiments/docs/reference/tracers": "Marches",
         "experiments/docs/reference/denoisers": "Denoisers",

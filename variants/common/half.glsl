@@ -5,9 +5,11 @@
 
 const float largest_half = 65504.0;
 
-// NaN stays NaN: finite_weights removes it.
+// Four numbers within the range of halves. NaN stays NaN: finite_weights removes it.
 vec4 as_halves(vec4 v) {
     return mix(v, sign(v) * largest_half, greaterThan(abs(v), vec4(largest_half)));
 }
+
+// A number within the range of halves.
 float as_half(float v) { return as_halves(vec4(v)).x; }
 #endif

@@ -5,11 +5,12 @@
 
 uniform sampler2D depth, geometric_normal, normal, base_color, emission;
 
-// A sample of the G-buffer lies at its pixel's centre + jitter on the un-jittered screen (pixels).
+// Where a pixel's sample of the G-buffer lies on the un-jittered screen (pixels): at the pixel's centre + jitter.
 vec2 screen_from_pixel(ivec2 pixel) { return vec2(pixel) + 0.5 + camera.jitter.xy; }
+// The pixel whose sample is nearest to a position on the un-jittered screen (pixels).
 ivec2 pixel_from_screen(vec2 position) { return ivec2(floor(position - camera.jitter.xy)); }
 
-// For pixels that show a surface.
+// True if the surface that a pixel shows has a specular term.
 bool has_specular(ivec2 pixel) {
     return !scene_has_matte || texelFetch(emission, pixel, 0).w > 0.0 || texelFetch(base_color, pixel, 0).w > 0.0;
 }
@@ -20,22 +21,27 @@ bool reflects(ivec2 pixel, float roughness_limit) {
            texelFetch(normal, pixel, 0).w <= roughness_limit;
 }
 
-// Of what a pixel shows at a device depth.
+// View-space position (m) of a pixel's sample at a device depth.
 vec3 view_position_at(ivec2 pixel, float device_depth) {
     return view_from_screen(screen_from_pixel(pixel) * camera.extent.zw, device_depth);
 }
+
+// View-space position (m) of the surface that a pixel shows.
 vec3 view_position(ivec2 pixel) { return view_position_at(pixel, texelFetch(depth, pixel, 0).r); }
 
+// A unit normal of world space in view space.
 vec3 view_from_world_normal(vec3 ws_normal) { return normalize(mat3(camera.view_from_world) * ws_normal); }
 
-// View space, unit.
+// Shading normal of a pixel: view space, unit.
 vec3 view_normal(ivec2 pixel) { return view_from_world_normal(texelFetch(normal, pixel, 0).xyz); }
+// Normal of the triangle that a pixel shows: view space, unit.
 vec3 view_geometric_normal(ivec2 pixel) { return view_from_world_normal(texelFetch(geometric_normal, pixel, 0).xyz); }
 
 struct Ray {
-    vec3 origin, direction;  // view space; unit
+    vec3 origin, direction;  // view space (m); view space, unit
 };
 
+// From a pixel's surface along the mirrored view direction.
 Ray mirror_ray(ivec2 pixel) {
     vec3 origin = view_position(pixel);
     return Ray(origin, reflect(view_direction(origin), view_normal(pixel)));

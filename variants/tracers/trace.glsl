@@ -24,17 +24,20 @@ struct TraceEnd {
     uint outcome;      // outcome.h
 };
 
+// The end of a ray without a hit.
 TraceEnd missed(uint outcome, vec2 position, float distance) {
     return TraceEnd(ivec2(0), position, distance, 0.0, outcome);
 }
 
-// Tracers read depth through these, which are counted where the including pass enables it.
 uint depth_fetches = 0u;
+// Counts a fetch of depth, where the including pass enables it.
 void count_fetch() {
 #ifdef COUNT_DEPTH_FETCHES
     ++depth_fetches;
 #endif
 }
+
+// Device depth of a pixel. Tracers read depth through this function, so that fetches are counted.
 float fetch_depth(ivec2 pixel) {
     count_fetch();
     return texelFetch(depth, pixel, 0).r;
@@ -54,5 +57,6 @@ bool is_sky(float device_depth, float sky_depth) { return abs(device_depth - cam
 // Whether a ray meets the side of a pixel's surface that the camera does not see.
 bool comes_from_behind(vec3 direction, ivec2 pixel) { return !(dot(direction, view_geometric_normal(pixel)) < 0.0); }
 
-vec2 screen_from_image(vec2 uv) { return uv * camera.extent.xy + camera.jitter.xy; }  // (pixels)
+// Position on the un-jittered screen (pixels) of uv in the images.
+vec2 screen_from_image(vec2 uv) { return uv * camera.extent.xy + camera.jitter.xy; }
 #endif

@@ -15,7 +15,9 @@ from ssrlab.command_lines import CommandLine
 from ssrlab.json_files import read_json
 from ssrlab.markdown_text import markdown_prose
 from ssrlab.mistakes import ResultsError, exit_code
+from ssrlab.reference_files import image_files
 from ssrlab.reference_markdown import NOTE, OUT, code, contents, linked, page, prose, table
+from ssrlab.reference_shaders import shaders
 from ssrlab.repository import CONFIGS, ROOT, STUDIES
 
 UP = "../../.."  # to the root, from a page
@@ -237,7 +239,7 @@ def written(program):
     """All pages, by name."""
     declared = json.loads(subprocess.check_output([program, "describe", "--json"], text=True))
     pages = {"commands.md": commands, "study_keys.md": study_keys, "result_columns.md": result_columns, "metrics.md": metrics, "scenes.md": scenes,
-             "studies.md": studies}
+             "studies.md": studies, "shaders.md": shaders, "image_files.md": image_files}
     texts = {name: write(declared) for name, write in pages.items()} | {f"{kind}.md": parts(kind, declared) for kind in PARTS}
     texts["techniques/README.md"] = page("Techniques", "Every technique of ssrlab. Each page lists passes, presets and parameters.", "", *table(
         ["technique", "what it is"], [[f"[{e['name']}]({e['name']}.md)", prose(e["title"])] for e in declared["techniques"]]))

@@ -5,7 +5,7 @@
 
 uniform sampler2D screen_probe, screen_probe_nearness;
 
-// In texels, after the border.
+// Place of a direction (world space) in the probe's images: texels, after the border.
 vec2 probe_texel(vec3 direction) { return (0.5 * octahedral_place(direction) + 0.5) * float(probe_width) + 1.0; }
 
 // Of a ray from a point, from the camera on (m), in a unit direction, all in world space: a share of it that meets a
