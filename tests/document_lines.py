@@ -19,6 +19,14 @@ def command_lines(text):
                 yield re.sub(r"\s+(#|&&|\||>|2>).*$", "", line)
 
 
+def python_blocks(document):
+    """Blocks of code that begin with an import: whole programs."""
+    text = document.read_text(encoding="utf-8")
+    indented = re.findall(r"(?m)(?:^ {4}.*\n|^\n(?= {4}))+", re.sub(r"(?s)```.*?```", "", text))
+    blocks = re.findall(r"(?s)```python\n(.*?)```", text) + [re.sub(r"(?m)^ {4}", "", block).strip() + "\n" for block in indented]
+    return [block for block in blocks if re.match("(?:import|from) ", block)]
+
+
 def all_command_lines():
     """(document, line) of each document, in the order in which a reader meets them."""
     for document in DOCUMENTS:
