@@ -94,7 +94,7 @@ function show(news) {
     at("doing").textContent = news.doing;
     const isOld = Boolean(news.result) && news.result.state !== news.state;
     for (const id of ["verdicts", "shots"]) at(id).classList.toggle("is-old", isOld);
-    at("keep").disabled = !news.result || isOld || news.result.is_coarse;
+    at("keep").disabled = news.is_to_be_kept;
     for (const write of [writeProblem, writeVerdicts, writeNonFinite, writeShots, writeWhy, writeTimes, writeSeconds, writeKept, writeSliders, writeChoices])
         write(news);
     paint();

@@ -109,6 +109,7 @@ void WatchSession::run(const std::function<bool()>& is_over, const std::function
         answer_requests();
         follow_truth();
         follow_job();
+        keep_when_measured();
         if (std::exchange(has_news_, false)) publish();
         std::this_thread::sleep_for(turn);
     }
@@ -133,21 +134,45 @@ void WatchSession::answer_requests() {
 }
 
 std::string WatchSession::answer(const std::string& what, const json& value) {
-    if (what == "keep") return keep();
+    if (what == "keep") return ask_to_keep();
     if (what == "values") return set_values(value);
     return "the page asked for '" + what + "', which ssrlab does not know";
 }
 
-std::string WatchSession::keep() {
-    if (result_.is_null() || result_["state"] != state_ || result_["is_coarse"].get<bool>())
-        return "this version can be kept once it is measured against the truth with all samples";
+bool WatchSession::is_measured() const {
+    return !result_.is_null() && result_["state"] == state_ && !result_["is_coarse"].get<bool>();
+}
+
+/// Kept at once, or when it is measured.
+std::string WatchSession::ask_to_keep() {
+    if (!is_valid_) return "this version has an error; a version can be kept once it renders";
+    keep_note_.clear();
+    if (is_measured())
+        keep();
+    else
+        is_to_be_kept_ = true;
+    return "";
+}
+
+void WatchSession::keep_when_measured() {
+    if (!is_to_be_kept_ || !is_measured()) return;
+    try {
+        keep();
+    } catch (const std::exception& e) {
+        keep_note_ = shown_text(e.what());
+        has_news_ = true;
+    }
+}
+
+/// The present state, which is measured.
+void WatchSession::keep() {
+    is_to_be_kept_ = false;
     job_.reset();  // it writes where the numbers are copied from
     json numbers = result_;
     for (json& shot : numbers["shots"]) shot.erase("images");
     versions_.keep(settings_.preset, values_, numbers);
     is_kept_done_ = false;
     begin(Clock::now());  // against this version from now on
-    return "";
 }
 
 std::string WatchSession::set_values(const json& values) {
@@ -162,6 +187,8 @@ std::string WatchSession::set_values(const json& values) {
 /// What was rendered of an earlier state is of no interest any more.
 void WatchSession::begin(Clock::time_point since) {
     job_.reset();
+    keep_note_ = is_to_be_kept_ ? "The last version was not kept: it was changed before its errors were measured." : "";
+    is_to_be_kept_ = false;
     ++state_;
     since_ = since;
     scenes_ = 0, is_coarse_done_ = is_why_done_ = are_times_done_ = has_picture_ = false;
@@ -197,6 +224,8 @@ void WatchSession::give_up(const std::string& error) {
         is_kept_done_ = true;
     else
         is_valid_ = false;
+    if (!is_valid_ && std::exchange(is_to_be_kept_, false))
+        keep_note_ = "This version was not kept: its errors could not be measured.";
 }
 
 WatchedPoint WatchSession::point() const {
@@ -373,5 +402,8 @@ json WatchSession::news() const {
             {"values", values_},
             {"kept", kept},
             {"is_kept_done", is_kept_done_},
+            {"is_to_be_kept", is_to_be_kept_},
+            {"keep_note", keep_note_},
+            {"size", std::to_string(settings_.extent.x) + "x" + std::to_string(settings_.extent.y)},
             {"seconds", seconds_}};
 }

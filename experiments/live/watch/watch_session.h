@@ -32,7 +32,10 @@ private:
     // What there is to do, in the order of run().
     void answer_requests();
     std::string answer(const std::string& what, const nlohmann::json& value);
-    std::string keep();
+    std::string ask_to_keep();
+    bool is_measured() const;
+    void keep_when_measured();
+    void keep();
     std::string set_values(const nlohmann::json& values);
     void begin(Clock::time_point since);
     void look_for_picture();
@@ -61,7 +64,9 @@ private:
 
     nlohmann::json values_ = nlohmann::json::object();  ///< parameter values from the page's sliders
     nlohmann::json parameters_ = nlohmann::json::array();
-    bool is_valid_ = false;  ///< whether the copy declares a technique
+    bool is_valid_ = false;       ///< whether the copy declares a technique
+    bool is_to_be_kept_ = false;  ///< the present state, once it is measured
+    std::string keep_note_;       ///< why it was not kept
 
     // How far the present state of the technique is.
     unsigned state_ = 0;  ///< number of saves and changes of values so far

@@ -80,11 +80,11 @@ export function writeWhy({why, state}) {
     at("causes").classList.toggle("is-old", Boolean(why) && why.state !== state);
 }
 
-export function writeTimes({times, state}) {
+export function writeTimes({times, state, size}) {
     const estimates = new Map((times?.estimates ?? []).map(e => [e.stage, e]));
     const [one] = estimates.values(), refusal = [...estimates.values()].find(e => e.refusal)?.refusal;
     const estimate = e => !e ? "" : e.microseconds === null ? "–" : `${number(e.microseconds)}${ends(e)} (${e.bound})`;
-    writeTable("times", ["stage", "here, ms", one ? `${one.product}, estimated µs` : "GPU"],
+    writeTable("times", ["stage", "here, ms", one ? `${one.product}, estimated µs at ${size}` : "GPU"],
         (times?.stages ?? [])
             .map(t => [t.stage, number(t.median_ms) + ends({low: t.low_ms, high: t.high_ms}),
                      estimate(estimates.get(t.stage))]));
@@ -107,10 +107,11 @@ export function writeSeconds({seconds, result, samples, truths, scenes}) {
     at("seconds").textContent = parts.length ? `Since the last save: ${parts.join(", ")}.` : "";
 }
 
-export function writeKept({kept, out}) {
+export function writeKept({kept, out, is_to_be_kept, keep_note}) {
     writeTable("kept", ["version", "mse of reflective pixels"],
               kept.map(v => [v.name, v.shots.map(s => `${s.shot}: ${errorText(s)}`).join("; ")]));
-    at("keep-note").textContent = kept.length ? `To see all versions with their numbers, run: ssrlab report ${out}/kept` : "";
+    at("keep-note").textContent = is_to_be_kept ? "This version is kept as soon as its errors are measured." :
+        keep_note ? keep_note : kept.length ? `To see all versions with their numbers, run: ssrlab report ${out}/kept` : "";
 }
 
 export function writeProblem({problem}) {

@@ -193,8 +193,22 @@ def check_an_error(page, watched, before):
     return news
 
 
-def check_keeping(page, out):
+def press_keep_while_it_renders(page, watched, weight, state):
+    watched.weigh(weight)
+    page.until("the new state", "page.news.state === arguments[0]", state)
     page.browser.execute_script("document.getElementById('keep').click()")
+    page.until("that it will be kept", "page.news.is_to_be_kept")
+    check("as soon as its errors are measured" in page.text("keep-note"), f"the page does not say that it will be kept: {page.text('keep-note')}")
+
+
+def check_keeping(page, watched, news):
+    """A version can be kept before it is measured, but not if it is saved again before that."""
+    press_keep_while_it_renders(page, watched, "1.00", news["state"] + 1)
+    watched.weigh("1.000")
+    page.until("what became of the first version", "page.news.keep_note.includes('was not kept')")
+    page.until_measured(news["state"] + 2)
+    check(page.browser.execute_script("return page.news.kept.length") == 0, "a version that was saved over is kept")
+    press_keep_while_it_renders(page, watched, "1.0000", news["state"] + 3)
     news = page.until("the version", "page.news.kept.length === 1 && page.news.result.verdicts[0].label === 'my_ssr_1' ? page.news : null")
     verdict = verdict_of(news, "my_ssr_1")
     check(verdict["verdict"] == "identical", f"a version that was just kept is {verdict}")
@@ -254,8 +268,7 @@ def main():
             browser = open_browser(os.path.join(root, "profile"))
             page = Page(browser, address)
             news = check_a_save(page, watched, check_numbers(page))
-            check_an_error(page, watched, news)
-            news = check_keeping(page, out)
+            news = check_keeping(page, watched, check_an_error(page, watched, news))
             check_a_slider(page, news)
             check_bad_files(page, watched)
             check_kept_folder(page, out)
