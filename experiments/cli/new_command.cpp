@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <regex>
 
 namespace {
 
@@ -33,6 +34,33 @@ std::string with_names(std::string text, const std::map<std::string, std::string
     return text;
 }
 
+/// Behind the value that begins at `at` with a bracket, in JSON with `//` comments.
+size_t end_of_array(const std::string& json, size_t at) {
+    int depth = 0;
+    for (; at < json.size(); ++at) {
+        if (json[at] == '"') {
+            while (json[++at] != '"') at += json[at] == '\\';
+        } else if (json.compare(at, 2, "//") == 0) {
+            at = json.find('\n', at);
+        } else if (json[at] == '[') {
+            ++depth;
+        } else if (json[at] == ']' && --depth == 0) {
+            return at + 1;
+        }
+    }
+    return at;
+}
+
+/// A declaration that was read without an error, without presets: they name parameters that the copy's author may
+/// remove, and their values were found for the origin.
+std::string without_presets(const std::string& declaration) {
+    const std::regex presets(R"("presets"\s*:\s*\[)");
+    std::smatch found;
+    if (!std::regex_search(declaration, found, presets)) return declaration;
+    const size_t at = size_t(found.position(0) + found.length(0)) - 1;
+    return declaration.substr(0, at) + "[]" + declaration.substr(end_of_array(declaration, at));
+}
+
 /// Content by file of the technique, with the shaders that it has of ssrlab's technique of its own name beside it.
 std::map<std::string, std::string> files_of(const TechniqueEntry& technique) {
     std::map<std::string, std::string> files = technique.folder->files, new_names;
@@ -43,6 +71,8 @@ std::map<std::string, std::string> files_of(const TechniqueEntry& technique) {
         files[name] = read_text(path_inside(SSRLAB_SOURCE_DIR, source));
         new_names[source.substr(shared.size())] = name;
     }
+    files.erase("tuned_presets.json");
+    files["technique.json"] = without_presets(files.at("technique.json"));
     for (auto& [name, text] : files) text = with_names(std::move(text), new_names);
     return files;
 }

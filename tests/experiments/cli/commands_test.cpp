@@ -254,3 +254,17 @@ TEST_F(CommandLine, ShowsWhatACompilerMakesOfATechnique) {
     EXPECT_NE(o.text.find("mcguire_dda default on navi21 (radv Mesa "), std::string::npos) << o.text;
     EXPECT_TRUE(fs::exists(folder / "table.csv"));
 }
+
+/// A preset would name parameters that the author of the copy may remove.
+TEST_F(CommandLine, CopiesATechniqueWithoutItsPresets) {
+    for (const std::string from : {"mcguire_dda", "simple_ssr", "four_mode_ssr", "composed_ssr"}) {
+        ASSERT_EQ(ssrlab("new my_" + from + " --from " + from).code, 0) << from;
+        const fs::path copy = folder / ("my_" + from), origin = fs::path(SSRLAB_SOURCE_DIR) / "variants" / from;
+        nlohmann::json expected = read_json(origin / "technique.json"), made = read_json(copy / "technique.json");
+        ASSERT_FALSE(expected.at("presets").empty());
+        EXPECT_EQ(made.at("presets"), nlohmann::json::array());
+        for (const char* key : {"presets", "passes"}) expected.erase(key), made.erase(key);  // passes name other files
+        EXPECT_EQ(made, expected) << from;
+        EXPECT_FALSE(fs::exists(copy / "tuned_presets.json"));
+    }
+}
