@@ -20,13 +20,25 @@ void add_once(std::vector<T>& list, const T& value) {
     if (!std::ranges::count(list, value)) list.push_back(value);
 }
 
-/// What readers of text get to know of a failure: the operations of its place, or the fixes, and whether there are more
-/// that nobody has explained.
-std::string explained(const StageFailure& failure, std::string KnownFailure::*part, const char* between) {
+/// What readers of text get to know of a failure: the operations of its place, and where to look for those that
+/// failures.json does not have, which are all of a technique that is not ssrlab's.
+std::string operations(const StageFailure& failure) {
     std::vector<std::string> texts;
-    for (const KnownFailure& known : failure.known) texts.push_back(known.*part);
-    if (failure.unexplained) texts.push_back("UNEXPLAINED in " + counted(failure.unexplained, "run"));
-    return joined(texts, between);
+    for (const KnownFailure& known : failure.known) texts.push_back(known.operation);
+    if (failure.unexplained)
+        texts.push_back("an operation that ssrlab does not know, in " + counted(failure.unexplained, "run") +
+                        ": this stage is the first with such values; look in its shader for divisions by 0, "
+                        "normalize() of 0, and roots, logarithms and powers of negative numbers");
+    return joined(texts, "; or ");
+}
+
+std::string fixes(const StageFailure& failure) {
+    std::vector<std::string> texts;
+    for (const KnownFailure& known : failure.known) texts.push_back(known.fix);
+    if (failure.unexplained)
+        texts.push_back(
+            "the parameter repair_inputs where an input holds such a value, or else a change of the shader");
+    return joined(texts, "; ");
 }
 
 }  // namespace
@@ -128,8 +140,7 @@ std::string failures_text(const std::vector<StageFailure>& failures) {
         if (f.is_source())
             text += "\n" + f.technique + ": " + joined(f.points) + "\n  " + f.place + ", in " +
                     counted(f.cases.size(), "case") + ": " + shown_text(joined(f.cases)) +
-                    "\n  fails by: " + explained(f, &KnownFailure::operation, "; or ") +
-                    "\n  fixed by: " + explained(f, &KnownFailure::fix, "; ") + "\n";
+                    "\n  fails by: " + operations(f) + "\n  fixed by: " + fixes(f) + "\n";
     return text.empty() ? text : "Where values that are not finite arise, and what spreads them:\n" + text;
 }
 
@@ -161,8 +172,8 @@ json stability_without_scripts(const StabilityResults& tables) {
             failures.push_back({{"technique", f.technique + " " + joined(f.points)},
                                 {"place", f.place},
                                 {"cases", joined(f.cases)},
-                                {"operation", explained(f, &KnownFailure::operation, "; or ")},
-                                {"fix", explained(f, &KnownFailure::fix, "; ")}});
+                                {"operation", operations(f)},
+                                {"fix", fixes(f)}});
     return {{"lead", stability_lead(tables)},
             {"verdicts", verdicts},
             {"techniques", techniques},

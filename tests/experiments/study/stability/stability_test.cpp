@@ -238,6 +238,20 @@ TEST_F(StabilityTest, EachFailureOfTheOriginalsIsExplained) {
         EXPECT_EQ(failure.unexplained, 0u) << failure.technique << failure.place;
 }
 
+/// A stranger's technique, which failures.json cannot name.
+TEST_F(StabilityTest, FailuresThatNobodyKnowsAreExplainedInWords) {
+    StageRow row;
+    row.stage = "my_ssr/shade", row.image = "radiance", row.nan = 3;
+    row.technique = "my_ssr", row.point = "default", row.case_name = "lit_nan";
+    StabilityCaseName what;
+    what.name = what.family = "lit_nan", what.group = "faults";
+    const std::vector<StageFailure> failures = stage_failures({.rows = {}, .cases = {what}, .stages = {row}});
+    const std::string text = failures_text(failures);
+    for (const char* part : {"my_ssr/shade: radiance, in 1 case: lit_nan", "that ssrlab does not know, in 1 run",
+                             "look in its shader for divisions by 0", "repair_inputs"})
+        EXPECT_NE(text.find(part), std::string::npos) << text;
+}
+
 TEST_F(StabilityTest, FailuresNameTechniquesAndCasesThatExist) {
     std::set<std::string> techniques, cases;
     for (const PointConfig& p : all_points())
