@@ -16,18 +16,38 @@ double seconds(std::chrono::steady_clock::duration d) { return std::chrono::dura
 }  // namespace
 
 void ProgressEstimate::update(double elapsed, double share_done) {
-    share_ = std::max(share_, share_done);
+    constexpr double least_smoothing = 5;  // s
     const double passed = elapsed - elapsed_;
     elapsed_ = elapsed;
     if (share_done < 0.02) return;  // an estimate would only mislead
     const double now = elapsed * (1 - share_done) / share_done;
-    if (!left_) {
+    if (left_) {
+        const double expected = std::max(*left_ - passed, 0.0),
+                     smoothing = std::max(0.1 * (elapsed + expected), least_smoothing);
+        takes_longer_ = now > 1.3 * expected + 10;
+        left_ = expected + (now - expected) * (1 - std::exp(-passed / smoothing));
+    } else {
         left_ = now;
-        return;
     }
-    const double expected = std::max(*left_ - passed, 0.0);
-    takes_longer_ = now > 1.3 * expected + 10;
-    left_ = expected + (now - expected) * (1 - std::exp(-passed / smoothing));
+    const double share = elapsed > 0 ? elapsed / (elapsed + *left_) : 0;
+    greatest_ = std::max(greatest_, share);
+    share_ = share >= greatest_ - held ? std::optional(greatest_) : std::nullopt;
+}
+
+std::string progress_text(const ProgressEstimate& estimate, double elapsed) {
+    std::string text = "[";
+    if (const auto share = estimate.share()) {
+        const int digits = elapsed < 600 ? 0 : 1;
+        const double step = digits == 0 ? 1 : 0.1;
+        char percent[32];
+        std::snprintf(percent, sizeof percent, "%*.*f %%, ", 3 + digits, digits,
+                      std::min(std::floor(100 * *share / step + 1e-9) * step, 100 - step));
+        text += percent;
+    }
+    text += format_duration(elapsed);
+    if (estimate.left()) text += ", " + format_duration(*estimate.left()) + " left";
+    if (estimate.takes_longer()) text += ", rising: this takes longer than what came before";
+    return text + "]";
 }
 
 std::string format_duration(double seconds) {
@@ -61,12 +81,7 @@ void Progress::update(double done_work, const std::string& what) {
     last_ = now;
     const double elapsed = seconds(now - start_);
     estimate_.update(elapsed, std::clamp(done_work / total_, 0.0, 1.0));
-    std::string left;
-    if (estimate_.left()) left = ", " + format_duration(*estimate_.left()) + " left";
-    if (estimate_.takes_longer()) left += ", rising: this takes longer than what came before";
-    char head[64];
-    std::snprintf(head, sizeof head, "[%3.0f %%, %s", 100.0 * estimate_.share(), format_duration(elapsed).c_str());
-    const std::string line = head + left + "] " + shown_text(what);
+    const std::string line = progress_text(estimate_, elapsed) + " " + shown_text(what);
     if (!is_terminal_) {
         std::fprintf(stderr, "%s\n", line.c_str());
         return;

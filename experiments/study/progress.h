@@ -3,24 +3,30 @@
 #include <optional>
 #include <string>
 
-/// Share done and time left, smoothed for display. The share never falls. The time left shrinks by the time that
-/// passes; new estimates enter over `smoothing` seconds.
+/// Time left, smoothed for display, and the share of the time that is over, by this time left. The time left shrinks by
+/// the time that passes; a new estimate enters over a tenth of the whole time.
 class ProgressEstimate {
 public:
     /// `elapsed`: seconds since the start, never decreasing; `share_done` in [0, 1].
     void update(double elapsed, double share_done);
 
-    double share() const { return share_; }               ///< never less than before
+    /// elapsed / (elapsed + left()), never less than before; a dip of up to `held` is not shown. None before two per
+    /// cent are done, and while a longer estimate of the rest makes it less than it was.
+    std::optional<double> share() const { return share_; }
     std::optional<double> left() const { return left_; }  ///< seconds; none before two per cent are done
     bool takes_longer() const { return takes_longer_; }   ///< the rest clearly takes longer than left() states
 
-    static constexpr double smoothing = 30;
+    static constexpr double held = 0.005;
 
 private:
-    double share_ = 0, elapsed_ = 0;
-    std::optional<double> left_;
+    double greatest_ = 0, elapsed_ = 0;
+    std::optional<double> share_, left_;
     bool takes_longer_ = false;
 };
+
+/// "[ 40 %, 4 min 00 s, 6 min 00 s left]". After ten minutes with tenths of a per cent, as one may take minutes. Never
+/// all of it.
+std::string progress_text(const ProgressEstimate& estimate, double elapsed);
 
 /// Shows progress and the expected end of long work: one line on a terminal; on a pipe a line every ten seconds.
 /// Results printed with say() stay above it.

@@ -103,26 +103,71 @@ TEST(Workload, OverheadIsSpentAndSaysNothingOfTheRest) {
     EXPECT_NEAR(work.share_done(), 0.5, 1e-9) << "six seconds are over, two units of three seconds are left";
 }
 
-TEST(ProgressEstimate, NeverGoesBackwardsAndIsSmooth) {
+TEST(ProgressEstimate, SharesAreThoseOfTheTimesBesideThem) {
     ProgressEstimate estimate;
     estimate.update(1, 0.01);
     EXPECT_FALSE(estimate.left());
-    double share = 0, left = 0;
+    EXPECT_FALSE(estimate.share());
     // Half a minute at a pace of 100 s in all; then it turns out that there is twice as much to do.
-    for (int second = 10; second <= 30; ++second) estimate.update(second, second / 100.0);
-    EXPECT_NEAR(estimate.left().value(), 70, 1e-9);
+    for (int second = 10; second <= 30; ++second) {
+        estimate.update(second, second / 100.0);
+        EXPECT_NEAR(estimate.share().value(), second / 100.0, 1e-9);
+        EXPECT_NEAR(estimate.left().value(), 100 - second, 1e-9);
+    }
     EXPECT_FALSE(estimate.takes_longer());
-    share = estimate.share(), left = estimate.left().value();
+    double greatest = estimate.share().value();
+    bool was_without_share = false;
     for (int second = 31; second < 200; ++second) {
         estimate.update(second, second / 200.0);
-        EXPECT_GE(estimate.share(), share);
-        EXPECT_LT(std::abs(estimate.left().value() - left), 5) << "in a second";
-        share = estimate.share(), left = estimate.left().value();
         if (second == 31) {
             EXPECT_TRUE(estimate.takes_longer());
         }
+        const double by_times = second / (second + estimate.left().value());
+        if (!estimate.share()) {
+            EXPECT_LT(by_times, greatest - ProgressEstimate::held) << second;
+            was_without_share = true;
+            continue;
+        }
+        EXPECT_GE(*estimate.share(), greatest) << second;
+        EXPECT_NEAR(*estimate.share(), by_times, ProgressEstimate::held) << second;
+        if (second > 75) {
+            EXPECT_GT(*estimate.share(), greatest) << "time has passed: " << second;
+        }
+        greatest = *estimate.share();
     }
-    EXPECT_NEAR(share, 199.0 / 200, 1e-9);
-    EXPECT_NEAR(left, 1, 2);
+    EXPECT_TRUE(was_without_share) << "30 % of 100 s are less of 200 s";
+    EXPECT_NEAR(greatest, 199.0 / 200, 0.01);
+    EXPECT_NEAR(estimate.left().value(), 1, 2);
     EXPECT_FALSE(estimate.takes_longer());
+}
+
+TEST(ProgressEstimate, TakesInANewEstimateWithoutAJump) {
+    ProgressEstimate estimate;
+    for (int second = 100; second <= 300; ++second) estimate.update(second, second / 1000.0);
+    double left = estimate.left().value();
+    for (int second = 301; second <= 500; ++second) {
+        estimate.update(second, second / 1100.0);  // 100 s more
+        EXPECT_LT(std::abs(estimate.left().value() - left), 1.5) << "in a second";
+        EXPECT_TRUE(estimate.share()) << "a tenth more is no reason to take it back";
+        left = estimate.left().value();
+    }
+    EXPECT_NEAR(left, 600, 20) << "two time constants";
+}
+
+TEST(ProgressEstimate, IsWrittenAsShareTimeAndRest) {
+    const auto text = [](double elapsed, double share) {
+        ProgressEstimate estimate;
+        estimate.update(elapsed, share);
+        return progress_text(estimate, elapsed);
+    };
+    EXPECT_EQ(text(1, 0.01), "[1 s]");
+    EXPECT_EQ(text(240, 0.4), "[ 40 %, 4 min 00 s, 6 min 00 s left]");
+    EXPECT_EQ(text(599, 0.999), "[ 99 %, 9 min 59 s, 1 s left]");
+    EXPECT_EQ(text(942, 942.0 / (942 + 1968)), "[32.3 %, 15 min 42 s, 32 min 48 s left]");
+    EXPECT_EQ(text(7200, 1), "[99.9 %, 2 h 00 min, 0 s left]") << "the end is not yet";
+    ProgressEstimate doubled;
+    // 15 s were expected, 440 s are; of the difference, 1 - exp(-10 / 12.5) enters in 10 s.
+    doubled.update(100, 0.8), doubled.update(110, 0.2);
+    EXPECT_EQ(progress_text(doubled, 110),
+              "[1 min 50 s, 4 min 09 s left, rising: this takes longer than what came before]");
 }
