@@ -1,4 +1,5 @@
 // ssrlab plan: the cells of a study, which of them are done, and the estimated cost of the others.
+#include "core/cpu_times.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/list_text.h"
@@ -10,12 +11,15 @@
 #include "experiments/results/cells/cell_store.h"
 #include "experiments/study/plan/cell_selection.h"
 #include "experiments/study/plan/estimate.h"
+#include "experiments/study/plan/expected_time.h"
 #include "experiments/study/plan/ranking_warnings.h"
 #include "experiments/study/progress.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
+#include <optional>
 
 namespace {
 
@@ -45,22 +49,31 @@ nlohmann::json json_of(const std::vector<PlannedWork>& work) {
                         {"shot", cell->shot},
                         {"done", is_done},
                         {"seconds", estimate.seconds},
+                        {"processor_seconds", estimate.processor_seconds},
                         {"memory_mib", estimate.memory_mib}});
     return {{"cells", list}};
 }
 
+/// Of what is to be done.
+ExpectedTime time_of(const std::vector<PlannedWork>& work) {
+    ExpectedTime time;
+    for (const PlannedWork& w : work)
+        if (!w.is_done) time.seconds += w.estimate.seconds, time.processor_seconds += w.estimate.processor_seconds;
+    return time;
+}
+
 void print_kinds(const std::vector<PlannedWork>& work) {
-    std::printf("%-12s %7s %7s %7s   %s\n", "", "cells", "done", "to do", "takes about");
+    std::printf("%-12s %7s %7s %7s   %-14s %s\n", "", "cells", "done", "to do", "takes about", "processor time");
     const auto print = [&](const std::string& name, const auto& is_counted) {
-        size_t all = 0, done = 0;
-        double seconds = 0;
-        for (const PlannedWork& w : work) {
-            if (!is_counted(*w.cell)) continue;
-            ++all, done += w.is_done;
-            if (!w.is_done) seconds += w.estimate.seconds;
-        }
-        std::printf("%-12s %7zu %7zu %7zu   %s\n", name.c_str(), all, done, all - done,
-                    all > done ? format_duration(seconds).c_str() : "");
+        std::vector<PlannedWork> counted;
+        std::ranges::copy_if(work, std::back_inserter(counted), [&](const auto& w) { return is_counted(*w.cell); });
+        const size_t all = counted.size(), done = size_t(std::ranges::count_if(counted, &PlannedWork::is_done));
+        std::printf("%-12s %7zu %7zu %7zu", name.c_str(), all, done, all - done);
+        const ExpectedTime time = time_of(counted);
+        if (all > done)
+            std::printf("   %-14s %s", format_duration(time.seconds).c_str(),
+                        format_duration(time.processor_seconds).c_str());
+        std::printf("\n");
     };
     for (const std::string& name : cell_kind_names())
         print(name, [&](const PlannedCell& cell) { return name_of(cell.kind) == name; });
@@ -75,11 +88,11 @@ void print_list(const std::vector<PlannedWork>& work) {
 
 /// A design that would take the rest of the year, or fill the memory of this machine, if it is to run `here`.
 void refuse_absurd(const std::vector<PlannedWork>& work, bool here) {
-    double seconds = 0, memory = 0;
+    const double seconds = time_of(work).seconds;
+    double memory = 0;
     std::string largest;
     for (const PlannedWork& w : work) {
         if (w.is_done) continue;
-        seconds += w.estimate.seconds;
         if (w.estimate.memory_mib > memory) memory = w.estimate.memory_mib, largest = w.cell->what;
     }
     if (seconds > most_days * 86400)
@@ -116,10 +129,12 @@ static void plan_command(const PlanOptions& options, const CommonOptions& common
     for (const PlannedShot& shot : plan.shots)
         for (const PlannedCell& cell : shot.cells)
             if (selection.holds(cell)) work.push_back({&cell, store.read(cell.name).has_value(), {}});
+    std::optional<double> load_of_others;
     const bool is_estimated = !options.has_list && std::ranges::any_of(work, [](const auto& w) { return !w.is_done; });
     if (is_estimated) {
-        const auto estimates = estimate_cells(device, config, plan, settings);
-        for (PlannedWork& w : work) w.estimate = estimates.at(w.cell->name);
+        const StudyEstimate estimate = estimate_study(device, config, plan, settings);
+        for (PlannedWork& w : work) w.estimate = estimate.cells.at(w.cell->name);
+        load_of_others = estimate.load_of_others;
     }
     if (!options.json.empty()) write_text(options.json, json_of(work).dump(1) + "\n");
     if (options.has_list) return print_list(work);
@@ -131,9 +146,10 @@ static void plan_command(const PlanOptions& options, const CommonOptions& common
     if (!is_estimated) return;
     double memory = 0;
     for (const PlannedWork& w : work) memory = std::max(memory, w.is_done ? 0 : w.estimate.memory_mib);
+    std::printf("\n%s\n", expected_time_text(time_of(work), load_of_others, read_cpu_times().cpus).c_str());
     std::printf(
-        "\nOn this machine and %s while nothing else runs; at most about %lld MiB of memory. Estimated from small "
-        "images and references at their limit of samples; cached references are reused.\n",
+        "\nOn this machine and %s; at most about %lld MiB of memory. Estimated from small images and references at "
+        "their limit of samples; cached references are reused.\n",
         device.info().name.c_str(), std::llround(memory));
     std::printf("\nIt is run by:\n  %s\n", command_line("run", config, settings).c_str());
     refuse_absurd(work, options.json.empty());

@@ -1,7 +1,9 @@
 #include "experiments/study/plan/estimate.h"
 
-#include "core/elapsed.h"
+#include "core/cpu_times.h"
 #include "core/error.h"
+#include "core/gpu/passes/clock.h"
+#include "core/in_flight.h"
 #include "core/leftovers.h"
 #include "experiments/study/measuring/render_technique.h"
 #include "experiments/study/measuring/times/timed_rounds.h"
@@ -13,7 +15,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <set>
 #include <utility>
 
@@ -24,21 +25,39 @@ namespace {
 /// Frames are rendered at all of these sizes, all else is measured at the first two.
 constexpr std::array<glm::uvec2, 3> calibration_extents = {glm::uvec2(64, 36), glm::uvec2(128, 72),
                                                            glm::uvec2(320, 180)};
+/// By two clocks: other programs lengthen what passes on the wall, and hardly what processors do.
+struct Spent {
+    double wall = 0, processors = 0;  // s; all threads of this process count
+};
+using ByClock = double Spent::*;
 using OfTwoSizes = std::array<double, 2>;
 using OfAllSizes = std::array<double, calibration_extents.size()>;
+using SpentOfTwoSizes = std::array<Spent, 2>;
+using SpentOfAllSizes = std::array<Spent, calibration_extents.size()>;
 constexpr unsigned few_samples = 32, many_samples = 256;
 /// Shares of a reference's time without its guide that its lit colour alone and its specular light alone take; of the
 /// rays of three rooms the latter has 0.46 to 0.54. Both trace the first hits.
 constexpr double lit_share = 0.6, specular_share = 0.5;
-constexpr double clock_proof_seconds = 5, compiling_seconds = 0.3, counting_factor = 5;
+constexpr double compiling_seconds = 0.3, counting_factor = 5;
+/// Of processors: what starts a run and ends with its page; one attempt at the proof of the clock. On a busy machine
+/// all attempts are made (core/gpu/passes/clock.h).
+constexpr double run_seconds = 0.5, clock_proof_seconds = 4;
 constexpr double chip_seconds = 1;               // of one chip's compiler for the passes of a point
 constexpr double external_pixel_seconds = 2e-6;  // of a frame of another program, read and measured
 constexpr double tracing_factor = 15;            // a traced frame, with the replay of its waves, takes so many others
 
-double seconds_of(const std::function<void()>& work) {
-    const auto start = std::chrono::steady_clock::now();
+Spent spent_in(const std::function<void()>& work) {
+    const CpuTimes start = read_cpu_times();
     work();
-    return seconds_since(start);
+    const CpuTimes end = read_cpu_times();
+    return {.wall = end.wall - start.wall, .processors = end.own - start.own};
+}
+
+template <size_t N>
+std::array<double, N> by(ByClock clock, const std::array<Spent, N>& spent) {
+    std::array<double, N> seconds{};
+    for (size_t i = 0; i < N; ++i) seconds[i] = spent[i].*clock;
+    return seconds;
 }
 
 double pixels_of(glm::uvec2 extent) { return double(extent.x) * double(extent.y); }
@@ -60,9 +79,10 @@ std::string kind_of(const PointConfig& technique) { return technique.technique +
 
 /// What a point of a kind takes.
 struct PointRates {
-    Line once;     ///< images, and what is measured of the point as a whole
-    Line measure;  ///< a frame of a seed
-    Growth frame;  ///< rendered: the mean of the first and the last point of the kind
+    double compiling = 0;  ///< its shaders
+    Line once;             ///< images, and what is measured of the point as a whole
+    Line measure;          ///< a frame of a seed
+    Growth frame;          ///< rendered: the mean of the first and the last point of the kind
 };
 
 /// How often a point is played besides its seeds: with the light of each half of a reference (point_run.cpp).
@@ -70,11 +90,14 @@ unsigned plays_of_lit_noise(const Config& config, const ShotConfig& shot) {
     return config.measures_lit_noise && config.has_reference && !shot.direct_lit && shot.gbuffer.empty() ? 2 : 0;
 }
 
-/// What was measured on small images.
+/// What was measured on small images, by one of the clocks.
 struct Rates {
     Line opening;                              ///< a shot: its scene, its first frame, what is measured of the truth
     Line guide;                                ///< what a reference does before its samples
     double per_sample = 0;                     ///< seconds per pixel and sample of a reference
+    double of_wall = 1;                        ///< seconds of this clock in a second of a reference on the wall
+    double of_processor = 1;                   ///< seconds of this clock in a second of work for one processor
+    double clock_attempts = 1;                 ///< at each check of the clock
     double probe = 0;                          ///< seconds of a reflection probe, if the shot has one
     std::map<std::string, PointRates> points;  ///< by kind_of()
 };
@@ -102,59 +125,82 @@ public:
         fs::remove_all(folder_, error);
     }
 
-    Rates measure(const ShotConfig& shot) {
-        OfTwoSizes opening{}, rendered{};
-        std::map<std::string, PointSeconds> points;
+    void measure(const ShotConfig& shot) {
+        const CpuTimes start = read_cpu_times();
         // The next images find the probe in the cache.
-        const double with_probe = shot.has_probe ? seconds_of([&] { open_without_reference(shot, 0); }) : 0;
-        for (size_t i = 0; i < opening.size(); ++i) {
-            rendered[i] = seconds_of([&] { open(shot, i); });
+        if (shot.has_probe) with_probe_ = spent_in([&] { open_without_reference(shot, 0); });
+        for (size_t i = 0; i < opening_.size(); ++i) {
+            rendered_[i] = spent_in([&] { open(shot, i); });
             std::unique_ptr<OpenShot> run;
-            opening[i] = seconds_of([&] { run = open(shot, i); });
+            opening_[i] = spent_in([&] { run = open(shot, i); });
             for (const auto& [kind, ends] : ends_of_kinds_) {
-                measure_frames(*run, i, ends, points[kind]);
-                measure_point(*run, i, ends.first, points[kind]);
+                measure_frames(*run, i, ends, points_[kind]);
+                measure_point(*run, i, ends.first, points_[kind]);
             }
         }
         {
             const std::unique_ptr<OpenShot> largest = open_without_reference(shot, 2);
-            for (const auto& [kind, ends] : ends_of_kinds_) measure_frames(*largest, 2, ends, points[kind]);
+            for (const auto& [kind, ends] : ends_of_kinds_) measure_frames(*largest, 2, ends, points_[kind]);
         }
         config_.reference.max_samples = many_samples;
-        const double longer = seconds_of([&] { open(shot, 0); });
+        longer_ = spent_in([&] { open(shot, 0); });
+        const CpuTimes end = read_cpu_times();
+        spent_ = {.wall = end.wall - start.wall, .processors = end.own - start.own};
+        foreign_load_ = foreign_load(start, end);
+    }
+
+    /// Of all processors while measuring: the share that other programs took, in [0, 1]; none if not reported.
+    std::optional<double> load_of_others() const { return foreign_load_; }
+
+    /// Of the shot that was measured.
+    Rates rates(const ShotConfig& shot, ByClock clock) const {
+        const OfTwoSizes opening = by(clock, opening_), rendered = by(clock, rendered_);
         Rates rates{.opening = line_through(opening),
                     .guide = {},
-                    .probe = std::max(with_probe - opening[0], 0.0),
+                    .per_sample = per_sample(clock),
+                    .of_wall = per_sample(&Spent::wall) > 0 ? per_sample(clock) / per_sample(&Spent::wall) : 1,
+                    .of_processor = clock == &Spent::wall ? std::max(spent_.wall / spent_.processors, 1.0) : 1,
+                    .clock_attempts = foreign_load_.value_or(0) > disturbing_load ? double(::clock_attempts) : 1,
+                    .probe = std::max(with_probe_.*clock - opening[0], 0.0),
                     .points = {}};
-        rates.per_sample =
-            std::max(longer - rendered[0], 0.0) / (pixels_of(calibration_extents[0]) * (many_samples - few_samples));
         OfTwoSizes guide{};
         for (size_t i = 0; i < guide.size(); ++i)
             guide[i] = rendered[i] - opening[i] - rates.per_sample * few_samples * pixels_of(calibration_extents[i]);
         rates.guide = line_through(guide);
-        for (const auto& [kind, seconds] : points) rates.points[kind] = rates_of(seconds, shot);
+        for (const auto& [kind, spent] : points_) rates.points[kind] = rates_of(spent, shot, clock);
         return rates;
     }
 
 private:
-    struct PointSeconds {
-        OfTwoSizes of_a_seed{}, of_two_seeds{};
-        OfAllSizes first_frame{}, last_frame{};
+    struct SpentOnPoint {
+        Spent compiling;
+        SpentOfTwoSizes of_a_seed{}, of_two_seeds{};
+        SpentOfAllSizes first_frame{}, last_frame{};
     };
 
-    PointRates rates_of(const PointSeconds& seconds, const ShotConfig& shot) const {
+    double per_sample(ByClock clock) const {
+        return std::max(longer_.*clock - rendered_[0].*clock, 0.0) /
+               (pixels_of(calibration_extents[0]) * (many_samples - few_samples));
+    }
+
+    PointRates rates_of(const SpentOnPoint& spent, const ShotConfig& shot, ByClock clock) const {
+        const OfTwoSizes of_a_seed = by(clock, spent.of_a_seed), of_two_seeds = by(clock, spent.of_two_seeds);
+        const OfAllSizes first_frame = by(clock, spent.first_frame), last_frame = by(clock, spent.last_frame);
         OfTwoSizes once{}, measure{};
         for (size_t i = 0; i < once.size(); ++i) {
-            const double seed = seconds.of_two_seeds[i] - seconds.of_a_seed[i];
-            once[i] = seconds.of_a_seed[i] - seed - plays_of_lit_noise(config_, shot) * seconds.first_frame[i];
-            measure[i] = seed - seconds.first_frame[i];
+            const double seed = of_two_seeds[i] - of_a_seed[i];
+            once[i] = of_a_seed[i] - seed - plays_of_lit_noise(config_, shot) * first_frame[i];
+            measure[i] = seed - first_frame[i];
         }
         OfAllSizes frame{}, pixels{};
         for (size_t i = 0; i < frame.size(); ++i) {
-            frame[i] = (seconds.first_frame[i] + seconds.last_frame[i]) / 2;
+            frame[i] = (first_frame[i] + last_frame[i]) / 2;
             pixels[i] = pixels_of(calibration_extents[i]);
         }
-        return {line_through(once), line_through(measure), growth_through(pixels, frame)};
+        return {.compiling = spent.compiling.*clock,
+                .once = line_through(once),
+                .measure = line_through(measure),
+                .frame = growth_through(pixels, frame)};
     }
 
     std::unique_ptr<OpenShot> open_without_reference(ShotConfig shot, size_t size) {
@@ -180,11 +226,11 @@ private:
                           .report = [](double, const std::string&) {}});
     }
 
-    void measure_point(OpenShot& run, size_t size, PointConfig technique, PointSeconds& seconds) {
+    void measure_point(OpenShot& run, size_t size, PointConfig technique, SpentOnPoint& spent) {
         const bool is_first_size = size == 0;  // compiles
         const auto play = [&](std::vector<unsigned> seeds) {
             technique.seeds = std::move(seeds);
-            return seconds_of([&] {
+            return spent_in([&] {
                 SpentTime unused;
                 render_point(device_, run.shot, run.truth, *run.store, config_, technique,
                              {.out = folder_,
@@ -195,18 +241,21 @@ private:
             });
         };
         if (is_first_size) play({0});
-        seconds.of_a_seed[size] = play({0});
-        seconds.of_two_seeds[size] = play({0, 1});
+        spent.of_a_seed[size] = play({0});
+        spent.of_two_seeds[size] = play({0, 1});
     }
 
     void measure_frames(OpenShot& run, size_t size, const std::pair<PointConfig, PointConfig>& ends,
-                        PointSeconds& seconds) {
-        seconds.first_frame[size] = seconds_of_frame(run, ends.first);
-        seconds.last_frame[size] =
-            ends.second.point == ends.first.point ? seconds.first_frame[size] : seconds_of_frame(run, ends.second);
+                        SpentOnPoint& spent) {
+        const InFlightText technique(in_flight().technique, ends.first.technique),
+            point(in_flight().point, ends.first.point);
+        if (size == 0) spent.compiling = spent_in([&] { spent_on_frame(run, ends.first); });
+        spent.first_frame[size] = spent_on_frame(run, ends.first);
+        spent.last_frame[size] =
+            ends.second.point == ends.first.point ? spent.first_frame[size] : spent_on_frame(run, ends.second);
     }
 
-    double seconds_of_frame(OpenShot& run, const PointConfig& config) {
+    Spent spent_on_frame(OpenShot& run, const PointConfig& config) {
         const FrameStep& step = run.shot.steps.front();
         const FrameStore::Frame frame = run.store->frame(step, run.truth.lit(step));
         PassList pass_list(device_, run.shot.config.extent);
@@ -223,16 +272,24 @@ private:
             pass_list.times();  // waits
         };
         render();  // compiles, and allocates
-        std::array<double, 3> seconds{};
-        for (double& s : seconds) s = seconds_of(render);
-        std::ranges::sort(seconds);
-        return seconds[1];
+        std::array<Spent, 3> spent{};
+        for (Spent& s : spent) s = spent_in(render);
+        const auto median = [&](ByClock clock) {
+            std::array<double, 3> seconds = by(clock, spent);
+            std::ranges::sort(seconds);
+            return seconds[1];
+        };
+        return {.wall = median(&Spent::wall), .processors = median(&Spent::processors)};
     }
 
     Device& device_;
     const RunSettings& settings_;
     Config config_;
     std::map<std::string, std::pair<PointConfig, PointConfig>> ends_of_kinds_;  ///< first and last point
+    Spent with_probe_, longer_, spent_;
+    std::optional<double> foreign_load_;
+    SpentOfTwoSizes opening_{}, rendered_{};
+    std::map<std::string, SpentOnPoint> points_;  ///< by kind_of()
     const fs::path folder_ = unfinished_path(fs::temp_directory_path() / "ssrlab-plan");
 };
 
@@ -259,7 +316,7 @@ double memory_of(const ShotConfig& shot, const Config& config, size_t timed_copi
            kind_mib * double(kinds.size());
 }
 
-/// Seconds of a study's cells.
+/// Seconds of a study's cells, by the clock of the rates.
 class CellSeconds {
 public:
     CellSeconds(const Rates& rates, const Config& config) : rates_(rates), config_(config) {}
@@ -270,10 +327,10 @@ public:
         const double pixels = pixels_of(shot.extent);
         switch (cell.kind) {
             case CellKind::references:
-                return rates_.opening.at(pixels) + (shot.has_probe ? rates_.probe : 0) +
-                       of_references(shot, cell.units);
+                return std::exchange(run_seconds_, 0.0) + rates_.opening.at(pixels) +
+                       (shot.has_probe ? rates_.probe : 0) + of_references(shot, cell.units);
             case CellKind::renders:
-                return of_renders(*cell.technique, shot);
+                return of_compiling(*cell.technique) + of_renders(*cell.technique, shot);
             case CellKind::costs:
                 return of_costs(cell, shot);
             case CellKind::times:
@@ -286,6 +343,12 @@ public:
     unsigned copies_timed() const { return config_.timing.has_copies ? 3 : 1; }
 
 private:
+    /// Once in a process.
+    double of_compiling(const PointConfig& technique) {
+        if (technique.external || !compiled_.insert(&technique).second) return 0;
+        return rates_.points.at(kind_of(technique)).compiling;
+    }
+
     double of_costs(const PlannedCell& cell, const ShotConfig& shot) const {
         const double frame = frame_of(*cell.technique, shot), chips = double(config_.gpu_compilers.size());
         // Frames before the last are rendered as they are; counting takes several times a frame.
@@ -308,7 +371,7 @@ private:
 
     /// Of one reference, without its guide.
     double of_samples(const ReferenceSettings& settings, double pixels) const {
-        const auto [samples, seconds] = std::pair(settings.max_samples, settings.max_seconds);
+        const auto [samples, seconds] = std::pair(settings.max_samples, settings.max_seconds * rates_.of_wall);
         if (samples == 0 && seconds > 0) return seconds;
         // How many samples an error takes is not known: then those that a reference has by default.
         const unsigned of_specular = samples > 0 ? samples : ReferenceSettings::default_samples;
@@ -343,26 +406,32 @@ private:
 
     const Rates& rates_;
     const Config& config_;
-    double proof_seconds_ = clock_proof_seconds;
+    double run_seconds_ = run_seconds * rates_.of_processor,
+           proof_seconds_ = clock_proof_seconds * rates_.clock_attempts * rates_.of_processor;
+    std::set<const PointConfig*> compiled_;
 };
 
 }  // namespace
 
-std::map<std::string, CellEstimate> estimate_cells(Device& device, const Config& config, const StudyPlan& plan,
-                                                   const RunSettings& settings) {
-    const Rates rates = Calibration(device, config, settings).measure(config.shots.front());
-    CellSeconds seconds(rates, config);
+StudyEstimate estimate_study(Device& device, const Config& config, const StudyPlan& plan, const RunSettings& settings) {
+    Calibration calibration(device, config, settings);
+    const ShotConfig& calibrated = config.shots.front();
+    calibration.measure(calibrated);
+    const Rates of_wall = calibration.rates(calibrated, &Spent::wall),
+                of_processors = calibration.rates(calibrated, &Spent::processors);
+    CellSeconds on_wall(of_wall, config), on_processors(of_processors, config);
     const auto timed = size_t(std::ranges::count_if(config.techniques, &PointConfig::is_timed));
-    std::map<std::string, CellEstimate> estimates;
+    StudyEstimate study{.cells = {}, .load_of_others = calibration.load_of_others()};
     for (const PlannedShot& shot : plan.shots) {
-        double others = 0;
+        CellEstimate others;
         for (const PlannedCell& cell : shot.cells) {
-            estimates[cell.name] = {
-                .seconds = seconds.of(cell, shot.config, others),
+            const CellEstimate& estimate = study.cells[cell.name] = {
+                .seconds = on_wall.of(cell, shot.config, others.seconds),
+                .processor_seconds = on_processors.of(cell, shot.config, others.processor_seconds),
                 .memory_mib =
-                    memory_of(shot.config, config, cell.kind == CellKind::times ? seconds.copies_timed() * timed : 0)};
-            others += estimates[cell.name].seconds;
+                    memory_of(shot.config, config, cell.kind == CellKind::times ? on_wall.copies_timed() * timed : 0)};
+            others.seconds += estimate.seconds, others.processor_seconds += estimate.processor_seconds;
         }
     }
-    return estimates;
+    return study;
 }

@@ -4,16 +4,22 @@
 #include "experiments/study/run.h"
 
 #include <map>
+#include <optional>
 #include <string>
 
-/// Expected time and memory of a cell on this machine while nothing else runs.
+/// Expected time and memory of a cell on this machine.
 struct CellEstimate {
-    double seconds = 0;
-    double memory_mib = 0;  ///< peak of the process that does the cell
+    double seconds = 0;            ///< while other programs take as much of the machine as they take now
+    double processor_seconds = 0;  ///< of all processors together; hardly depends on other programs
+    double memory_mib = 0;         ///< peak of the process that does the cell
 };
 
-/// Estimates by name of cell. They are calibrated by rendering small images of the study's first shot with two points
+struct StudyEstimate {
+    std::map<std::string, CellEstimate> cells;  ///< by name
+    std::optional<double> load_of_others;  ///< share of all processors that other programs took meanwhile, if reported
+};
+
+/// Estimates a study's cells. They are calibrated by rendering small images of the study's first shot with two points
 /// of each technique and preset: some ten seconds, longer for many presets. References count as stopping at their limit
 /// of samples or seconds; without a limit, at the default number of samples.
-std::map<std::string, CellEstimate> estimate_cells(Device& device, const Config& config, const StudyPlan& plan,
-                                                   const RunSettings& settings);
+StudyEstimate estimate_study(Device& device, const Config& config, const StudyPlan& plan, const RunSettings& settings);
