@@ -6,6 +6,10 @@
 #include "experiments/report/report.h"
 #include "experiments/study/run.h"
 
+#include <unistd.h>
+#include <cstdio>
+#include <functional>
+#include <iostream>
 #include <limits>
 
 namespace {
@@ -13,10 +17,21 @@ namespace {
 struct RunOptions {
     std::filesystem::path config, out;
     bool keep_all = false, replaces = false, prunes = false, takes_times_here = false, takes_times_again = false;
-    bool has_no_report = false;
+    bool has_no_report = false, is_confirmed = false;
     double report_after = RunSettings{}.report_after;
     std::vector<std::string> cells;  ///< as CellSelection takes them; empty: all
 };
+
+/// What a person answers who sees the question; without one, nothing is asked.
+std::function<bool()> confirmation(const RunOptions& options, const std::vector<EndedPoint>& ended) {
+    if (options.is_confirmed || !ended.empty() || !isatty(STDIN_FILENO) || !isatty(STDERR_FILENO)) return {};
+    return [] {
+        std::fputs("Start it? [y/N] ", stderr);
+        std::string answer;
+        std::getline(std::cin, answer);
+        return answer == "y" || answer == "Y" || answer == "yes";
+    };
+}
 
 }  // namespace
 
@@ -32,6 +47,7 @@ static void run_study_command(const RunOptions& options, const CommonOptions& co
                .prunes = options.prunes,
                .takes_times_here = options.takes_times_here,
                .takes_times_again = options.takes_times_again,
+               .confirm = confirmation(options, ended),
                .report_after = options.report_after,
                .write_report = options.has_no_report ? nullptr : write_page,
                .cells = options.cells,
@@ -55,6 +71,8 @@ void add_run(Commands& line) {
                      "Measure all times on this machine again. By default, times from another machine are kept");
     command.add_flag("--times-again", run.takes_times_again,
                      "Measure times again that other programs disturbed, and keep the less disturbed ones");
+    command.add_flag("--yes", run.is_confirmed,
+                     "Start without a question. On a terminal, a study of more than an hour asks first");
     command.add_flag("--no-report", run.has_no_report,
                      "Write tables and images, but no report. `ssrlab report` writes the report later");
     option(command, "--report-after SECONDS", run.report_after,

@@ -11,25 +11,39 @@
 
 namespace {
 
+using namespace std::chrono_literals;
+
 double seconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
+
+double left_after(double passed, double left) { return std::max(left - passed, 0.0); }
 
 }  // namespace
 
 void ProgressEstimate::update(double elapsed, double share_done) {
     constexpr double least_smoothing = 5;  // s
-    const double passed = elapsed - elapsed_;
+    if (left_) left_ = left_after(elapsed - elapsed_, *left_);
     elapsed_ = elapsed;
     if (share_done < 0.02) return;  // an estimate would only mislead
-    const double now = elapsed * (1 - share_done) / share_done;
+    const double now = elapsed * (1 - share_done) / share_done, passed = elapsed - updated_;
+    updated_ = elapsed;
     if (left_) {
-        const double expected = std::max(*left_ - passed, 0.0),
-                     smoothing = std::max(0.1 * (elapsed + expected), least_smoothing);
+        const double expected = *left_, smoothing = std::max(0.1 * (elapsed + expected), least_smoothing);
         takes_longer_ = now > 1.3 * expected + 10;
         left_ = expected + (now - expected) * (1 - std::exp(-passed / smoothing));
     } else {
         left_ = now;
     }
-    const double share = elapsed > 0 ? elapsed / (elapsed + *left_) : 0;
+    set_share();
+}
+
+void ProgressEstimate::pass(double elapsed) {
+    if (left_) left_ = left_after(elapsed - elapsed_, *left_);
+    elapsed_ = elapsed;
+    if (left_) set_share();
+}
+
+void ProgressEstimate::set_share() {
+    const double share = elapsed_ > 0 ? elapsed_ / (elapsed_ + *left_) : 0;
     greatest_ = std::max(greatest_, share);
     share_ = share >= greatest_ - held ? std::optional(greatest_) : std::nullopt;
 }
@@ -66,9 +80,27 @@ Progress::Progress(double total_work)
     : total_(std::max(total_work, 1e-9)),
       is_terminal_(isatty(STDERR_FILENO)),
       start_(std::chrono::steady_clock::now()),
-      last_(start_ - std::chrono::hours(1)) {}
+      last_(start_ - std::chrono::hours(1)),
+      clock_([this](const std::stop_token& stop) { draw_as_time_passes(stop); }) {}
 
-Progress::~Progress() { clear(); }
+Progress::~Progress() {
+    clock_.request_stop();
+    clock_.join();
+    clear();
+}
+
+void Progress::draw_as_time_passes(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    const auto pause = is_terminal_ ? 1s : 10s;
+    while (!stop.stop_requested()) {
+        end_.wait_for(lock, stop, pause, [] { return false; });
+        const auto now = std::chrono::steady_clock::now();
+        if (stop.stop_requested() || what_.empty() || now - last_ < pause) continue;
+        last_ = now;
+        estimate_.pass(seconds(now - start_));
+        draw();
+    }
+}
 
 void Progress::clear() {
     if (drawn_) std::fprintf(stderr, "\r%*s\r", int(drawn_), "");
@@ -76,12 +108,17 @@ void Progress::clear() {
 }
 
 void Progress::update(double done_work, const std::string& what) {
+    const std::lock_guard lock(mutex_);
+    what_ = what;
     const auto now = std::chrono::steady_clock::now();
+    estimate_.update(seconds(now - start_), std::clamp(done_work / total_, 0.0, 1.0));
     if (seconds(now - last_) < (is_terminal_ ? 0.2 : 10.0)) return;
     last_ = now;
-    const double elapsed = seconds(now - start_);
-    estimate_.update(elapsed, std::clamp(done_work / total_, 0.0, 1.0));
-    const std::string line = progress_text(estimate_, elapsed) + " " + shown_text(what);
+    draw();
+}
+
+void Progress::draw() {
+    const std::string line = progress_text(estimate_, seconds(last_ - start_)) + " " + shown_text(what_);
     if (!is_terminal_) {
         std::fprintf(stderr, "%s\n", line.c_str());
         return;
@@ -95,6 +132,7 @@ void Progress::update(double done_work, const std::string& what) {
 }
 
 void Progress::say(const std::string& line) {
+    const std::lock_guard lock(mutex_);
     clear();
     std::printf("%s\n", shown_text(line).c_str());
     std::fflush(stdout);

@@ -1,7 +1,11 @@
 #pragma once
 #include <chrono>
+#include <condition_variable>
+#include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
+#include <thread>
 
 /// Time left, smoothed for display, and the share of the time that is over, by this time left. The time left shrinks by
 /// the time that passes; a new estimate enters over a tenth of the whole time.
@@ -9,6 +13,9 @@ class ProgressEstimate {
 public:
     /// `elapsed`: seconds since the start, never decreasing; `share_done` in [0, 1].
     void update(double elapsed, double share_done);
+
+    /// Time passes without news of the work.
+    void pass(double elapsed);
 
     /// elapsed / (elapsed + left()), never less than before; a dip of up to `held` is not shown. None before two per
     /// cent are done, and while a longer estimate of the rest makes it less than it was.
@@ -19,7 +26,9 @@ public:
     static constexpr double held = 0.005;
 
 private:
-    double greatest_ = 0, elapsed_ = 0;
+    void set_share();
+
+    double greatest_ = 0, elapsed_ = 0, updated_ = 0;
     std::optional<double> share_, left_;
     bool takes_longer_ = false;
 };
@@ -28,8 +37,8 @@ private:
 /// all of it.
 std::string progress_text(const ProgressEstimate& estimate, double elapsed);
 
-/// Shows progress and the expected end of long work: one line on a terminal; on a pipe a line every ten seconds.
-/// Results printed with say() stay above it.
+/// Shows progress and the expected end of long work: one line on a terminal; on a pipe a line every ten seconds. The
+/// line goes on with the time while the work says nothing. Results printed with say() stay above it.
 class Progress {
 public:
     explicit Progress(double total_work);
@@ -43,12 +52,18 @@ public:
 
 private:
     void clear();
+    void draw();
+    void draw_as_time_passes(const std::stop_token& stop);
 
     double total_;
     ProgressEstimate estimate_;
+    std::string what_;
     size_t drawn_ = 0;  ///< characters of the line on the terminal
     bool is_terminal_;
     std::chrono::steady_clock::time_point start_, last_;
+    std::mutex mutex_;  ///< of all above
+    std::condition_variable_any end_;
+    std::jthread clock_;
 };
 
 /// "1 h 02 min", "3 min 20 s", "12 s".

@@ -13,6 +13,8 @@
 #include "experiments/study/manifest_entries.h"
 #include "experiments/study/measuring/costs/gpu_estimates.h"
 #include "experiments/study/plan/cell_selection.h"
+#include "experiments/study/plan/estimate.h"
+#include "experiments/study/plan/expected_time.h"
 #include "experiments/study/plan/ranking_warnings.h"
 #include "experiments/study/shots/shot_cells.h"
 #include "experiments/study/write_results.h"
@@ -23,13 +25,42 @@
 #include <cctype>
 #include <csignal>
 #include <cstring>
+#include <map>
+#include <optional>
 
 namespace {
 
 /// A first guess of what a unit of a cell takes, in seconds; what is measured corrects it (workload.h).
-double guessed_seconds(const PlannedCell& cell) {
-    constexpr double reference_seconds = 200, render_seconds = 1.5;  // of a million pixels
-    return 1e-6 * double(cell.pixels) * (cell.kind == CellKind::references ? reference_seconds : render_seconds);
+double guessed_seconds(const PlannedCell& cell, const Config& config) {
+    constexpr double sample_seconds = 0.6, render_seconds = 1.5;  // of a million pixels
+    const double megapixels = 1e-6 * double(cell.pixels);
+    if (cell.kind != CellKind::references) return megapixels * render_seconds;
+    if (!config.has_reference) return megapixels * render_seconds;
+    const ReferenceSettings& reference = config.reference;
+    const double samples = reference.max_samples > 0 ? reference.max_samples : ReferenceSettings::default_samples,
+                 traced =
+                     megapixels * sample_seconds * (samples * (1 + reference.adaptive_share) + reference.guide_samples);
+    return reference.max_seconds > 0 ? std::min(traced, reference.max_seconds) : traced;
+}
+
+/// Of selected cells that are not there, by calibration: seconds by name, as in StudyEstimate. Nothing where a guess
+/// says that the study is short, which is not worth ten seconds or more.
+std::optional<StudyEstimate> estimate_long_study(StudySession& study, double guess) {
+    constexpr double error_of_guess = 4;  // rooms have twice to four times the guess
+    // Where a shader ended the process, the study was named before.
+    if (guess * error_of_guess <= study.settings.names_after || !study.settings.ended.empty()) return {};
+    study.progress.say("Estimating what this study takes ...");
+    return estimate_study(study.device, study.config, study.plan, study.settings);
+}
+
+/// The sentence on a study that takes long; who gave a range of frames by mistake sees so.
+void name_long_study(StudySession& study, const ExpectedTime& time) {
+    if (time.seconds <= study.settings.names_after) return;
+    study.progress.say("This study takes " + with_range(time.seconds, range_of_seconds(time.seconds)) +
+                       ". What takes the time is shown by:");
+    study.progress.say("  " + command_line("plan", study.config, study.settings));
+    if (study.settings.confirm && !study.settings.confirm())
+        fail("the study was not started; `ssrlab plan` shows what takes its time");
 }
 
 /// What a run before left, which may be of any version; null if it cannot be read.
@@ -87,25 +118,36 @@ std::string key_of_run(const StudySession& study) {
 void plan_work(StudySession& study, const CellSelection& selection) {
     const SpentTime::Span span(study.spent, "planning");
     study.plan = plan_study(study.config, study.device.info(), study.settings.search_path, study.settings.keep_all);
-    size_t selected = 0;
+    std::map<const PlannedCell*, double> guesses;  // of the selected cells
+    double to_do = 0;
     for (const PlannedShot& shot : study.plan.shots) {
         double others = 0;
         for (const PlannedCell& cell : shot.cells) {
             const bool is_times = cell.kind == CellKind::times;
             // A budget of nothing is not kept, and one of more than all is hardly used.
             const double share = std::clamp(double(study.config.timing.most_share), 0.1, 1.0);
-            const double guess = is_times ? share * others : guessed_seconds(cell);
-            others += cell.units * guess;
+            const double guess = is_times ? share * others : cell.units * guessed_seconds(cell, study.config);
+            others += guess;
             if (!selection.holds(cell)) continue;
-            ++selected;
-            study.work.plan(name_of(cell.kind), kind_of_work(cell), cell.units, guess);
+            guesses[&cell] = guess;
+            if (!std::filesystem::exists(study.cells.file(cell.name))) to_do += guess;
         }
     }
-    if (selected == 0 && selection.is_shard())
+    if (guesses.empty() && selection.is_shard())
         study.progress.say("note: this part of the study has no cell");
-    else if (selected == 0)
+    else if (guesses.empty())
         fail("--cells selects none of the ", study.plan.cell_count(), " cells of this study; `",
              command_line("plan", study.config, study.settings), " --list` names them");
+    const std::optional<StudyEstimate> estimate = estimate_long_study(study, to_do);
+    ExpectedTime time;
+    for (auto& [cell, guess] : guesses) {
+        if (estimate) {
+            guess = estimate->cells.at(cell->name).seconds;
+            if (!std::filesystem::exists(study.cells.file(cell->name))) time.seconds += guess;
+        }
+        study.work.plan(name_of(cell->kind), kind_of_work(*cell), cell->units, guess / std::max(cell->units, 1e-9));
+    }
+    name_long_study(study, time);
 }
 
 /// Runs the cells of one study after another, and lets results be read meanwhile.

@@ -211,9 +211,10 @@ class SharpEdges(unittest.TestCase):
             self.refused(*words, codes=(2, 3))
         self.assertFalse(Path("/proc/below").exists())
 
-    def terminal(self, columns, *words, **environment):
-        """What a terminal of so many columns shows."""
+    def terminal(self, columns, *words, typed="", **environment):
+        """What a terminal of so many columns shows, on which somebody typed ahead."""
         ours, its = pty.openpty()
+        os.write(ours, typed.encode())
         fcntl.ioctl(its, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
         with subprocess.Popen([SSRLAB, *words], cwd=self.folder, env=self.environment | environment, stdin=its, stdout=its, stderr=its) as process:
             os.close(its)
@@ -229,6 +230,19 @@ class SharpEdges(unittest.TestCase):
             os.close(ours)
             process.wait()
         return said.decode().replace("\r\n", "\n")
+
+    def test_a_study_of_hours_is_confirmed_where_somebody_sees_the_question(self):
+        study = {
+            "shots": [{"scene": "corridor", "camera": "dolly", "resolution": [640, 360], "frames": {"from": 0, "to": 1000}}],
+            "techniques": [{"technique": "none"}],
+            "timing": {"frames": 0},
+        }
+        (self.folder / "long.json").write_text(json.dumps(study), encoding="utf-8")
+        said = self.terminal(200, "run", "long.json", typed="n\n")
+        self.assertRegex(said, r"This study takes \d+ h")
+        self.assertIn("Start it? [y/N]", said)
+        self.assertIn("the study was not started", said)
+        self.assertFalse((self.folder / "results" / "long" / "cells").exists())
 
     def test_terminals_of_few_columns(self):
         for words in (["--help"], ["run", "--help"], ["figures", "--help"], ["list", "scenes"], ["list", "metrics"], ["describe", "mcguire_dda"]):

@@ -154,6 +154,21 @@ TEST(ProgressEstimate, TakesInANewEstimateWithoutAJump) {
     EXPECT_NEAR(left, 600, 20) << "two time constants";
 }
 
+TEST(ProgressEstimate, GoesOnWithTheTimeWhileTheWorkSaysNothing) {
+    ProgressEstimate estimate;
+    estimate.pass(5);
+    EXPECT_FALSE(estimate.share());
+    estimate.update(40, 0.4);
+    for (int second = 41; second <= 100; ++second) {
+        estimate.pass(second);
+        EXPECT_NEAR(estimate.left().value(), 100 - second, 1e-9);
+        EXPECT_NEAR(estimate.share().value(), second / 100.0, 1e-9);
+    }
+    estimate.pass(130);
+    EXPECT_EQ(estimate.left(), 0);
+    EXPECT_EQ(progress_text(estimate, 130), "[ 99 %, 2 min 10 s, 0 s left]");
+}
+
 TEST(ProgressEstimate, IsWrittenAsShareTimeAndRest) {
     const auto text = [](double elapsed, double share) {
         ProgressEstimate estimate;
