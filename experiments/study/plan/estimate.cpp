@@ -179,7 +179,8 @@ private:
     };
 
     double per_sample(ByClock clock) const {
-        return std::max(longer_.*clock - rendered_[0].*clock, 0.0) /
+        // The longer reference continues the first one, whose guide and samples it finds in the cache.
+        return std::max(longer_.*clock - opening_[0].*clock, 0.0) /
                (pixels_of(calibration_extents[0]) * (many_samples - few_samples));
     }
 
