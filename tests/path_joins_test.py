@@ -31,7 +31,7 @@ READERS = (
     "experiments/study/measuring/frames/",
     "experiments/study/shots/",
 )
-OWN_SOURCES = ("SSRLAB_SOURCE_DIR", "root")  # the folder above ssrlab's own files
+OWN_SOURCES = ("own_files(", "built_files(", "root")  # the folders above ssrlab's own files
 
 PARENTHESES = r"\((?:[^()]|\((?:[^()]|\([^()]*\))*\))*\)"
 PART = rf"(?:::)?\w+(?:::\w+)*(?:<[\w:]+>)?(?:{PARENTHESES}|\[[^\]]*\])?"

@@ -5,6 +5,7 @@
 #include "core/gpu/pipelines/shader_files.h"
 #include "core/json.h"
 #include "core/near_miss.h"
+#include "core/own_files.h"
 #include "core/path_inside.h"
 #include "variants/denoisers/denoisers.h"
 #include "variants/tracers/tracers.h"
@@ -16,7 +17,7 @@ namespace {
 
 /// variants/<name>/technique.json.
 TechniqueEntry own_declared_entry(const std::string& name) {
-    TechniqueEntry entry = declared_entry(std::filesystem::path(SSRLAB_SOURCE_DIR) / "variants" / name, false);
+    TechniqueEntry entry = declared_entry(own_files() / "variants" / name, false);
     TechniqueFolder folder = *entry.folder;
     folder.is_ssrlabs = true;
     entry.folder = std::make_shared<TechniqueFolder>(std::move(folder));
@@ -30,7 +31,7 @@ std::deque<TechniqueEntry> entries_with_tuned_presets() {
                              "four_mode_ssr", "composed_ssr"})
         entries.push_back(own_declared_entry(name));
     for (TechniqueEntry& entry : entries) {
-        const auto file = std::filesystem::path(SSRLAB_SOURCE_DIR) / "variants" / entry.name / "tuned_presets.json";
+        const auto file = own_files() / "variants" / entry.name / "tuned_presets.json";
         if (std::filesystem::exists(file)) add_tuned_presets(entry, file);
     }
     return entries;

@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/near_miss.h"
+#include "core/own_files.h"
 #include "core/scene/camera_planes.h"
 #include "core/scene/scene_family.h"
 #include "core/scene/scene_file.h"
@@ -25,7 +26,7 @@ std::vector<fs::path> scene_search_path(const std::vector<fs::path>& extra) {
         for (std::string folder; std::getline(folders, folder, ':');)
             if (!folder.empty()) path.emplace_back(folder);
     }
-    path.push_back(fs::path(SSRLAB_SOURCE_DIR) / "scenes");
+    path.push_back(own_files() / "scenes");
     return path;
 }
 

@@ -6,6 +6,7 @@
 #include "core/files.h"
 #include "core/leftovers.h"
 #include "core/near_miss.h"
+#include "core/own_files.h"
 #include "core/scene/unknown_scene.h"
 
 #include <algorithm>
@@ -17,17 +18,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path scenes_folder = fs::path(SSRLAB_SOURCE_DIR) / "scenes";
+fs::path scenes_folder() { return own_files() / "scenes"; }
 
 /// Of all sources that decide what the generator writes.
 std::string hash_of_generator() {
-    std::vector<fs::path> sources = {scenes_folder / "generate.py"};
-    for (const auto& entry : fs::recursive_directory_iterator(scenes_folder / "generator"))
+    std::vector<fs::path> sources = {scenes_folder() / "generate.py"};
+    for (const auto& entry : fs::recursive_directory_iterator(scenes_folder() / "generator"))
         if (entry.path().extension() == ".py") sources.push_back(entry.path());
     std::ranges::sort(sources);
     ContentHash hash;
     for (const fs::path& source : sources)
-        hash.add(source.lexically_relative(scenes_folder).string()), hash.add(read_text(source));
+        hash.add(source.lexically_relative(scenes_folder()).string()), hash.add(read_text(source));
     return hash.hex();
 }
 
@@ -121,7 +122,7 @@ fs::path scene_file_of_family(const std::string& name) {
     if (error)
         fail_machine("cannot create the cache folder ", beside.string(), ": ", error.message(),
                      "; choose another with --cache or SSRLAB_CACHE");
-    const int code = run_program({SSRLAB_PYTHON, "-B", (scenes_folder / "generate.py").string(), "--out",
+    const int code = run_program({SSRLAB_PYTHON, "-B", (scenes_folder() / "generate.py").string(), "--out",
                                   beside.string(), family + ":" + std::to_string(number)});
     std::error_code ignored;
     if (code == 0 && fs::exists(beside / scene / "scene.json")) {

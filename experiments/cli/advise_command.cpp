@@ -1,6 +1,7 @@
 // ssrlab advise: which technique to use, from a table of studies, and making this table.
 #include "core/error.h"
 #include "core/files.h"
+#include "core/own_files.h"
 #include "core/shown_text.h"
 #include "experiments/cli/commands.h"
 #include "experiments/results/advice/advice_answer.h"
@@ -12,7 +13,7 @@ namespace {
 struct AdviseOptions {
     AdviceQuestion question;
     bool is_moving = false, is_at_rest = false;
-    std::filesystem::path table = SSRLAB_SOURCE_DIR "/experiments/studies/advice.csv", json;
+    std::filesystem::path table = own_files() / "experiments/studies/advice.csv", json;
     std::vector<std::filesystem::path> studies, costs_from;
     std::filesystem::path keep;
 
@@ -70,7 +71,7 @@ void add_advise(Commands& line) {
         ->capture_default_str();
     option(command, "--json FILE", advise.json,
            "Also write the points of least error as the \"techniques\" of a study; -: print them alone");
-    option(command, "--table FILE.csv", advise.table, "Table to ask; default: experiments/studies/advice.csv");
+    option(command, "--table FILE.csv", advise.table, "Table to ask; default: the included table");
     option(command, "--study DIR", advise.studies,
            "Makes a table: results folders of studies of errors, whose groups of shots are as \"rooms, at rest\"");
     option(command, "--costs-from DIR", advise.costs_from,

@@ -3,13 +3,14 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/near_miss.h"
+#include "core/own_files.h"
 #include "experiments/study/table_columns.h"
 
 #include <algorithm>
 
 namespace fs = std::filesystem;
 
-static fs::path included_folder() { return fs::path(SSRLAB_SOURCE_DIR) / "experiments/studies"; }
+static fs::path included_folder() { return own_files() / "experiments/studies"; }
 
 nlohmann::ordered_json included_studies() {
     return nlohmann::ordered_json::parse(read_text(included_folder() / "studies.json"));

@@ -3,6 +3,7 @@
 #include "core/former_names.h"
 #include "core/gpu/pipelines/shader_error.h"
 #include "core/memory_fault.h"
+#include "core/own_files.h"
 #include "core/shown_text.h"
 #include "core/terminal.h"
 #include "experiments/bridges/inspect/inspect_hint.h"
@@ -72,7 +73,9 @@ int parse_words(std::vector<std::string> words, const std::vector<EndedPoint>& e
     words = with_help_option(std::move(words));
     CLI::App app{
         "ssrlab compares screen-space reflection techniques with path-traced truth.\n"
-        "Exit codes: 0 done, 2 an error in the request, 3 a fault of this machine, 130 stopped by Ctrl-C.",
+        "Exit codes: 0 done, 2 an error in the request, 3 a fault of this machine, 130 stopped by Ctrl-C.\n"
+        "Scenes, studies and documents are in " +
+            own_files().string() + ". Paths such as experiments/docs/quickstart.md begin there.",
         "ssrlab"};
     app.require_subcommand(1);
     app.formatter(std::make_shared<HelpPage>());

@@ -2,6 +2,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/near_miss.h"
+#include "core/own_files.h"
 #include "core/path_inside.h"
 #include "core/shown_text.h"
 #include "experiments/cli/commands.h"
@@ -68,7 +69,7 @@ std::map<std::string, std::string> files_of(const TechniqueEntry& technique) {
     for (const std::string& source : technique.folder->sources) {
         if (!source.starts_with(own)) continue;
         const std::string name = source.substr(own.size());
-        files[name] = read_text(path_inside(SSRLAB_SOURCE_DIR, source));
+        files[name] = read_text(path_inside(own_files(), source));
         new_names[source.substr(shared.size())] = name;
     }
     files.erase("tuned_presets.json");

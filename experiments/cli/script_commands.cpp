@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/list_text.h"
+#include "core/own_files.h"
 #include "core/path_inside.h"
 #include "core/shown_text.h"
 #include "experiments/cli/commands.h"
@@ -40,7 +41,7 @@ struct TuneOptions {
 
 /// Runs a module of experiments/python/ssrlab: 0 done, 2 a mistake of the user, else a fault of the machine (3).
 int run_module(const std::string& name, const std::vector<std::string>& arguments) {
-    std::vector<std::string> command = {SSRLAB_PYTHON, "-B", SSRLAB_SOURCE_DIR "/experiments/python", name};
+    std::vector<std::string> command = {SSRLAB_PYTHON, "-B", (own_files() / "experiments/python").string(), name};
     command.insert(command.end(), arguments.begin(), arguments.end());
     const int code = run_program(command);
     return code == 0 || code == 2 ? code : 3;

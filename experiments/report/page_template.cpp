@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/own_files.h"
 
 #include <kainjow/mustache.hpp>
 
@@ -37,13 +38,11 @@ kainjow::mustache::data mustache_data(const json& value) {
 
 }  // namespace
 
-std::string template_file(const std::string& name) {
-    return read_text(std::filesystem::path(SSRLAB_SOURCE_DIR) / "experiments/page" / name);
-}
+std::string template_file(const std::string& name) { return read_text(own_files() / "experiments/page" / name); }
 
-/// SSRLAB_PAGES is where the build puts what it makes of the scripts and styles.
+/// What the build makes of the scripts and styles.
 std::string built_file(const std::string& name) {
-    const std::string file = SSRLAB_PAGES "/" + name;
+    const std::string file = (built_files() / "pages" / name).string();
     if (!std::filesystem::exists(file))
         fail_machine(file, " is missing; the build makes it: cmake --build with the target `pages`");
     return read_text(file);

@@ -1,5 +1,6 @@
 #include "experiments/study/manifest_entries.h"
 
+#include "core/own_files.h"
 #include "experiments/results/files/manifest.h"
 #include "experiments/study/config/comparisons.h"
 #include "experiments/study/config/points/external_images.h"
@@ -63,7 +64,7 @@ nlohmann::json technique_entries(const Config& config) {
 
 /// Within the source tree relative to it, as documents name it.
 std::string shown_path(const std::filesystem::path& file) {
-    const std::filesystem::path inside = std::filesystem::proximate(file, SSRLAB_SOURCE_DIR);
+    const std::filesystem::path inside = std::filesystem::proximate(file, own_files());
     return (inside.empty() || inside.begin()->string() == ".." ? file : inside).string();
 }
 

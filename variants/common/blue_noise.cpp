@@ -1,6 +1,7 @@
 #include "variants/common/blue_noise.h"
 
 #include "core/error.h"
+#include "core/own_files.h"
 #include "core/png.h"
 
 #include <cmath>
@@ -26,7 +27,7 @@ glm::uvec2 shift_per_frame(NoiseShift shift) {
 
 /// Red and green of a file beside this one, of that extent.
 HostImage two_channels(const std::string& name, glm::uvec2 extent) {
-    const std::string file = SSRLAB_SOURCE_DIR "/variants/common/" + name;
+    const std::string file = (own_files() / "variants/common" / name).string();
     const HostImage rgb = read_png_codes(file);
     if (rgb.extent != extent)
         fail(file, " is ", rgb.extent.x, "x", rgb.extent.y, ", not ", extent.x, "x", extent.y, " as ssrlab's own");

@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/former_names.h"
 #include "core/near_miss.h"
+#include "core/own_files.h"
 #include "core/path_inside.h"
 #include "variants/common/names.h"
 #include "variants/common/plain_texts.h"
@@ -124,9 +125,8 @@ std::vector<DeclaredParameter> ParameterReader::included(JsonObject include, con
     const std::string name = include.text("include"), where = include.at("include");
     std::error_code error;
     const bool is_of_folder = !folder_.empty() && fs::is_regular_file(path_inside(folder_, name, where), error);
-    const fs::path file = is_of_folder
-                              ? path_inside(folder_, name, where)
-                              : path_inside(fs::path(SSRLAB_SOURCE_DIR) / "variants", present_path(name), where);
+    const fs::path file = is_of_folder ? path_inside(folder_, name, where)
+                                       : path_inside(own_files() / "variants", present_path(name), where);
     if (!name.ends_with(".json") || !fs::is_regular_file(file, error))
         fail(where, ": 'include' = '", shortened(name), "' is no JSON file of the folder, and none under variants/");
     if (++depth_ > 8) fail(where, ": the blocks of parameters include each other");

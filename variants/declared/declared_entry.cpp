@@ -4,6 +4,7 @@
 #include "core/files.h"
 #include "core/former_names.h"
 #include "core/near_miss.h"
+#include "core/own_files.h"
 #include "core/path_inside.h"
 #include "variants/common/names.h"
 #include "variants/common/parameter_block.h"
@@ -144,7 +145,7 @@ std::string hash_of(nlohmann::json document, const TechniqueFolder& folder,
     ContentHash hash;
     hash.add(document.dump());
     for (const auto& [name, text] : folder.files) hash.add(name), hash.add(text);
-    for (const std::string& block : parameter_blocks) hash.add(read_text(path_inside(SSRLAB_SOURCE_DIR, block)));
+    for (const std::string& block : parameter_blocks) hash.add(read_text(path_inside(own_files(), block)));
     return hash.hex();
 }
 

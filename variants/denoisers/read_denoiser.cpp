@@ -1,6 +1,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/near_miss.h"
+#include "core/own_files.h"
 #include "core/path_inside.h"
 #include "variants/common/names.h"
 #include "variants/common/parameter_block.h"
@@ -15,8 +16,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path root_folder = SSRLAB_SOURCE_DIR;
-
 std::string stage_of(const json& pass) {
     if (pass.contains("stage")) return pass["stage"];
     const std::string shader = (pass.contains("forms") ? pass["forms"].back() : pass).value("shader", "");
@@ -28,7 +27,7 @@ std::string stage_of(const json& pass) {
 /// they name beside those of the denoiser.
 void take_passes(json& denoiser, const std::string& where) {
     const std::string technique = denoiser["technique"];
-    json base = read_json_document(root_folder / "variants" / technique / "technique.json").value;
+    json base = read_json_document(own_files() / "variants" / technique / "technique.json").value;
     write_out_short_forms(base);
     json passes = json::array();
     for (const json& pass : denoiser["passes"]) {
@@ -60,7 +59,7 @@ void take_passes(json& denoiser, const std::string& where) {
 }  // namespace
 
 DenoiserEntry read_denoiser(const std::string& name) {
-    const fs::path file = root_folder / "variants/denoisers" / name / "denoiser.json";
+    const fs::path file = own_files() / "variants/denoisers" / name / "denoiser.json";
     JsonDocument document = read_json_document(file);
     if (document.value.contains("technique")) take_passes(document.value, file.string());
     write_out_short_forms(document.value);
@@ -99,7 +98,7 @@ DenoiserEntry read_denoiser(const std::string& name) {
 
     ContentHash hash;
     hash.add(document.value.dump());
-    for (const std::string& block : reader.of_ssrlab) hash.add(read_text(path_inside(root_folder, block)));
+    for (const std::string& block : reader.of_ssrlab) hash.add(read_text(path_inside(own_files(), block)));
     entry.content_hash = hash.hex();
     entry.sources = read.sources;
     entry.passes = declaration;

@@ -5,6 +5,7 @@
 #include "core/former_names.h"
 #include "core/gpu/pipelines/shader_files.h"
 #include "core/near_miss.h"
+#include "core/own_files.h"
 #include "core/path_inside.h"
 #include "variants/passes/declared_passes.h"
 
@@ -34,7 +35,7 @@ std::optional<OwnShader> find_own_shader(const std::string& name) {
         return {};
     for (const fs::path& root : shader_roots()) {
         const fs::path file = path_inside(root, present_path(name));
-        const std::string inside = file.lexically_relative(SSRLAB_SOURCE_DIR).string();
+        const std::string inside = file.lexically_relative(own_files()).string();
         if ((inside.starts_with("variants/") || inside.starts_with("core/")) && is_shader_source(file) &&
             fs::is_regular_file(file))
             return OwnShader{inside, read_text(file)};
@@ -104,7 +105,7 @@ private:
                 fail(where, ": the pass does not name the tracer; write \"tracers\": \"", name, "\"");
         std::vector<std::string> names;
         add_names(read_.path, names);
-        for (const char* folder : {"variants", "core/shaders"}) add_names(fs::path(SSRLAB_SOURCE_DIR) / folder, names);
+        for (const char* folder : {"variants", "core/shaders"}) add_names(own_files() / folder, names);
         const std::string near = nearest_name(name, names);
         fail(where, ": there is no such shader in ", read_.path.string(),
              ", and none of ssrlab under variants/ or core/", near.empty() ? "" : "; did you mean '" + near + "'?");

@@ -1,5 +1,6 @@
 #include "core/error.h"
 #include "core/files.h"
+#include "core/own_files.h"
 #include "core/path_inside.h"
 #include "variants/common/names.h"
 #include "variants/common/parameter_block.h"
@@ -39,7 +40,7 @@ std::string because(const std::vector<NotRepeatable>& reasons, const KnownValues
 }
 
 TracerEntry read_tracer(const std::string& file) {
-    const fs::path path = fs::path(SSRLAB_SOURCE_DIR) / "variants/tracers" / file;
+    const fs::path path = own_files() / "variants/tracers" / file;
     const JsonDocument document = read_json_document(path);
     JsonObject root(document, path.string());
     TracerEntry tracer{.name = path.stem().string()};
@@ -67,7 +68,7 @@ TracerEntry read_tracer(const std::string& file) {
     root.finish();
     ContentHash hash;
     hash.add(document.value.dump());
-    for (const std::string& block : reader.of_ssrlab) hash.add(read_text(path_inside(SSRLAB_SOURCE_DIR, block)));
+    for (const std::string& block : reader.of_ssrlab) hash.add(read_text(path_inside(own_files(), block)));
     tracer.content_hash = hash.hex();
     return tracer;
 }

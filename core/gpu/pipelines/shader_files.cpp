@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/former_names.h"
+#include "core/own_files.h"
 #include "core/path_inside.h"
 
 #include <fstream>
@@ -54,7 +55,7 @@ std::string folder_of(const std::string& name) { return name.substr(0, name.find
 }  // namespace
 
 const std::vector<std::filesystem::path>& shader_roots() {
-    static const std::filesystem::path root = SSRLAB_SOURCE_DIR;
+    static const std::filesystem::path root = own_files();
     static const std::vector<std::filesystem::path> roots = {root / "variants", root / "core/shaders",
                                                              root / "tests/shaders", root};
     return roots;

@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/memory_file.h"
 #include "core/near_miss.h"
+#include "core/own_files.h"
 #include "core/scene/gltf/draco/draco_files.h"
 
 #include <algorithm>
@@ -102,7 +103,8 @@ std::vector<DracoResult> ask_decoder(std::span<const Job> jobs, MemoryShare& mem
     // Without a new result; a mesh of a million triangles takes a second.
     const Patience patience{std::chrono::seconds(120), [&] { return size_t(std::filesystem::file_size(out.path())); }};
     try {
-        run_program({DRACO_DECODER, in.path(), out.path(), std::to_string(memory_left())}, &patience);
+        run_program({(built_files() / "draco_decoder").string(), in.path(), out.path(), std::to_string(memory_left())},
+                    &patience);
     } catch (const MachineError&) {  // ended by a signal, or by us
         if (patience.progress() == 0) throw;
     }

@@ -1,6 +1,7 @@
 #include "experiments/bridges/shader_export/described_resources.h"
 
 #include "core/files.h"
+#include "core/own_files.h"
 #include "experiments/bridges/shader_export/declared_comment.h"
 #include "experiments/bridges/shader_export/screen_share.h"
 #include "experiments/bridges/shader_export/vulkan_names.h"
@@ -18,7 +19,7 @@ const char* wrap_name(Wrap wrap) {
 
 /// Of the image's declaration in gbuffer.h, else in the shader.
 std::string meaning_of(const FrameCommand& command, const UsedResource& input) {
-    static const std::string gbuffer = read_text(std::filesystem::path(SSRLAB_SOURCE_DIR) / "core/gbuffer/gbuffer.h");
+    static const std::string gbuffer = read_text(own_files() / "core/gbuffer/gbuffer.h");
     const std::string of_gbuffer = declared_comment(gbuffer, input.resource), format = name_of(input.format) + ": ";
     if (of_gbuffer.starts_with(format)) return of_gbuffer.substr(format.size());
     return of_gbuffer.empty() ? declared_comment(command.glsl, input.variable) : of_gbuffer;

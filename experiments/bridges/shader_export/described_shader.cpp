@@ -1,6 +1,7 @@
 #include "experiments/bridges/shader_export/described_shader.h"
 
 #include "core/files.h"
+#include "core/own_files.h"
 #include "experiments/bridges/shader_export/declared_comment.h"
 #include "experiments/bridges/shader_export/described_resources.h"
 
@@ -13,8 +14,7 @@ namespace {
 
 /// Of a member of `block` that is no parameter: the comment at its declaration, else at the block's.
 std::string meaning_of(const std::string& glsl, const std::string& block, const std::string& member) {
-    static const std::string rays =
-        read_text(std::filesystem::path(SSRLAB_SOURCE_DIR) / "variants/denoisers/denoiser.h");
+    static const std::string rays = read_text(own_files() / "variants/denoisers/denoiser.h");
     const std::string last = member.substr(member.rfind('.') + 1), name = last.substr(0, last.find('['));
     for (const auto& [source, declared] : {std::pair(glsl, name), std::pair(glsl, block), std::pair(rays, block)})
         if (const std::string comment = declared_comment(source, declared); !comment.empty()) return comment;

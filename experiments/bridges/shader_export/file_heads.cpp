@@ -2,13 +2,13 @@
 
 #include "core/files.h"
 #include "core/list_text.h"
+#include "core/own_files.h"
 #include "experiments/results/cells/host_info.h"
 #include "variants/registry.h"
 
 using nlohmann::json;
 
-FileHeads::FileHeads()
-    : license_(read_text(std::filesystem::path(SSRLAB_SOURCE_DIR) / "LICENSE")), build_(build_info()) {}
+FileHeads::FileHeads() : license_(read_text(own_files() / "LICENSE")), build_(build_info()) {}
 
 /// Of the first line, "MIT License".
 std::string FileHeads::license_name() const { return license_.substr(0, license_.find(" License")); }

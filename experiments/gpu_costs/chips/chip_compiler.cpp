@@ -6,6 +6,7 @@
 #include "core/list_text.h"
 #include "core/memory_file.h"
 #include "core/near_miss.h"
+#include "core/own_files.h"
 
 #include <unistd.h>
 #include <algorithm>
@@ -61,7 +62,7 @@ struct Answer {
 Answer ask(const std::string& chip, const fs::path& radv, const std::string& recipes, bool has_assembly) {
     const MemoryFile in, out;
     std::ofstream(in.path(), std::ios::binary) << recipes;
-    std::vector<std::string> command = {CHIP_COMPILER, chip, in.path(), out.path()};
+    std::vector<std::string> command = {(built_files() / "chip_compiler").string(), chip, in.path(), out.path()};
     if (has_assembly) command.push_back("--assembly");
     if (!radv.empty()) command.insert(command.end(), {"--driver", radv.string()});
     Answer answer;

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/own_files.h"
 #include "core/path_inside.h"
 
 #include <algorithm>
@@ -55,7 +56,7 @@ WatchedFiles::States WatchedFiles::states_now() {
     if (calls_++ % calls_between_looks_at_shared_files == 0) {
         shared_.clear();
         for (const char* root : {"variants", "core"})
-            for_each_file(fs::path(SSRLAB_SOURCE_DIR) / root, [&](const fs::directory_entry& entry) {
+            for_each_file(own_files() / root, [&](const fs::directory_entry& entry) {
                 if (is_shader_source(entry.path())) add(shared_, entry);
             });
     }

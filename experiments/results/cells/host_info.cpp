@@ -2,6 +2,7 @@
 
 #include "core/files.h"
 #include "core/json.h"
+#include "core/own_files.h"
 #include "core/reading_limits.h"
 #include "metrics/estimators.h"
 
@@ -27,7 +28,7 @@ std::vector<fs::path> files_read_at_run_time() {
     const std::vector<std::string> extensions = {".comp", ".frag", ".vert", ".glsl", ".h", ".png"};
     std::vector<fs::path> files;
     for (const char* folder : {"core", "variants"})
-        for (const auto& entry : fs::recursive_directory_iterator(fs::path(SSRLAB_SOURCE_DIR) / folder))
+        for (const auto& entry : fs::recursive_directory_iterator(own_files() / folder))
             if (std::ranges::count(extensions, entry.path().extension().string()) > 0) files.push_back(entry.path());
     std::ranges::sort(files);
     return files;
@@ -59,7 +60,7 @@ fs::path this_program() { return fs::read_symlink("/proc/self/exe"); }
 
 nlohmann::json build_info() {
     nlohmann::json build = {{"commit", ""}, {"dirty", false}};
-    const fs::path file = this_program().parent_path() / "build_commit.json";
+    const fs::path file = built_files() / "build_commit.json";
     const std::string code = code_hash();
     if (fs::exists(file)) {
         build = read_json(file);
@@ -82,7 +83,7 @@ std::vector<SourceFile> present_sources() {
     for (SourceFile& source : parse_source_table(compiled_source_table))
         if (source.path.ends_with(".cpp") || source.path.ends_with(".h"))
             sources.insert_or_assign(source.path, std::move(source));
-    for (SourceFile& source : read_sources(SSRLAB_SOURCE_DIR)) {
+    for (SourceFile& source : read_sources(own_files())) {
         if (source.path.ends_with(".cpp")) continue;
         const auto compiled = sources.find(source.path);
         const bool is_only_read = !source.path.ends_with(".h");

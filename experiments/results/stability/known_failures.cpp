@@ -1,6 +1,7 @@
 #include "experiments/results/stability/known_failures.h"
 
 #include "core/json.h"
+#include "core/own_files.h"
 
 namespace {
 
@@ -26,9 +27,7 @@ std::vector<KnownFailure> read_known_failures(const std::filesystem::path& file)
     return known;
 }
 
-std::filesystem::path known_failures_file() {
-    return std::filesystem::path(SSRLAB_SOURCE_DIR) / "experiments/results/stability/failures.json";
-}
+std::filesystem::path known_failures_file() { return own_files() / "experiments/results/stability/failures.json"; }
 
 const KnownFailure* explanation_of(const StageRow& row, const StabilityCaseName& what,
                                    const std::vector<KnownFailure>& known) {

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/json_float.h"
+#include "core/own_files.h"
 #include "core/reading_limits.h"
 #include "core/scene/ranges.h"
 #include "experiments/study/config/points/point_name.h"
@@ -252,6 +253,4 @@ bool StabilityCase::has_truth() const {
            std::ranges::all_of(faults, [](const InputFault& f) { return f.where == "pixel" || f.is_factor; });
 }
 
-std::filesystem::path stability_case_table() {
-    return std::filesystem::path(SSRLAB_SOURCE_DIR) / "experiments/study/stability/cases.json";
-}
+std::filesystem::path stability_case_table() { return own_files() / "experiments/study/stability/cases.json"; }

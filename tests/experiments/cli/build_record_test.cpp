@@ -16,18 +16,20 @@ struct BuildRecord : testing::Test {
 
     void SetUp() override {
         fs::remove_all(folder);
-        fs::create_directories(folder);
-        fs::copy_file(SSRLAB_PROGRAM, folder / "ssrlab");
+        for (const char* inside : {"bin", "lib/ssrlab", "share"}) fs::create_directories(folder / inside);
+        fs::copy_file(SSRLAB_PROGRAM, folder / "bin/ssrlab");
+        fs::create_directory_symlink(SSRLAB_SOURCE_DIR, folder / "share/ssrlab");  // as if installed
     }
     void TearDown() override { fs::remove_all(folder); }
 
-    /// What a copy of the program says of itself beside this record.
+    /// What a copy of the program says of itself with this record.
     nlohmann::json build_info(const nlohmann::json& record) {
-        write_text(folder / "build_commit.json", record.dump());
+        write_text(folder / "lib/ssrlab/build_commit.json", record.dump());
         return build_info();
     }
     nlohmann::json build_info() {
-        const std::string command = "'" + (folder / "ssrlab").string() + "' --version > '" + folder.string() + "/said'";
+        const std::string command =
+            "'" + (folder / "bin/ssrlab").string() + "' --version > '" + folder.string() + "/said'";
         EXPECT_EQ(std::system(command.c_str()), 0);
         return read_json(folder / "said");
     }

@@ -2,6 +2,7 @@
 
 #include "core/digits.h"
 #include "core/error.h"
+#include "core/own_files.h"
 #include "core/shared/brdf.h"
 #include "experiments/study/config/points/all_points.h"
 #include "experiments/study/stability/precision/double_shader.h"
@@ -68,7 +69,7 @@ std::vector<PointConfig> precision_points() {
 }
 
 std::filesystem::path precision_case_table() {
-    return std::filesystem::path(SSRLAB_SOURCE_DIR) / "experiments/study/stability/precision/precision_cases.json";
+    return own_files() / "experiments/study/stability/precision/precision_cases.json";
 }
 
 std::vector<PrecisionRow> run_precision(Device& device, const StabilitySelection& selection,
