@@ -38,10 +38,10 @@ export const unitText = metric => {
     return unit && unit !== "1" ? ` (${unit.replace("^2", "²")})` : "";
 };
 
-/// Which frames a row of errors is of; empty for a shot of one frame.
+/// Which frames a row of errors is of; empty for a shot of one frame, and for a score of all frames as a video.
 export function framesText(row) {
     const frames = list(manifestShot(row.shot)?.frames);
-    if (frames.length < 2) return "";
+    if (frames.length < 2 || row.metric === "cvvdp_0_5_6_video") return "";
     return row.frame === "" ? "mean over frames" : `frame ${row.frame} alone`;
 }
 

@@ -137,6 +137,8 @@ std::string in_scenes_like_these(const StudyResults& tables) {
         return "One scene says nothing about other scenes: a verdict over scenes needs at least " +
                std::to_string(least_scenes) + ".";
     const std::string name = names.at({first.technique, first.point}), count = std::to_string(first.scenes);
+    if (rows.size() == 1 || !rows[1]->rank)
+        return "Nothing is ranked over scenes: " + name + " alone has an error in each of these scenes.";
     if (first.scenes < least_scenes)
         return count + (first.scenes == 1 ? " scene says" : " scenes say") +
                " nothing about other scenes: a verdict over scenes needs at least " + std::to_string(least_scenes) +
