@@ -7,7 +7,7 @@ struct ExpectedTime {
     double seconds = 0, processor_seconds = 0;
 };
 
-/// Within a factor of it, a study's time came to lie in 9 of 10 trials.
+/// Holds a study's time in 9 of 10 cases, as long as the load of other programs stays.
 struct ExpectedRange {
     double low, high;
 };

@@ -233,13 +233,15 @@ class SharpEdges(unittest.TestCase):
 
     def test_a_study_of_hours_is_confirmed_where_somebody_sees_the_question(self):
         study = {
-            "shots": [{"scene": "corridor", "camera": "dolly", "resolution": [640, 360], "frames": {"from": 0, "to": 1000}}],
+            # Hours on any machine: 8e12 samples.
+            "shots": [{"scene": "corridor", "camera": "dolly", "resolution": [1920, 1080], "frames": {"from": 0, "to": 1000}, "measure_from": 0}],
+            "reference": {"samples": 4096},
             "techniques": [{"technique": "none"}],
             "timing": {"frames": 0},
         }
         (self.folder / "long.json").write_text(json.dumps(study), encoding="utf-8")
         said = self.terminal(200, "run", "long.json", typed="n\n")
-        self.assertRegex(said, r"This study takes \d+ h")
+        self.assertRegex(said, r"This study takes \d+ h", said)
         self.assertIn("Start it? [y/N]", said)
         self.assertIn("the study was not started", said)
         self.assertFalse((self.folder / "results" / "long" / "cells").exists())
