@@ -6,7 +6,7 @@
 
 namespace {
 
-// Taken / estimated. 17 of 18 small studies took 0.76 to 1.38 times the processor time, on two cores with much other
+// Taken / estimated. 16 of 17 small studies took 0.76 to 1.38 times the processor time, on two cores with much other
 // load (tests/experiments/study/plan_benchmark.py). The rest is a margin for other machines, and for changing load.
 constexpr ExpectedRange of_wall = {0.6, 2.5}, of_processors = {0.6, 2.0};
 
