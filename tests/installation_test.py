@@ -67,7 +67,7 @@ class Installation(unittest.TestCase):
             print("the checkout cannot be hidden: no mount by unshare", file=sys.stderr)
         else:
             self.assertEqual(self.run_here("ls", ROOT), "")
-        self.assertEqual(self.run_here("ssrlab", "list", "techniques").split()[0], "none")
+        self.assertIn("mcguire_dda: ", self.run_here("ssrlab", "list", "techniques"))
         self.assertIn("dda.stride", self.run_here("ssrlab", "describe", "mcguire_dda"))
         self.assertIn(f"{self.prefix}/share/ssrlab", self.run_here("ssrlab"))
         self.assertIn("quickstart", self.run_here("ssrlab", "list", "studies"))
