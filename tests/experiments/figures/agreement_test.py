@@ -10,6 +10,7 @@ import unittest
 
 from ssrlab import statistics
 from ssrlab.mistakes import ResultsError
+from ssrlab.csv_files import number
 from ssrlab.tables import agreement, documents, formats, limits, means, summary_file
 from ssrlab.tables.cell import Cell
 
@@ -38,6 +39,8 @@ class Agreement(unittest.TestCase):
         taus = {(r["metric"], r["against"]): float(r["value"]) for r in agreement.agreement_rows(Directions(), both)}
         self.assertEqual(taus[("mse", "ssim")], 1)
         self.assertEqual(len(taus), 4)
+        for row in agreement.agreement_rows(Directions(), both):  # as tables read all rows
+            self.assertEqual([number(row, column) for column in ("low", "high")], [None, None])
 
     def test_tables_take_scenes_as_the_sample(self):
         """Logs 0, 1, 1, 2 of four assets, one of which has two shots, with hardly any noise of their own."""

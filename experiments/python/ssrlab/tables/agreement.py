@@ -39,7 +39,7 @@ def agreement_rows(results, rows):
             points = [p for p in metrics[metric] if p in metrics[against]]
             tau = kendall_tau([metrics[metric][p] for p in points], [metrics[against][p] for p in points])
             if len(points) > 2 and tau is not None:
-                yield {"shot": shot, "metric": metric, "against": against, "value": repr(tau)}
+                yield {"shot": shot, "metric": metric, "against": against, "value": repr(tau), "low": "", "high": ""}
 
 
 def read_judgements(file=JUDGEMENTS):
@@ -70,4 +70,6 @@ def eye_rows(results, rows, judgements):
                 "metric": metric,
                 "what": "pairs ordered alike",
                 "value": repr(float((first < second) == (judged["nearer"] == "first"))),
+                "low": "",
+                "high": "",
             }
