@@ -55,7 +55,7 @@ class SharpEdges(unittest.TestCase):
 
     @classmethod
     def run_words(cls, *words, **environment):
-        ran = subprocess.run([SSRLAB, *words], cwd=cls.folder, env=cls.environment | environment, capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=60)
+        ran = subprocess.run([SSRLAB, *words], cwd=cls.folder, env=cls.environment | environment, capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=600)
         return Ran(words, ran.returncode, ran.stdout, ran.stderr)
 
     def check(self, ran, codes=None):

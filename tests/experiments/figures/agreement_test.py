@@ -9,8 +9,8 @@ import unittest
 
 
 from ssrlab import statistics
-from ssrlab.mistakes import ResultsError
 from ssrlab.csv_files import number
+from ssrlab.mistakes import ResultsError
 from ssrlab.tables import agreement, documents, formats, limits, means, summary_file
 from ssrlab.tables.cell import Cell
 
