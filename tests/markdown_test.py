@@ -99,6 +99,8 @@ class Markdown(unittest.TestCase):
             "questions/pictures/room_10105.png": "questions/pictures/composed.crops.json",
             "questions/pictures/room_30102.png": "questions/pictures/rooms_at_gpu_time.crops.json",
             "questions/pictures/metal_corner.png": "questions/pictures/engines.crops.json",
+            "questions/pictures/roughness_gradient.png": "questions/pictures/visibility.crops.json",
+            "questions/pictures/thin_pole.png": "questions/pictures/visibility.crops.json",
         }
         for name, source in made_from.items():
             picture = (ROOT / "experiments/studies" / name).read_bytes()

@@ -99,6 +99,12 @@ def metrics():
     return Picture([Panel("", rows, 0.5)], "share of 43 pairs that the metric orders as the readers did, 95 % intervals; line: chance", is_log=False, columns=1, extra={"xlim": (0.2, 1.02)})
 
 
+def visibility():
+    cells = grid("visibility", "agreement")
+    rows = [(row, [Mark("", style.COLORS[0], "o", c)]) for (row, column), c in sorted(cells.items(), key=lambda item: -item[1].value) if column == "cvvdp_0_5_6_video" and row != column]
+    return Picture([Panel("", rows, 0.0)], "rank correlation with visibility in JOD, 95 % intervals over scenes; line: chance", is_log=False, columns=1, extra={"xlim": (-0.2, 1.02)})
+
+
 CAUSES = {
     "right": "the ray was right",
     "unavoidable_miss": "not on the screen",
@@ -413,7 +419,7 @@ def rooms_at_gpu_time():
 
 PUBLISHED_PRESETS = ("default", "sdk_1_5", "current", "frostbite_2015", "blog", "high")
 
-PICTURES = {p.__name__: p for p in (techniques, budgets, rooms, metrics, causes, limit, third_party, traced_environment, corrections, estimators, march, thickness, temporal, half_histories, fragments, resolution, compilers, gpu_times, exact_rays, denoisers, composed, engines, misses, normals, rooms_at_gpu_time)}
+PICTURES = {p.__name__: p for p in (techniques, budgets, rooms, metrics, visibility, causes, limit, third_party, traced_environment, corrections, estimators, march, thickness, temporal, half_histories, fragments, resolution, compilers, gpu_times, exact_rays, denoisers, composed, engines, misses, normals, rooms_at_gpu_time)}
 
 
 def save(name, folder):

@@ -1,10 +1,10 @@
 """The pictures of the repository's README, in experiments/studies/readme, and of experiments/studies/questions.
 
-usage: python3 experiments/python readme_pictures [RESULTS] [--techniques TECHNIQUE_PICTURES] [--report QUICKSTART] [--comparison COMPARISON] [--composed COMPOSED_MOTION] [--engines ENGINES] [--rooms ROOMS_GPU_PICTURES]
+usage: python3 experiments/python readme_pictures [RESULTS] [--techniques TECHNIQUE_PICTURES] [--report QUICKSTART] [--comparison COMPARISON] [--composed COMPOSED_MOTION] [--engines ENGINES] [--rooms ROOMS_GPU_PICTURES] [--visibility VISIBILITY]
 
 RESULTS is a folder that `ssrlab run experiments/studies/configs/readme.json` filled; comparison.png is drawn from it.
 TECHNIQUE_PICTURES is the folder of the study technique_pictures; the pictures on pages of techniques and tracers are drawn from it. QUICKSTART is the
-quickstart's folder; chromium shows the first screen of its report for report.png. COMPARISON, COMPOSED_MOTION, ENGINES and ROOMS_GPU_PICTURES are folders
+quickstart's folder; chromium shows the first screen of its report for report.png. COMPARISON, COMPOSED_MOTION, ENGINES, ROOMS_GPU_PICTURES and VISIBILITY are folders
 of the studies with these names; the crops that questions/pictures/*.crops.json name are drawn from them.
 Needs Debian's python3-matplotlib, -numpy and -pil.
 """
@@ -134,6 +134,7 @@ def command_line():
     parser.add_argument("--composed", metavar="COMPOSED_MOTION", help="that of composed_ssr in motion, for more of them")
     parser.add_argument("--engines", metavar="ENGINES", help="that of experiments/bridges/engines/engines.json, for those of engines")
     parser.add_argument("--rooms", metavar="ROOMS_GPU_PICTURES", help="that of the study rooms_gpu_pictures, for that of a room at 1 ms")
+    parser.add_argument("--visibility", metavar="VISIBILITY", help="that of the study visibility, for those where metrics disagree")
     return parser
 
 
@@ -157,6 +158,8 @@ def main():
         draw_crops(arguments.engines, "engines")
     if arguments.rooms:
         draw_crops(arguments.rooms, "rooms_at_gpu_time")
+    if arguments.visibility:
+        draw_crops(arguments.visibility, "visibility")
 
 
 if __name__ == "__main__":
