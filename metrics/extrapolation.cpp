@@ -27,21 +27,13 @@ Mask within_margin(const Mask& mask, const Plane& map) {
     return inside;
 }
 
-/// The variance of a sum of independent terms, each known by its own size alone; at most as many degrees as `terms`.
-SharedScatter scatter_of(std::span<const double> changes, double terms) {
-    double squares = 0, fourths = 0;
-    for (const double change : changes) squares += change * change, fourths += std::pow(change, 4);
-    if (squares == 0) return {};
-    return {.variance = squares, .degrees = std::clamp(3 * squares * squares / fourths, 1.0, terms)};
-}
-
 double occupied(const std::vector<double>& shares) {
     return double(std::ranges::count_if(shares, [](double share) { return share > 0; }));
 }
 
 /// Of the interval, by the change when half A is believed in place of half B alone.
 double half_width_of(const NoiseGrowth& growth) {
-    const SharedScatter noise = scatter_of(column(growth, swapped), occupied(column(growth, share)));
+    const SharedScatter noise = scatter_of_terms(column(growth, swapped), occupied(column(growth, share)));
     return noise.variance > 0 ? student_t_quantile(0.975, noise.degrees) * std::sqrt(noise.variance) : 0.0;
 }
 
@@ -128,7 +120,7 @@ std::optional<SharedScatter> extrapolated_scatter(const NoiseGrowth& a, const No
     const std::vector<double> sums = totals(columns), swapped_a = column(a, swapped), swapped_b = column(b, swapped);
     std::vector<double> changes;
     for (size_t g = 0; g < growth_groups; ++g) changes.push_back(swapped_a[g] / sums[1] - swapped_b[g] / sums[5]);
-    SharedScatter shared = scatter_of(changes, groups);
+    SharedScatter shared = scatter_of_terms(changes, groups);
 
     // By each law, how far the logarithm of the ratio lies from that of what is measured.
     const auto shifts = [](std::span<const double> totals) {

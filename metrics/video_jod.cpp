@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "metrics/cvvdp_metric.h"
+#include "metrics/statistics/estimates.h"
 #include "metrics/statistics/quantiles.h"
 
 #include <algorithm>
@@ -15,14 +16,6 @@ constexpr double least_exponent = 0.5, greatest_exponent = 1.5;
 
 double pooled(const std::vector<VisibleDifferences>& frames) {
     return pooled_difference(frames, cvvdp_channels, false, cvvdp_0_5_6_calibration());
-}
-
-/// Half the width of the 95 % interval of a sum of independent parts, each known by its own size alone: Student's t
-/// with Satterthwaite's degrees of freedom (1946).
-double noise_half_width_of(const std::vector<double>& parts) {
-    double squares = 0, fourths = 0;
-    for (const double part : parts) squares += part * part, fourths += std::pow(part, 4);
-    return squares > 0 ? student_t_quantile(0.975, squares * squares / fourths) * std::sqrt(squares) : 0;
 }
 
 double jod_of(double difference) { return jod(std::max(difference, 0.0), cvvdp_0_5_6_calibration()); }
@@ -105,7 +98,8 @@ TemporalScore VideoJod::score() {
             (with_band_of(frames[whole], frames[half_a], band) - with_band_of(frames[whole], frames[half_b], band)) /
             2);
     const double ends[] = {own, extended(own, twice, least_exponent), extended(own, twice, greatest_exponent)};
-    const double half_width = noise_half_width_of(changes);
+    const SharedScatter scatter = scatter_of_terms(changes, double(changes.size()));
+    const double half_width = student_t_quantile(0.975, scatter.degrees) * std::sqrt(scatter.variance);
     row.high = jod_of(std::ranges::min(ends) - half_width), row.low = jod_of(std::ranges::max(ends) + half_width);
     for (const double change : changes) noise_.push_back(jod_of(own - change) - row.value);
     return row;

@@ -55,6 +55,13 @@ double RatioEstimate::p_outside(double most) const {
     return 2 * student_t_cdf(-unexplained / standard_error, degrees);
 }
 
+SharedScatter scatter_of_terms(std::span<const double> changes, double terms) {
+    double squares = 0, fourths = 0;
+    for (const double change : changes) squares += change * change, fourths += std::pow(change, 4);
+    if (squares == 0) return {};
+    return {.variance = squares, .degrees = std::clamp(3 * squares * squares / fourths, 1.0, terms)};
+}
+
 double p_beyond_limits(double value, double limit, double standard_error, double degrees, double down, double up) {
     const double within = limit - std::max(value + up, down - value);  // of the end that is nearer to its limit
     if (!(standard_error > 0)) return within > 0 ? 0 : 1;

@@ -60,6 +60,10 @@ struct SharedScatter {
     double excess_of_a = 0, excess_of_b = 0;
 };
 
+/// The variance of a sum of independent terms of mean 0, each known by its own size alone, and its degrees of freedom:
+/// 3 (sum of s^2)^2 / (sum of s^4), the number of terms if all are alike (Satterthwaite 1946), and at most `terms`.
+SharedScatter scatter_of_terms(std::span<const double> changes, double terms);
+
 /// a / b, both estimated from the same N seeds, so that common random numbers cancel. The interval is that of a
 /// jackknife of ln(a / b) with Student's t of N - 1 degrees (Tukey 1958, "Bias and Confidence in Not-Quite Large
 /// Samples"; Miller 1974, "The Jackknife - A Review"). There is none for a single seed, if an estimate without one seed
