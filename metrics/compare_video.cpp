@@ -5,7 +5,6 @@
 #include "core/numbered_files.h"
 #include "core/reading_limits.h"
 #include "metrics/compared_files.h"
-#include "metrics/cvvdp/temporal_filters.h"
 #include "metrics/cvvdp_metric.h"
 
 #include <algorithm>
@@ -75,11 +74,10 @@ void check_frame(const ComparedImage& image, const std::filesystem::path& file, 
 }
 
 /// Sets aside what a comparison takes: the filters' window, pyramids, and two frames while they are read.
-void reserve(MemoryShare& memory, glm::uvec2 extent, unsigned window, const std::filesystem::path& file) {
-    const double bytes_per_pixel = 24.0 * window + 100;  // 953 MB at 1920x1080 and 60 Hz, as measured
-    memory.add(double(extent.x) * extent.y * bytes_per_pixel, file.string() + ": the comparison of videos of " +
-                                                                  std::to_string(extent.x) + "x" +
-                                                                  std::to_string(extent.y) + " pixels");
+void reserve(MemoryShare& memory, glm::uvec2 extent, double frames_per_second, const std::filesystem::path& file) {
+    memory.add(double(extent.x) * extent.y * video_bytes_per_pixel(frames_per_second),
+               file.string() + ": the comparison of videos of " + std::to_string(extent.x) + "x" +
+                   std::to_string(extent.y) + " pixels");
 }
 
 HostImage shown_values(ComparedImage image, const MetricSettings& settings) {
@@ -111,8 +109,7 @@ Comparison compare_videos(const CompareOptions& options) {
             comparison.extent = reference.linear.extent;
             is_radiance = comparison.is_radiance = reference.is_radiance;
             choose_display(used, is_radiance);
-            const unsigned window = filter_window(options.video->frames_per_second);
-            reserve(memory, comparison.extent, window, options.reference);
+            reserve(memory, comparison.extent, options.video->frames_per_second, options.reference);
             video.emplace(comparison.extent, exposed_viewing(used.settings), options.video->frames_per_second,
                           options.video->padding, !options.map.empty());
         }

@@ -37,6 +37,9 @@ public:
     /// without an interval.
     const std::vector<double>& noise() const { return noise_; }
 
+    /// What it holds at 30 frames per second, the usual rate; 1.6 times as much at 60.
+    static double bytes_per_pixel() { return 3 * video_bytes_per_pixel(30); }
+
     static constexpr double most_undefined = 0.01;
     /// Above, noise of the truth hides what a good test lacks, and no law of its growth leads back.
     static constexpr double most_noise = 1.0 / 64;

@@ -71,6 +71,8 @@ TemporalPadding temporal_padding_named(const std::string& name) {
 
 std::string name_of(TemporalPadding padding) { return temporal_padding_names.at(size_t(padding)); }
 
+double video_bytes_per_pixel(double frames_per_second) { return 24.0 * filter_window(frames_per_second) + 100; }
+
 CvvdpVideo::CvvdpVideo(glm::uvec2 extent, const Viewing& viewing, double frames_per_second, TemporalPadding padding,
                        bool has_map, const CvvdpCalibration& calibration)
     : extent_(extent),

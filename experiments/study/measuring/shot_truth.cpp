@@ -48,12 +48,11 @@ bool measures_difference(const Shot& shot, const FrameStep& step) {
            step.frame > std::max(shot.config.frames.front(), shot.config.measure_from);
 }
 
-bool measures_video(const Shot& shot, const Config& config) {
+bool measures_video(const ShotConfig& shot, const Config& config) {
     const auto names_it = [](const std::vector<std::string>& metrics) {
         return std::ranges::count(metrics, std::string("cvvdp_0_5_6")) > 0;
     };
-    const bool has_several =
-        shot.config.repeat > 1 || (shot.config.frames.size() > 1 && !shot.config.measures_last_only);
+    const bool has_several = shot.repeat > 1 || (shot.frames.size() > 1 && !shot.measures_last_only);
     return has_several && (names_it(config.metrics) || names_it(config.frame_metrics));
 }
 

@@ -25,7 +25,7 @@ struct ShotTruth {
 bool measures_difference(const Shot& shot, const FrameStep& step);
 
 /// Whether the frames are scored as a video: the study asks for cvvdp_0_5_6, and several frames are measured.
-bool measures_video(const Shot& shot, const Config& config);
+bool measures_video(const ShotConfig& shot, const Config& config);
 
 /// Whether the step's frame is Shot::config.change or later.
 bool is_after_change(const Shot& shot, const FrameStep& step);

@@ -6,11 +6,13 @@
 #include "core/in_flight.h"
 #include "core/leftovers.h"
 #include "experiments/study/measuring/render_technique.h"
+#include "experiments/study/measuring/shot_truth.h"
 #include "experiments/study/measuring/times/timed_rounds.h"
 #include "experiments/study/plan/growth.h"
 #include "experiments/study/shots/open_shot.h"
 #include "experiments/study/shots/point_renders.h"
 #include "groundtruth/reference/reference.h"
+#include "metrics/video_jod.h"
 #include "variants/registry.h"
 
 #include <algorithm>
@@ -313,7 +315,8 @@ double memory_of(const ShotConfig& shot, const Config& config, size_t timed_copi
     if (timed_copies > 0) return held_mib + double(timed_copies) * (copy_mib + mib_of_byte * copy_bytes);
     std::set<std::string> kinds;
     for (const PointConfig& technique : config.techniques) kinds.insert(kind_of(technique));
-    return held_mib + mib_of_byte * render_bytes + point_mib * double(config.techniques.size()) +
+    const double video_bytes = measures_video(shot, config) ? VideoJod::bytes_per_pixel() : 0;
+    return held_mib + mib_of_byte * (render_bytes + video_bytes) + point_mib * double(config.techniques.size()) +
            kind_mib * double(kinds.size());
 }
 

@@ -78,7 +78,7 @@ void PointErrors::add_to_video(SeedErrors& seed, const FrameStep& step, const Ho
 void PointErrors::add(SeedErrors& seed, const FrameStep& step, const CompositedImages& images) {
     const HostImage before = std::exchange(seed.before, images.specular);
     if (step.is_held) seed.held.add(images.specular);
-    if (measures_video(point_.shot, point_.config)) add_to_video(seed, step, images.specular);
+    if (measures_video(point_.shot.config, point_.config)) add_to_video(seed, step, images.specular);
     if (is_after_change(point_.shot, step)) seed.after_change.push_back(images.specular);
     const FrameTruth* truth = point_.truth.frame(step);
     if (!truth) return;

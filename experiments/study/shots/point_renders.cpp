@@ -32,11 +32,10 @@ bool reads_noisy_light(const PointInShot& point) {
 }
 
 /// How many seeds' images are held at once: one, unless each frame is drawn anew whenever it is asked for. Then as many
-/// as take some 0.5 GB: those of a technique are some 400 bytes per pixel, and what means over frames need 150 more. A
-/// video's filters need 1000 more at 30 frames per second.
+/// as take some 0.5 GB: those of a technique are some 400 bytes per pixel, and what means over frames need 150 more.
 size_t seeds_at_once(const FrameStore& store, glm::uvec2 extent, bool has_video) {
-    const size_t pixels = has_video ? 350'000 : 1'000'000;
-    return store.keeps_all() ? 1 : std::max<size_t>(1, pixels / (size_t(extent.x) * extent.y));
+    const double bytes = (550 + (has_video ? VideoJod::bytes_per_pixel() : 0)) * extent.x * extent.y;
+    return store.keeps_all() ? 1 : std::max<size_t>(1, size_t(550e6 / bytes));
 }
 
 /// The frames of a point: renders them, and hands them on to be measured, judged and kept as images.
@@ -49,7 +48,7 @@ public:
         PointErrors errors(point_, lit_noise());
         const std::vector<unsigned>& seeds = point_.technique.seeds;
         const size_t batch =
-            seeds_at_once(store_, point_.shot.config.extent, measures_video(point_.shot, point_.config));
+            seeds_at_once(store_, point_.shot.config.extent, measures_video(point_.shot.config, point_.config));
         for (size_t first = 0; first < seeds.size(); first += batch) {
             std::vector<SeedInShot> open;
             for (size_t i = first; i < std::min(first + batch, seeds.size()); ++i)
