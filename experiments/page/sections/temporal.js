@@ -6,7 +6,7 @@ import {drawnLater} from "../elements/later.js";
 import {cell, numbers, table, valueCell} from "../elements/tables.js";
 import {choiceBoxes, drawnPart, leaveOut, pointLegend} from "./parts.js";
 import {byShot, manifestShot, ofShot, pointKey, pointLabel, report, shortShot, shotLabel, shotName} from "../study/data.js";
-import {better, metricKey, otherMetric, rowText, unitText} from "../study/errors.js";
+import {better, metricKey, otherMetric, rowText, unitText, videoMetric} from "../study/errors.js";
 import {chartedRows, comparedPoints, isSingleChange, pointText} from "../study/points.js";
 import {list, unique} from "../values.js";
 import {playShot} from "../viewer/chooser.js";
@@ -18,7 +18,7 @@ const temporalTables = [
         metrics: ["frame_difference", "frame_difference_relative", "ghost_share"],
         hasDisoccluded: true
     },
-    {title: "As seen: distance from the truth as a video", metrics: ["cvvdp_0_5_6_video"]},
+    {title: "As seen: distance from the truth as a video", metrics: [videoMetric]},
     {title: "After a change: ghosts", metrics: ["ghost_length", "settling_length"]}
 ];
 const temporalChoice = {}, frameChoice = {};
@@ -50,7 +50,7 @@ const isDisoccluded = r =>
     r.mask === "disoccluded" && r.target === "specular" && r.metric === "relmse" && !isSingleChange(r);
 
 /// Bands of frequencies reach over the whole image, whatever mask is chosen.
-const isOfWholeImage = r => r.metric === "cvvdp_0_5_6_video";
+const isOfWholeImage = r => r.metric === videoMetric;
 
 /// One row per shot and point that has such values.
 function temporalTable({title, metrics, hasDisoccluded}, all) {

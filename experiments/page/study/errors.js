@@ -38,10 +38,13 @@ export const unitText = metric => {
     return unit && unit !== "1" ? ` (${unit.replace("^2", "²")})` : "";
 };
 
+/// The visibility of all frames as a video, of the whole image: it has no frame and no mask of its own.
+export const videoMetric = "cvvdp_0_5_6_video";
+
 /// Which frames a row of errors is of; empty for a shot of one frame, and for a score of all frames as a video.
 export function framesText(row) {
     const frames = list(manifestShot(row.shot)?.frames);
-    if (frames.length < 2 || row.metric === "cvvdp_0_5_6_video") return "";
+    if (frames.length < 2 || row.metric === videoMetric) return "";
     return row.frame === "" ? "mean over frames" : `frame ${row.frame} alone`;
 }
 
@@ -83,7 +86,7 @@ export const headlineMetrics = () => {
 };
 
 /// The metric of visibility in JOD, of sequences if there are any; undefined if the study has none.
-export const jodMetric = () => ["cvvdp_0_5_6_video", "cvvdp_0_5_6"].find(
+export const jodMetric = () => [videoMetric, "cvvdp_0_5_6"].find(
     metric => report.errors.some(r => r.metric === metric && r.value !== null));
 
 export const rowText = row => `${row.metric} ${number(row.value)} ${interval(row)}${unitText(row.metric)}`;
