@@ -18,12 +18,14 @@ const std::vector<TemporalMetric>& temporal_metrics() {
          "frame repeats the last. With a value near 1, flicker may be low only because the image lags behind",
          "", 1},
         {"frame_difference", "frame_difference_mse", "radiance^2", lower,
-         "Mean of ((x_t - x_(t-1)) - (r_t - r_(t-1)))^2: changes between frames that the truth does not have"},
+         "Mean of ((x_t - x_(t-1)) - (r_t - r_(t-1)))^2: changes between frames that the truth does not have", "",
+         INFINITY, true},
         {"frame_difference_relative", "frame_difference_a", "1", lower,
-         "Mean of frame_difference / (r_t^2 + 0.01), weighted as relmse", "frame_difference_a_guided"},
+         "Mean of frame_difference / (r_t^2 + 0.01), weighted as relmse", "frame_difference_a_guided", INFINITY, true},
         {"ghost_share", "ghost_projection_history", "1", near_zero,
          "Share of the truth's earlier images in the frames: (x_t - r_t) projected onto (h_t - r_t), where h_t is the "
-         "exponential mean of earlier truths with weight 0.1. 1: frames are a history of the truth"},
+         "exponential mean of earlier truths with weight 0.1. 1: frames are a history of the truth",
+         "", INFINITY, true},
         {"ghost_length", "ghost_projection_0.05", "frames", lower,
          "Frames after a change that still contain 5 % of the old image or more: (x_t - plateau) projected onto the "
          "truth's change"},
@@ -31,15 +33,19 @@ const std::vector<TemporalMetric>& temporal_metrics() {
          "Frames after a change until the squared error is within 5 % of its first step above its final level"},
         {"cvvdp_0_5_6_video", "colorvideovdp_0.5.6_video", "JOD", higher,
          "As cvvdp_0_5_6, of the frames as a video at the scene's frame rate: it also sees flicker, ghosts and lag. "
-         "The "
-         "target is the image, in which all light but the reflections is the truth's",
-         "", 10},
+         "The target is the image, in which all light but the reflections is the truth's",
+         "", 10, true},
     };
     return table;
 }
 
 const TemporalMetric& temporal_metric_named(const std::string& name) {
     return find_named(temporal_metrics(), name, "no temporal metric named");
+}
+
+const TemporalMetric* find_temporal_metric(const std::string& name) {
+    const auto found = std::ranges::find(temporal_metrics(), name, &TemporalMetric::name);
+    return found == temporal_metrics().end() ? nullptr : &*found;
 }
 
 TemporalScore empty_score(const std::string& metric, const Mask& mask, const Mask& finite) {

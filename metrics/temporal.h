@@ -16,6 +16,8 @@ struct TemporalMetric {
     std::string doc;
     std::string guided_formula = {};  ///< as Metric::guided_formula
     double greatest = INFINITY;       ///< upper bound
+    bool is_of_truth = false;         ///< compares frames with a path-traced truth, whose noise its interval holds;
+                                      ///< else the interval is that of the choice of pixels
 };
 
 /// flicker, flicker_relative, flicker_correlation (flicker.h); frame_difference, frame_difference_relative
@@ -25,6 +27,9 @@ const std::vector<TemporalMetric>& temporal_metrics();
 
 /// Fails on an unknown name, with the nearest known one.
 const TemporalMetric& temporal_metric_named(const std::string& name);
+
+/// nullptr if no metric of sequences has this name.
+const TemporalMetric* find_temporal_metric(const std::string& name);
 
 /// One row of results.
 struct TemporalScore {

@@ -19,8 +19,7 @@ size_t group_of(size_t pixel) {
 }
 
 bool is_extrapolated(const std::string& metric) {
-    return std::ranges::count(temporal_metrics(), metric, &TemporalMetric::name) == 0 &&
-           !metric_named(metric).squared_error_weight;
+    return !find_temporal_metric(metric) && !metric_named(metric).squared_error_weight;
 }
 
 }  // namespace

@@ -43,10 +43,10 @@ std::optional<std::vector<double>> values_of(const std::vector<const ResultRow*>
 /// Whether a row's interval is open to one side: the length of a ghost that may never end has no upper end.
 bool is_one_sided(const ResultRow* row) { return row->low.has_value() != row->high.has_value(); }
 
-/// Flicker and ghosts are of the pixels of one sequence: their rows' intervals are those of the choice of pixels.
+/// Flicker and lengths are of the pixels of one sequence: their rows' intervals are those of the choice of pixels.
 bool is_of_pixels(const std::string& metric) {
-    return std::ranges::count(temporal_metrics(), metric, &TemporalMetric::name) > 0 &&
-           !metric.starts_with("frame_difference") && metric != "cvvdp_0_5_6_video";
+    const TemporalMetric* const temporal = find_temporal_metric(metric);
+    return temporal && !temporal->is_of_truth;
 }
 
 /// Whether the interval of a row comes from the noise of its pixels, which it lacks only where that is not trusted

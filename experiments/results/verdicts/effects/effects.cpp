@@ -3,6 +3,7 @@
 #include "experiments/results/verdicts/interval.h"
 #include "metrics/direction.h"
 #include "metrics/statistics/estimates.h"
+#include "metrics/temporal.h"
 
 #include <algorithm>
 #include <cmath>
@@ -105,9 +106,10 @@ const ResultRow& row_of(const SeedsOfPoint& side, unsigned seed) {
 }
 
 /// Whether the noise of the reference may be in an error: the halves differ, or it is of outliers, which a floor of 0
-/// does not exclude, or it is of two references. Flicker and ghosts are of a technique's own frames.
+/// does not exclude, or it is of several references. Flicker is of a technique's own frames.
 bool holds_reference_noise(const ResultRow& row) {
-    return row.floor > 0.0 || (row.floor && row.metric == "outliers") || row.metric.starts_with("frame_difference");
+    const TemporalMetric* const temporal = find_temporal_metric(row.metric);
+    return row.floor > 0.0 || (row.floor && row.metric == "outliers") || (temporal && temporal->is_of_truth);
 }
 
 std::vector<EffectRow> effects_of_rows(const SeedsOfPoint& point, const SeedsOfPoint& baseline) {

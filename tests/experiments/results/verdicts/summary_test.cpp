@@ -76,6 +76,12 @@ TEST(Summary, GivesTheSeedsAloneNoIntervalUnlessTheReferenceIsExact) {
     EXPECT_EQ(summary(flicker).interval, interval::one_tile);
     for (ResultRow& row : flicker) row.low = 0.5, row.high = 2.5;
     EXPECT_EQ(summary(flicker).interval, interval::pixels_and_seeds);
+    for (const char* metric : {"frame_difference", "ghost_share", "cvvdp_0_5_6_video"}) {
+        std::vector<ResultRow> of_truth = rows_of(metric, {1, 2});
+        EXPECT_EQ(summary(of_truth).interval, interval::unknown_reference) << metric;
+        for (ResultRow& row : of_truth) row.low = 0.5, row.high = 2.5;
+        EXPECT_EQ(summary(of_truth).interval, interval::reference_and_seeds) << metric;
+    }
 }
 
 TEST(Summary, ReachesDownByWhatTheNoiseOfTheLightAdds) {
