@@ -6,8 +6,9 @@
 
 namespace {
 
-// Taken / estimated. 16 of 17 small studies took 0.76 to 1.38 times the processor time, on two cores with much other
-// load (tests/experiments/study/plan_benchmark.py). The rest is a margin for other machines, and for changing load.
+// Taken / estimated, of small studies on two cores (tests/experiments/study/plan_benchmark.py). Processor time: 0.61 to
+// 1.23 of 18 without other load, 0.76 to 1.38 of 16 of 17 with much. Time: 0.67 to 1.19 without other load. The rest is
+// a margin for other machines, and for changing load.
 constexpr ExpectedRange of_wall = {0.6, 2.5}, of_processors = {0.6, 2.0};
 
 ExpectedRange scaled(ExpectedRange range, double seconds) { return {range.low * seconds, range.high * seconds}; }
