@@ -47,19 +47,6 @@ std::string names_of_shaders(const fs::path& folder) {
     return joined(names);
 }
 
-WatchSettings with_absolute_paths(WatchSettings settings) {
-    settings.folder = fs::weakly_canonical(fs::absolute(settings.folder));
-    settings.out = fs::weakly_canonical(fs::absolute(settings.out));
-    if (!fs::is_directory(settings.folder))
-        fail(settings.folder.string(), " is no folder: `ssrlab new ", settings.folder.string(),
-             " --from mcguire_dda` makes a folder with a technique");
-    const fs::path inside = settings.out.lexically_relative(settings.folder);
-    if (!inside.empty() && *inside.begin() != "..")
-        fail("--out ", settings.out.string(),
-             " lies in the watched folder: rendered files there would look like saves of the technique");
-    return settings;
-}
-
 /// The page with its script and style, by the names that it asks for.
 std::map<std::string, WatchReply> page_files() {
     return {{"", {"text/html; charset=utf-8", template_file("watch.html")}},

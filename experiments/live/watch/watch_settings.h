@@ -22,3 +22,6 @@ struct WatchSettings {
     /// The technique's name in results.
     std::string name() const { return folder.filename().string(); }
 };
+
+/// Fails with Error if `folder` is no folder, or if `out` lies inside it.
+WatchSettings with_absolute_paths(WatchSettings settings);
