@@ -106,6 +106,22 @@ Shares shares_of(const BothSides& sides) {
     return shares;
 }
 
+/// By shot; those without a value of both sides are left out. The noise is empty where it is not known.
+std::map<std::string, Shares> shares_by_shot(std::span<const ResultRow> rows, std::span<const ReferenceNoise> noise,
+                                             const std::string& metric, const std::string& mask, const PointName& point,
+                                             const PointName& against) {
+    std::map<std::string, Shares> shots;
+    for (const auto& [shot, sides] : values_over_frames(rows, metric, mask, point, against)) {
+        Shares shares = shares_of(sides);
+        if (shares.now.empty()) continue;
+        const auto *own = noise_sums(noise, shot, metric, mask, point),
+                   *other = noise_sums(noise, shot, metric, mask, against);
+        if (own && other) shares.noise_now = *own, shares.noise_before = *other;
+        shots.emplace(shot, std::move(shares));
+    }
+    return shots;
+}
+
 /// What Shares are of.
 struct Judged {
     const char* what;        ///< judged_number::
@@ -175,29 +191,20 @@ std::vector<Evidence> evidence_of_ghosts(std::span<const ResultRow> rows, std::s
                                          const std::string& mask, const PointName& point, const PointName& against,
                                          const JudgeLimits& limits) {
     std::vector<Evidence> evidence;
-    for (const auto& [shot, sides] : values_over_frames(rows, "ghost_share", mask, point, against)) {
-        Shares shares = shares_of(sides);
-        if (shares.now.empty()) continue;
-        const auto *own = noise_sums(noise, shot, "ghost_share", mask, point),
-                   *other = noise_sums(noise, shot, "ghost_share", mask, against);
-        if (own && other) shares.noise_now = *own, shares.noise_before = *other;
+    for (const auto& [shot, shares] : shares_by_shot(rows, noise, "ghost_share", mask, point, against))
         evidence.push_back(evidence_of(shot, {judged_number::ghosts, visible_ghost, true}, shares, limits));
-    }
     return evidence;
 }
 
 std::vector<Evidence> evidence_of_visibility(std::span<const ResultRow> rows, std::span<const ReferenceNoise> noise,
                                              const PointName& point, const PointName& against,
                                              const JudgeLimits& limits) {
+    const std::string metric = "cvvdp_0_5_6_video";
     std::vector<Evidence> evidence;
-    for (const auto& [shot, sides] : values_over_frames(rows, "cvvdp_0_5_6_video", "all", point, against)) {
-        Shares shares = shares_of(sides);
-        const auto *own = noise_sums(noise, shot, "cvvdp_0_5_6_video", "all", point),
-                   *other = noise_sums(noise, shot, "cvvdp_0_5_6_video", "all", against);
-        if (shares.now.empty() || !own || !other) continue;
-        shares.noise_now = *own, shares.noise_before = *other;
+    for (auto& [shot, shares] : shares_by_shot(rows, noise, metric, "all", point, against)) {
+        if (shares.noise_now.empty()) continue;
         for (std::vector<double>* side : {&shares.now, &shares.before})
-            for (double& jod : *side) jod = greatest_value("cvvdp_0_5_6_video") - jod;
+            for (double& jod : *side) jod = greatest_value(metric) - jod;
         evidence.push_back(evidence_of(shot, {judged_number::visibility, visible_jod, false}, shares, limits));
     }
     return evidence;

@@ -36,21 +36,25 @@ std::vector<Evidence> ghosts(const std::vector<double>& of_now, const std::vecto
                               {.worse_by = worse_by});
 }
 
+ReferenceNoise noise_of(const PointName& name, const std::string& metric, std::vector<float> sums) {
+    return {.shot = "room",
+            .frame = over_frames,
+            .technique = name.first,
+            .point = name.second,
+            .target = primary.target,
+            .metric = metric,
+            .mask = primary.mask,
+            .sums = std::move(sums)};
+}
+
 std::string verdict_on(const std::vector<Evidence>& evidence) { return judge(evidence).verdict; }
 
 std::vector<Evidence> flicker(const std::vector<double>& of_now, const std::vector<double>& of_before,
                               const JudgeLimits& limits = {}) {
     const std::vector<ResultRow> rows = rows_of_metric("frame_difference", of_now, of_before);
-    ReferenceNoise noise{.shot = "room",
-                         .frame = over_frames,
-                         .technique = "frames",
-                         .point = "now",
-                         .target = primary.target,
-                         .metric = "frame_difference",
-                         .mask = primary.mask,
-                         .sums = std::vector<float>(noise_groups)};
-    std::vector<ReferenceNoise> both = {noise, noise};
-    both[1].point = "before";
+    const std::vector<float> sums(noise_groups);
+    const std::vector<ReferenceNoise> both = {noise_of(now, "frame_difference", sums),
+                                              noise_of(before, "frame_difference", sums)};
     std::vector<EffectRow> effects = paired_effects(rows, compared, {}, both);
     set_verdicts(effects, primary);
     return evidence_of_flicker(effects, rows, primary, now, before, limits);
@@ -80,16 +84,8 @@ TEST(JudgedSequences, AToleranceOfGhostsAllowsAShareOfWhatIsVisible) {
 }
 
 TEST(JudgedSequences, TheReferencesNoiseIsPartOfGhosts) {
-    ReferenceNoise of_now{.shot = "room",
-                          .frame = over_frames,
-                          .technique = "frames",
-                          .point = "now",
-                          .target = primary.target,
-                          .metric = "ghost_share",
-                          .mask = primary.mask,
-                          .sums = std::vector<float>(noise_groups, 0.0f)};
-    ReferenceNoise of_before = of_now;
-    of_before.point = "before";
+    const std::vector<float> none(noise_groups);
+    ReferenceNoise of_now = noise_of(now, "ghost_share", none), of_before = noise_of(before, "ghost_share", none);
     EXPECT_EQ(verdict_on(ghosts({0.12}, {0.1}, 1, {of_now, of_before})), judgement::worse)
         << "no noise is left of the difference";
     for (size_t g = 0; g < noise_groups; ++g) of_now.sums[g] = g % 2 ? 0.0025f : -0.0025f;  // a standard error of 0.04
@@ -125,14 +121,7 @@ TEST(JudgedSequences, TheReferencesNoiseAloneGivesAsFewAlarms) {
         std::vector<ReferenceNoise> noise;
         double shares[2] = {0.1, 0.1};
         for (const PointName& name : {now, before}) {
-            ReferenceNoise& of_side = noise.emplace_back(ReferenceNoise{.shot = "room",
-                                                                        .frame = over_frames,
-                                                                        .technique = name.first,
-                                                                        .point = name.second,
-                                                                        .target = primary.target,
-                                                                        .metric = "ghost_share",
-                                                                        .mask = primary.mask,
-                                                                        .sums = {}});
+            ReferenceNoise& of_side = noise.emplace_back(noise_of(name, "ghost_share", {}));
             for (size_t g = 0; g < noise_groups; ++g) {  // of which the halves' sign is chance
                 of_side.sums.push_back(float(0.01 * normal(random)));
                 shares[name == before] += (random() & 1 ? 1 : -1) * double(of_side.sums.back());
@@ -150,16 +139,10 @@ TEST(JudgedSequences, VisibilityIsTheDistanceFromTheTruthInJod) {
     // 0.4 JOD from 10, and 0.2 JOD earlier.
     std::vector<ResultRow> rows = rows_of_metric("cvvdp_0_5_6_video", {9.6, 9.6}, {9.8, 9.8});
     for (ResultRow& r : rows) r.target = "image", r.mask = "all";
-    ReferenceNoise noise{.shot = "room",
-                         .frame = over_frames,
-                         .technique = "frames",
-                         .point = "now",
-                         .target = "image",
-                         .metric = "cvvdp_0_5_6_video",
-                         .mask = "all",
-                         .sums = {0.001f, -0.002f, 0.001f}};
-    std::vector<ReferenceNoise> both = {noise, noise};
-    both[1].point = "before";
+    const std::vector<float> sums = {0.001f, -0.002f, 0.001f};
+    std::vector<ReferenceNoise> both = {noise_of(now, "cvvdp_0_5_6_video", sums),
+                                        noise_of(before, "cvvdp_0_5_6_video", sums)};
+    for (ReferenceNoise& noise : both) noise.target = "image", noise.mask = "all";
     const auto judged = [&](double worse_by) {
         return evidence_of_visibility(rows, both, now, before, {.worse_by = worse_by});
     };
