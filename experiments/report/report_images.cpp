@@ -8,6 +8,8 @@
 #include "core/path_inside.h"
 #include "experiments/results/files/manifest.h"
 #include "experiments/results/files/verdict_map.h"
+#include "metrics/cvvdp/cvvdp.h"
+#include "metrics/cvvdp_metric.h"
 
 #include <half.h>
 #include <tbb/parallel_for.h>
@@ -31,11 +33,16 @@ using nlohmann::json;
 /// room.
 constexpr unsigned played_significand_bits = 5;
 
+/// A map of visible differences, which the report makes of a result and its reference.
+constexpr const char* jod_kind = "jod";
+
 /// What the manifest says of one image that is shown.
 struct Entry {
     std::string shot, technique, point, kind, target;
     int frame = 0, seed = 0;
     std::string exr;
+    std::string reference_exr;  ///< of jod_kind
+    float exposure_ev = 0;      ///< of jod_kind
 };
 
 bool is_shown(const std::string& kind) {
@@ -75,6 +82,38 @@ std::vector<Entry> first_seeds(std::vector<Entry> entries) {
     return entries;
 }
 
+/// The maps of visible differences of a study that measures them: one of each result that has a reference. They are of
+/// stills, for a sequence of its frame that is kept.
+std::vector<Entry> jod_maps(std::span<const Entry> entries, const json& manifest) {
+    if (!member(member(manifest, "metrics"), "cvvdp_0_5_6").is_object()) return {};
+    std::map<std::string, float> exposures;
+    for (const json& shot : member(manifest, "shots"))
+        if (const json& ev = member(shot, "exposure_ev"); ev.is_number()) exposures[shot.value("shot", "")] = ev;
+    std::map<std::pair<std::string, int>, std::string> references;
+    for (const Entry& e : entries)
+        if (e.kind == "reference" && e.target == "image") references[{e.shot, e.frame}] = e.exr;
+    std::vector<Entry> maps;
+    for (const Entry& e : entries) {
+        const auto reference = references.find({e.shot, e.frame});
+        if (e.kind != "result" || e.target != "image" || reference == references.end()) continue;
+        maps.push_back(e);
+        maps.back().kind = jod_kind;
+        maps.back().reference_exr = reference->second;
+        maps.back().exposure_ev = exposures[e.shot];
+    }
+    return maps;
+}
+
+/// What is noticed at each pixel, in JOD that are lost, in all three channels.
+HostImage jod_map(const HostImage& reference, const HostImage& result, float exposure_ev) {
+    CvvdpStills stills(reference.extent, exposed_viewing({.exposure_ev = exposure_ev}));
+    const Plane map = stills.score(reference, result, /*has_map=*/true).map;
+    HostImage rgb(reference.extent, 3);
+    for (size_t i = 0; i < map.values.size(); ++i)
+        for (size_t c = 0; c < 3; ++c) rgb.values[i * 3 + c] = float(map.values[i]);
+    return rgb;
+}
+
 /// Of a plane with `width` values per row: from the values to the left, above, and above the left.
 int predicted(const std::vector<int16_t>& plane, size_t width, size_t i) {
     const bool has_left = i % width != 0, has_above = i >= width;
@@ -94,7 +133,8 @@ const char* format_of(const Entry& entry) {
 }
 
 std::string script_name(const Entry& entry) {
-    return report_image_folder + ("/" + fs::path(entry.exr).replace_extension(".js").string());
+    const std::string ending = entry.kind == jod_kind ? ".jod.js" : ".js";
+    return report_image_folder + ("/" + fs::path(entry.exr).replace_extension(ending).string());
 }
 
 /// An image as the page has it.
@@ -104,8 +144,9 @@ struct Encoded {
     std::string text;    ///< base64; empty if a script has it
 };
 
-Encoded encoded(const Entry& entry, const fs::path& exr) {
-    const HostImage rgb = read_exr_rgb(exr);
+Encoded encoded(const Entry& entry, const fs::path& exr, const fs::path& reference) {
+    HostImage rgb = read_exr_rgb(exr);
+    if (entry.kind == jod_kind) rgb = jod_map(read_exr_rgb(reference), rgb, entry.exposure_ev);
     const std::string format = format_of(entry);
     Encoded image{.description = {{"width", rgb.extent.x}, {"height", rgb.extent.y}, {"format", format}}};
     if (format == "palette") {
@@ -122,14 +163,17 @@ Encoded encoded(const Entry& entry, const fs::path& exr) {
 
 /// What a script is made of. A script of the same file need not be made again: a report of a large study would spend
 /// its time on them.
-json origin_of(const Entry& entry, const fs::path& exr) {
+json origin_of(const Entry& entry, const fs::path& exr, const fs::path& reference) {
     constexpr int version = 1;  // of what encoded() makes
-    std::error_code error;
-    const uintmax_t size = fs::file_size(exr, error);
-    return {{"version", version},
-            {"kind", entry.kind},
-            {"size", error ? 0 : size},
-            {"time", fs::last_write_time(exr, error).time_since_epoch().count()}};
+    const auto state_of = [](const fs::path& file) -> json {
+        std::error_code error;
+        const uintmax_t size = fs::file_size(file, error);
+        return {{"size", error ? 0 : size}, {"time", fs::last_write_time(file, error).time_since_epoch().count()}};
+    };
+    json origin = {{"version", version}, {"kind", entry.kind}};
+    origin.update(state_of(exr));
+    if (entry.kind == jod_kind) origin.update({{"reference", state_of(reference)}, {"exposure_ev", entry.exposure_ev}});
+    return origin;
 }
 
 /// The image that an earlier report made of `origin`; none if the script is of another, or is none of ssrlab's.
@@ -157,6 +201,12 @@ public:
           manifest_((folder_ / "manifest.json").string()),
           budget_(budget),
           is_linked_(budget == 0) {}
+
+    void add_all(const json& manifest) {
+        const std::vector<Entry> entries = first_seeds(read_entries(folder_, manifest));
+        add_all(entries);
+        add_all(jod_maps(entries, manifest));  // their images are there, and of one size
+    }
 
     void add_all(std::span<const Entry> entries) {
         constexpr size_t at_once = 64;  // whose texts are in memory beside the page's
@@ -193,14 +243,19 @@ private:
     std::vector<std::pair<Entry, Encoded>> in_page_;
     ReportImages report_;
 
-    fs::path exr_of(const Entry& entry) const { return path_inside(folder_, entry.exr, manifest_ + ": images: 'exr'"); }
+    fs::path inside(const std::string& exr) const { return path_inside(folder_, exr, manifest_ + ": images: 'exr'"); }
+    fs::path exr_of(const Entry& entry) const { return inside(entry.exr); }
+    fs::path reference_of(const Entry& entry) const {
+        return entry.reference_exr.empty() ? fs::path() : inside(entry.reference_exr);
+    }
 
     /// Writes its script, if images are linked.
     Encoded made(const Entry& entry) const {
-        const fs::path exr = exr_of(entry);
-        if (!is_linked_) return encoded(entry, exr);
-        if (auto kept = kept_image(path_inside(folder_, script_name(entry)), origin_of(entry, exr))) return *kept;
-        Encoded image = encoded(entry, exr);
+        const fs::path exr = exr_of(entry), reference = reference_of(entry);
+        if (!is_linked_) return encoded(entry, exr, reference);
+        if (auto kept = kept_image(path_inside(folder_, script_name(entry)), origin_of(entry, exr, reference)))
+            return *kept;
+        Encoded image = encoded(entry, exr, reference);
         write(entry, image);
         image.text.clear();
         return image;
@@ -238,7 +293,7 @@ private:
     }
 
     void write(const Entry& entry, const Encoded& image) const {
-        const json head = {{"origin", origin_of(entry, exr_of(entry))},
+        const json head = {{"origin", origin_of(entry, exr_of(entry), reference_of(entry))},
                            {"description", image.description},
                            {"clamped", image.clamped}};
         const std::string file = script_name(entry);
@@ -267,14 +322,14 @@ void remove_scripts(const fs::path& folder, const std::set<fs::path>& kept) {
 ReportImages report_images(const fs::path& folder, const json& manifest, size_t budget) {
     const fs::path scripts = path_inside(folder, report_image_folder);
     ImageSink sink(folder, budget);
-    sink.add_all(first_seeds(read_entries(folder, manifest)));
+    sink.add_all(manifest);
     remove_scripts(scripts, sink.scripts());
     return sink.finished();
 }
 
 ReportImages embedded_images(const fs::path& folder, const json& manifest) {
     ImageSink sink(folder, SIZE_MAX);
-    sink.add_all(first_seeds(read_entries(folder, manifest)));
+    sink.add_all(manifest);
     return sink.finished();
 }
 

@@ -18,7 +18,8 @@ struct ReportImages {
 inline constexpr const char* report_image_folder = "report_images";
 
 /// The images that manifest.json lists, of the first seed of each point: results, references, confidence, verdicts of
-/// rays, roughness of surfaces, and frames that are only played, with rounded values. If all fit into `budget` bytes of
+/// rays, roughness of surfaces, and frames that are only played, with rounded values; where the study measures
+/// cvvdp_0_5_6, a map of visible differences of each result, made here (kind "jod"). If all fit into `budget` bytes of
 /// text they are returned. Else each is written as a script into report_images/, which a page can also load from disk.
 /// Scripts of an earlier report stay if their images have not changed since, by size and time; others are removed. No
 /// image is reduced or left out. Fails with Error if a listed file is missing or broken, or if images of a shot differ

@@ -30,6 +30,11 @@ export const scalarModes = {
         mapOf: (image, base) => flipMap(image, base, image.exposure)
     },
     luminance: {title: "luminance", formula: "Rec. 709 luminance", of: x => luminance(x)},
+    jod: {
+        title: "visible difference",
+        formula: "JOD lost if this difference were everywhere, ColorVideoVDP 0.5.6 of two stills against the truth",
+        of: map => map[0]
+    },
     confidence: {title: "confidence", formula: "share of the result that is the technique's own", isFixed: true},
 };
 

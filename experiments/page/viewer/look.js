@@ -3,18 +3,21 @@
 import {at, choiceBox, h, select, titlesOf} from "../elements/elements.js";
 import {diverging, magma, toneCurves} from "../images/colors.js";
 import {scalarModes} from "../images/differences.js";
-import {shotExposure} from "../study/data.js";
+import {report, shotExposure} from "../study/data.js";
 import {number} from "../values.js";
 import {causeLegend, nearestLegend, verdictMapLegend} from "./loss_maps.js";
 import {view, zoomAbout} from "./panes.js";
-import {hasBase, isError, ownWords, sameKey, truthKey, viewer} from "./state.js";
+import {hasBase, isError, jodMap, ownWords, sameKey, truthKey, viewer} from "./state.js";
 import {drawAll, layOut, paint, showImages} from "./viewer.js";
 
 export const viewerModes = [
     ["color", "colour"], ["absolute", "absolute difference"], ["signed", "signed difference"],
-    ["relative", "relative error"], ["flip", "FLIP"], ["luminance", "luminance"], ["nearest", "which method is nearest to the truth"],
+    ["relative", "relative error"], ["flip", "FLIP"], ["jod", "visible difference (JOD)"], ["luminance", "luminance"], ["nearest", "which method is nearest to the truth"],
     ["cause", "cause of the error"], ["rays", "where rays ended"], ["confidence", "confidence"]
 ];
+
+/// A study that measures no JOD has none.
+const hasJodMaps = () => report.images.some(i => i.kind === "jod");
 
 const lookRange = (id, label, size, set) => {
     const input = event => {
@@ -39,7 +42,7 @@ export function showLook() {
         layOut();
     };
     at("viewer-look").append(
-        select("Show", viewerModes, viewer.mode, setMode), h("span", {id: "viewer-base"}),
+        select("Show", viewerModes.filter(([mode]) => mode !== "jod" || hasJodMaps()), viewer.mode, setMode), h("span", {id: "viewer-base"}),
         h("label", {}, h("input", {type: "checkbox", id: "error-row", change}), "absolute difference below"),
         lookRange("exposure", "Exposure (EV)", 10, setExposure),
         choiceBox("Tone curve", viewer, "curve", titlesOf(toneCurves), paint),
@@ -98,7 +101,8 @@ export function showLegend(maximumOf) {
         viewer.mode === "rays"              ? verdictMapLegend() :
                                               [];
     const scaled = scalarModes[viewer.mode] ? viewer.mode : viewer.hasErrorRow ? "absolute" : null;
-    const hasBar = scaled && viewer.shown.length && (!isError(scaled) || viewer.shown.some(hasBase));
+    const hasBar = scaled && viewer.shown.length && (!isError(scaled) || viewer.shown.some(hasBase)) &&
+        (scaled !== "jod" || viewer.shown.some(s => jodMap(s.method)));
     at("viewer-legend").replaceChildren(...(hasBar ? [colorBar(scaled, maximumOf)] : []), ...parts, h("p", {class: "note"}, shownAs + ofPlayed));
 }
 

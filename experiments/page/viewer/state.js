@@ -46,6 +46,8 @@ export const truthMethod = () => viewer.methods.find(m => m.key === truthKey);
 export const resultIndex = method =>
     method?.results[method.key === truthKey || !isLadderRung(viewer.target) ? viewer.target : "incident"];
 
+/// Of what the target `image` shows: visible differences are of no other.
+export const jodMap = method => viewer.target === "image" ? loadedImages.get(method.jod) : undefined;
 export const resultOf = method => loadedImages.get(resultIndex(method));
 export const truth = () => resultOf(truthMethod());
 
@@ -65,7 +67,8 @@ export const hasBase = ({method, image}) => baseOf(method) !== undefined && imag
 export const frameOf = image => image.frame ?? 0;
 
 /// All images of a shot's frame by method: {shot, own: its key in the shot, key: its key in the viewer, label, technique,
-/// point, results: {target: index}, confidence: index, verdicts: [{stage, index}], roughness: index}.
+/// point, results: {target: index}, confidence: index, jod: index, verdicts: [{stage, index}],
+/// roughness: index}.
 export function methodsOf(shot, frame) {
     const methods = new Map();
     for (const image of ofShot(report.images, shot)) {
@@ -91,6 +94,8 @@ export function methodsOf(shot, frame) {
             method.confidence = index;
         else if (image.kind === "surface")
             method.roughness = index;
+        else if (image.kind === "jod")
+            method.jod = index;
         else
             method.results[image.target] = index;
     }

@@ -20,7 +20,7 @@ import {causePicture, ladderIndices, lossMaps, nearestMap, verdictPicture} from 
 import {loadedImages, loadImages} from "./page_images.js";
 import {drawPane, setPane, view} from "./panes.js";
 import {
-    allMethods, baseMethod, baseOf, besideKey, firstShown, framesOf, hasBase, isError, methodsOf, resultIndex,
+    allMethods, baseMethod, baseOf, besideKey, firstShown, framesOf, hasBase, isError, jodMap, methodsOf, resultIndex,
     resultOf, sameKey, shotsBeside, targetsOf, truthKey, truthMethod, viewer
 } from "./state.js";
 
@@ -136,6 +136,7 @@ function neededImages() {
     const methods = [...chosen, ...chosen.map(baseMethod), truthMethod()].filter(Boolean);
     const needed = methods.map(resultIndex);
     if (viewer.mode === "confidence") needed.push(...methods.map(m => m.confidence));
+    if (viewer.mode === "jod") needed.push(...methods.map(m => m.jod));
     if (viewer.mode === "rays" || viewer.mode === "cause")
         needed.push(...methods.flatMap(m => m.verdicts.map(v => v.index)));
     if (viewer.mode === "cause") needed.push(...ladderIndices());
@@ -237,6 +238,12 @@ function pictureOf({method, image}, mode, table, maximumOf) {
             note: "confidence"
         };
     }
+    if (mode === "jod") {
+        const map = jodMap(method);
+        if (!map) return inColor(method.key === truthKey ? "" : "no JOD map of this image");
+        const values = scalarsOf(map, null, mode);
+        return {pixels: falseColorPixels(values, map, maximumOf(mode)), note: scalarModes[mode].title};
+    }
     if (mode === "color" || isError(mode) && !hasBase({method, image})) return inColor("");
     const {title, isSigned} = scalarModes[mode], values = scalarsOf(image, baseOf(method), mode);
     return {pixels: falseColorPixels(values, image, maximumOf(mode), isSigned), note: title};
@@ -246,9 +253,10 @@ function pictureOf({method, image}, mode, table, maximumOf) {
 export function paint() {
     lossMaps.clear();
     const table = displayTable(viewer.exposure, viewer.curve), maxima = {};
-    const maximumOf = mode => maxima[mode] ??= 2 ** viewer.scale *
-        sharedMaximum(
-            viewer.shown.filter(s => !isError(mode) || hasBase(s)).map(s => [s.image, baseOf(s.method)]), mode);
+    const scaledBy = mode => mode === "jod" ?
+        viewer.shown.map(s => jodMap(s.method)).filter(Boolean).map(map => [map, null]) :
+        viewer.shown.filter(s => !isError(mode) || hasBase(s)).map(s => [s.image, baseOf(s.method)]);
+    const maximumOf = mode => maxima[mode] ??= 2 ** viewer.scale * sharedMaximum(scaledBy(mode), mode);
     for (const pane of viewer.panes) {
         const {item, mode, other} = pane.wanted;
         const picture = pictureOf(item, mode, table, maximumOf);

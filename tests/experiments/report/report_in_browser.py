@@ -22,6 +22,7 @@ from report_viewer import (
     test_flip_and_split,
     test_flip_map,
     test_inspector,
+    test_jod_map,
     test_linked_images,
     test_linked_zoom,
     test_loss_maps,
@@ -250,6 +251,7 @@ def main():
             test_inspector(page, pixel_of)
             test_false_color(page)
             test_flip_map(page, lambda *files: [float(v) for v in output("--flip", *files).split()])
+            test_jod_map(page)
             test_shot_beside(page)
             test_loss_maps(page)
             test_chooser(page)

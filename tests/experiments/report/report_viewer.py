@@ -251,6 +251,22 @@ def test_flip_map(page, expected):
     choose(page, "Show", "colour")
 
 
+def test_jod_map(page):
+    """Maps of visible differences, which the report has: against the truth, of the target `image` alone."""
+    choose(page, "Show", "visible difference (JOD)")
+    WebDriverWait(page, 10).until(lambda p: p.find_element(By.ID, "panes").get_attribute("aria-busy") == "false")
+    equal(captions(page)[1:], [f"{name} visible difference" for name in NAMES[1:]], "captions")
+    of_all = page.execute_script("return viewer.shown.map(s => jodMap(s.method)).map(map => map ? [...scalarsOf(map, null, 'jod')] : null)")
+    check(of_all[0] is None, "the truth has no difference to itself")
+    for name, values in zip(NAMES[1:], of_all[1:]):
+        check(len(values) == 160 * 90 and max(values) > 0.1 and min(values) >= 0, f"{name}: {min(values)} to {max(values)} JOD")
+    check("JOD lost" in text_of(page, "#scale-text"), "its scale: " + text_of(page, "#scale-text"))
+    choose_in(page, "viewer", "Target", "specular")
+    WebDriverWait(page, 10).until(lambda p: "no JOD map" in captions(p)[1])
+    choose_in(page, "viewer", "Target", "image")
+    choose(page, "Show", "colour")
+
+
 def test_shot_beside(page):
     """The same points of two shots together; each compared with its own truth, or with the same point."""
     choose(page, "Beside it", OTHER_SHOT)
