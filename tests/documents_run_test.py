@@ -105,6 +105,8 @@ def small_study(study, most_techniques):
         kept["tune"] |= {"most_runs": 12}
         if "judge" in kept["tune"]:
             kept["tune"]["judge"] = {"shots": [small_shot(shot) for shot in kept["tune"]["judge"]["shots"][:1]]}
+    if "gpu_compilers" in kept:
+        kept["gpu_compilers"] = kept["gpu_compilers"][:1]
     if isinstance(kept.get("reference", {}), dict):
         kept["reference"] = {"samples": SAMPLES}
     return kept | {"resolution": SIZE, "seeds": 2, "timing": {"frames": 15 if most_techniques > 1 else 0, "warm_up": 1}}

@@ -1,4 +1,6 @@
 // The `main` of each test program.
+#include "core/freed_memory.h"
+
 #include <gtest/gtest.h>
 
 #include <cerrno>
@@ -11,6 +13,7 @@
 /// Each run has a temporary folder of its own: ctest runs suites side by side, and their tests may choose the same
 /// names.
 int main(int argc, char** argv) {
+    keep_freed_memory();
     testing::InitGoogleTest(&argc, argv);
     std::string folder = std::filesystem::temp_directory_path() / "ssrlab_XXXXXX";
     if (!mkdtemp(folder.data())) {

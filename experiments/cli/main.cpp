@@ -1,6 +1,7 @@
 // ssrlab: the command line.
 #include "core/error.h"
 #include "core/former_names.h"
+#include "core/freed_memory.h"
 #include "core/gpu/pipelines/shader_error.h"
 #include "core/memory_fault.h"
 #include "core/own_files.h"
@@ -13,7 +14,6 @@
 #include "experiments/cli/supervised.h"
 #include "experiments/results/cells/host_info.h"
 
-#include <malloc.h>
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -176,15 +176,6 @@ int exit_code_of(int argc, char** argv, const std::function<int()>& work) {
         say_error(shown_text(e.what()));
         return 3;
     }
-}
-
-/// Results of hundreds of shots are many small objects and a few large ones, which come and go. By glibc's defaults
-/// each goes back to the system and is asked for again, page by page: a third of the time of `ssrlab report` of 400
-/// shots.
-void keep_freed_memory() {
-    mallopt(M_TRIM_THRESHOLD, 1 << 28);
-    mallopt(M_TOP_PAD, 1 << 24);
-    mallopt(M_MMAP_THRESHOLD, 1 << 25);  // glibc's largest; the defaults come to it step by step, unless one is set
 }
 
 /// Commands that run no shader of a driver, which would need a process of its own (supervised.h). `ssrlab watch`
