@@ -11,7 +11,7 @@ from ssrlab.text_files import read_text
 
 FORMULA = re.compile(r"'*[=+\-@\t\r]")
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.IGNORECASE | re.ASCII)
-GUARDED = r"^'('*[=+\-@\t\r])"  # what guarded() makes of a formula
+GUARDED = re.compile(r"^'('*[=+\-@\t\r])")  # what guarded() makes of a formula
 
 
 def guarded(value):
@@ -59,7 +59,7 @@ def parse_rows(text, file, first_line=1):
             line, begin = begin, first_line + reader.line_num
             if not fields:
                 continue  # an empty line
-            fields = [re.sub(GUARDED, r"\1", f) for f in fields]
+            fields = [GUARDED.sub(r"\1", f) if f.startswith("'") else f for f in fields]
             if columns is None:
                 columns = fields
                 twice = next((c for c in columns if columns.count(c) > 1), None)

@@ -8,7 +8,6 @@ over_scenes() and p_holm() of kept tables (Numbers), ratios(), number(value), fi
 advised() of advice.csv, span(values, places), min, max, sum, len, zip and abs. `<!--=made PAGE.md-->` stands for the day and the commits of the studies whose tables PAGE has,
 as two cells of a table."""
 
-import functools
 import math
 import os
 import re
@@ -37,11 +36,10 @@ class Numbers:
     def __init__(self, summaries, file):
         self.file = file
         self._summaries = summaries
-        self._read = functools.cache(lambda study: summary_file.read(path_inside(summaries, study + ".csv")))
 
     def _table(self, study, table):
         """(text about it, its cells with a value)"""
-        _, tables = self._read(study)
+        _, tables = summary_file.read(path_inside(self._summaries, study + ".csv"))
         if table not in tables:
             raise ResultsError(f"{self.file}: {study} has no table '{table}'; it has: {', '.join(tables)}")
         about, cells = tables[table]

@@ -1,5 +1,6 @@
 """The committed summary of a study: the cells of its tables as tidy CSV, and what made them."""
 
+import functools
 import io
 import json
 import re
@@ -99,8 +100,12 @@ def _cell(row):
 
 
 def read(file):
-    """(origin, {name of a table: (text about it, its cells)})."""
-    text = read_text(file)
+    """(origin, {name of a table: (text about it, its cells)}), not to be changed: documents read the same file for each number."""
+    return _parsed(file, read_text(file))
+
+
+@functools.cache
+def _parsed(file, text):
     head = re.match(f"(?:{MARK}[^\n]*\n)*", text).group().splitlines()
     entries = []
     for number_of_line, line in enumerate(head, 1):
