@@ -54,7 +54,7 @@ function(check_rooms parent)
   set(found "${found}" PARENT_SCOPE)
 endfunction()
 # Folders of core, of which each may include itself and those before it.
-set(core_order shared . exr gpu gpu/pipelines gpu/passes scene/gltf/draco scene scene/gltf gbuffer)
+set(core_order shared . exr gpu gpu/pipelines/glsl_compiler gpu/pipelines gpu/passes scene/gltf/draco scene scene/gltf gbuffer)
 set(earlier "")
 foreach(folder ${core_order})
   list(APPEND earlier ${folder})

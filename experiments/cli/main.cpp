@@ -187,18 +187,11 @@ bool runs_no_shader(const std::vector<std::string_view>& words) {
     return words.front() == "list" && !has("devices");
 }
 
-/// Ends without destructors of static objects: those of glslang's tables take as long as all else of `ssrlab --help`.
-/// Sanitizers look around in the usual end.
-int end_at_once(int code) {
-    if (!std::cout.flush() || std::fflush(stdout) != 0) {
-        say_error("the output cannot be written: is the disk full?");
-        code = 3;
-    }
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-    std::fflush(nullptr);
-    std::_Exit(code);
-#endif
-    return code;
+/// The code, or 3 if the output cannot be written.
+int code_with_output(int code) {
+    if (std::cout.flush() && std::fflush(stdout) == 0) return code;
+    say_error("the output cannot be written: is the disk full?");
+    return 3;
 }
 
 }  // namespace
@@ -208,8 +201,8 @@ int main(int argc, char** argv) {
     keep_freed_memory();
     const std::vector<std::string_view> words(argv + std::min(argc, 1), argv + argc);
     const auto parse = [&](const std::vector<EndedPoint>& ended) {
-        return end_at_once(exit_code_of(argc, argv, [&] { return parse_and_run(argc, argv, ended); }));
+        return code_with_output(exit_code_of(argc, argv, [&] { return parse_and_run(argc, argv, ended); }));
     };
     if (runs_no_shader(words)) return parse({});
-    return end_at_once(exit_code_of(argc, argv, [&] { return supervised(parse, words.front() == "run"); }));
+    return code_with_output(exit_code_of(argc, argv, [&] { return supervised(parse, words.front() == "run"); }));
 }

@@ -5,7 +5,7 @@
 #include "core/files.h"
 #include "core/gbuffer/camera_file.h"
 #include "core/gbuffer/gbuffer_file.h"
-#include "core/gpu/pipelines/shader_rules.h"
+#include "core/gpu/pipelines/glsl_compiler/shader_rules.h"
 #include "core/png.h"
 #include "core/radiance_hdr.h"
 #include "core/scene/load_scene.h"

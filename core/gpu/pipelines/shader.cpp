@@ -1,20 +1,15 @@
 #include "core/gpu/pipelines/shader.h"
 
 #include "core/error.h"
+#include "core/gpu/pipelines/glsl_compiler/glsl_compiler.h"
 #include "core/gpu/pipelines/shader_cache.h"
 #include "core/gpu/pipelines/shader_error.h"
 #include "core/gpu/pipelines/shader_files.h"
-#include "core/gpu/pipelines/shader_rules.h"
 #include "core/list_text.h"
 #include "core/parameters.h"
 
-#include <SPIRV/GlslangToSpv.h>
-#include <glslang/Public/ResourceLimits.h>
-#include <glslang/Public/ShaderLang.h>
-#include <SPIRV/spirv.hpp>
 #include <algorithm>
 #include <regex>
-#include <spirv-tools/optimizer.hpp>
 #include <sstream>
 
 namespace {
@@ -160,6 +155,19 @@ std::string with_file_names(const std::string& log, const std::vector<SourceFile
     return out.str();
 }
 
+void throw_failure(const CompiledGlsl& stage, const std::string& file, const std::vector<SourceFile>& files) {
+    switch (stage.failure) {
+        case CompiledGlsl::Failure::none:
+            return;
+        case CompiledGlsl::Failure::of_compiler:
+            throw ShaderError("cannot compile " + file + ":\n" + with_file_names(stage.why, files));
+        case CompiledGlsl::Failure::of_linker:
+            throw ShaderError("cannot link " + file + ":\n" + with_file_names(stage.why, files));
+        case CompiledGlsl::Failure::of_bindings:
+            throw ShaderError(file + ": " + stage.why + "\n");
+    }
+}
+
 /// "FILE:LINE: #extension ..." of each extension that the files turn on, one in a line.
 std::string extension_lines(const std::vector<SourceFile>& files) {
     std::string lines;
@@ -174,75 +182,6 @@ std::string extension_lines(const std::vector<SourceFile>& files) {
         }
     }
     return lines;
-}
-
-/// glslang does not reflect specialization constants; each is decorated once in the SPIR-V: OpDecorate id SpecId
-/// literal.
-void find_constants(const std::vector<unsigned>& spirv, std::set<unsigned>& ids) {
-    const size_t header = 5;
-    for (size_t i = header; i < spirv.size(); i += spirv[i] >> 16)
-        if ((spirv[i] & 0xffff) == spv::OpDecorate && spirv[i + 2] == spv::DecorationSpecId) ids.insert(spirv[i + 3]);
-}
-
-std::string type_name(const glslang::TType& type) {
-    return std::string(type.getSampler().getString()) + (type.isArray() ? "[]" : "");
-}
-
-/// PassList binds one descriptor set, with one resource at each binding.
-void check_bindings(const glslang::TProgram& program, const std::string& file) {
-    std::map<unsigned, std::string> known;
-    const auto check = [&](const glslang::TObjectReflection& r) {
-        const glslang::TQualifier& qualifier = r.getType()->getQualifier();
-        if (qualifier.isPushConstant()) return;
-        if (qualifier.hasSet() && qualifier.layoutSet != 0)
-            throw ShaderError(file + ": '" + r.name + "' has a descriptor set of its own; leave out its set = " +
-                              std::to_string(qualifier.layoutSet) + "\n");
-        const auto [other, is_new] = known.try_emplace(unsigned(r.getBinding()), r.name);
-        if (!is_new)
-            throw ShaderError(file + ": '" + other->second + "' and '" + r.name + "' have the same binding " +
-                              std::to_string(r.getBinding()) + "; leave out their bindings, and each gets its own\n");
-    };
-    for (int i = 0; i < program.getNumUniformBlocks(); ++i) check(program.getUniformBlock(i));
-    for (int i = 0; i < program.getNumBufferBlocks(); ++i) check(program.getBufferBlock(i));
-    for (int i = 0; i < program.getNumUniformVariables(); ++i)
-        if (const auto& u = program.getUniform(i); u.index < 0 && u.getType()->getBasicType() == glslang::EbtSampler)
-            check(u);
-}
-
-/// Adds the resources of one linked stage.
-void reflect(const glslang::TProgram& program, bool is_vertex, ShaderInterface& found) {
-    using Kind = ShaderInterface::Kind;
-    for (int i = 0; i < program.getNumUniformBlocks(); ++i) {
-        const auto& block = program.getUniformBlock(i);
-        if (block.getType()->getQualifier().isPushConstant())
-            found.push_size = unsigned(block.size);
-        else
-            found.resources.push_back({block.name, unsigned(block.getBinding()), Kind::uniforms, is_vertex});
-    }
-    for (int i = 0; i < program.getNumBufferBlocks(); ++i)
-        found.resources.push_back({program.getBufferBlock(i).name, unsigned(program.getBufferBlock(i).getBinding()),
-                                   Kind::storage, is_vertex});
-    for (int i = 0; i < program.getNumUniformVariables(); ++i) {
-        const auto& u = program.getUniform(i);
-        if (u.index >= 0) {
-            if (u.index < program.getNumUniformBlocks() &&
-                program.getUniformBlock(u.index).getType()->getQualifier().isPushConstant()) {
-                const std::string name = u.name.substr(u.name.rfind('.') + 1);
-                found.push_offsets[name] = unsigned(u.offset);
-                found.push_sizes[name] = 4 * unsigned(u.getType()->computeNumComponents());
-            }
-        } else if (u.getType()->getBasicType() == glslang::EbtSampler) {
-            found.resources.push_back({u.name, unsigned(u.getBinding()),
-                                       u.getType()->getSampler().isCombined() ? Kind::sampler : Kind::image, is_vertex,
-                                       type_name(*u.getType())});
-            if (u.getType()->getQualifier().hasFormat()) found.formatted_images.insert(u.name);
-        }
-    }
-    if (is_vertex) return;
-    for (int i = 0; i < program.getNumPipeOutputs(); ++i)
-        if (const auto& output = program.getPipeOutput(i); !output.name.starts_with("gl_"))
-            found.outputs[output.name] = output.getType()->getQualifier().layoutLocation;
-    for (int d = 0; d < 3; ++d) found.local_size[size_t(d)] = program.getLocalSize(d);
 }
 
 }  // namespace
@@ -313,72 +252,36 @@ Shader compile(const std::string& file, const std::string& vertex_file, const st
     const bool webgl2 = language == ShaderLanguage::webgl2, is_compute = file.ends_with(".comp");
 
     std::vector<SourceFile> files = {{"prelude"}, {file}};
-    std::vector<std::pair<EShLanguage, std::string>> sources;
+    std::vector<GlslSource> sources;
     if (!is_compute && !webgl2) {
         if (vertex_file.empty()) {
-            sources.emplace_back(EShLangVertex, fullscreen_triangle("gl_VertexIndex", "0.0"));
+            sources.push_back({GlslStage::vertex, language, fullscreen_triangle("gl_VertexIndex", "0.0")});
         } else {
             files.push_back({vertex_file});
-            sources.emplace_back(EShLangVertex,
-                                 complete_source(prelude, files.size() - 1, includes, files, changes.is_for_cpu));
+            sources.push_back({GlslStage::vertex, language,
+                               complete_source(prelude, files.size() - 1, includes, files, changes.is_for_cpu)});
         }
     }
-    sources.emplace_back(is_compute ? EShLangCompute : EShLangFragment,
-                         webgl2
-                             ? webgl2_fragment(prelude, includes, files)
-                             : with_changes(complete_source(prelude, 1, includes, files, changes.is_for_cpu), changes));
+    sources.push_back({is_compute ? GlslStage::compute : GlslStage::fragment, language,
+                       webgl2
+                           ? webgl2_fragment(prelude, includes, files)
+                           : with_changes(complete_source(prelude, 1, includes, files, changes.is_for_cpu), changes)});
 
     std::vector<std::string> compiled = {webgl2 ? "webgl2" : "vulkan"};
-    for (const auto& [stage, text] : sources) compiled.push_back(std::to_string(stage) + '\n' + text);
+    for (const GlslSource& source : sources) compiled.push_back(std::to_string(int(source.stage)) + '\n' + source.text);
     const std::string key = ShaderCache::key_of(compiled);
     if (std::optional<Shader> kept = ShaderCache::find(key)) return *std::move(kept);
 
-    static const bool initialised = glslang::InitializeProcess();
-    (void)initialised;
     Shader result;
-    const auto rules = webgl2 ? EShMsgDefault : EShMessages(EShMsgSpvRules | EShMsgVulkanRules);
-    for (const auto& [stage, text] : sources) {
-        const bool is_vertex = stage == EShLangVertex;
-        glslang::TShader shader(stage);
-        glslang::TProgram program;
-        const char* const lines = text.c_str();
-        shader.setStrings(&lines, 1);
-        shader.setEnvInput(glslang::EShSourceGlsl, stage, webgl2 ? glslang::EShClientOpenGL : glslang::EShClientVulkan,
-                           100);
-        if (!webgl2) {
-            // Vulkan 1.3 would make glslang emit LocalSizeId, which needs maintenance4, absent from 1.2.
-            shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_2);
-            shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_5);
-            shader.setAutoMapBindings(true);
-            shader.setAutoMapLocations(true);
-            for (const auto type : {glslang::EResSampler, glslang::EResTexture, glslang::EResImage, glslang::EResUbo,
-                                    glslang::EResSsbo, glslang::EResUav})
-                shader.setShiftBinding(type, is_vertex ? first_vertex_binding : 0);
-        }
-        if (!shader.parse(GetDefaultResources(), webgl2 ? 300 : 460, webgl2 ? EEsProfile : ECoreProfile, !webgl2, false,
-                          rules))
-            throw ShaderError("cannot compile " + (is_vertex ? vertex_file : file) + ":\n" +
-                              with_file_names(shader.getInfoLog(), files));
-        program.addShader(&shader);
-        if (!program.link(rules) || (!webgl2 && !program.mapIO()))
-            throw ShaderError("cannot link " + (is_vertex ? vertex_file : file) + ":\n" +
-                              with_file_names(program.getInfoLog(), files));
+    for (const GlslSource& source : sources) {
+        const std::string& own_file = source.stage == GlslStage::vertex ? vertex_file : file;
+        CompiledGlsl stage = compile_glsl(source, result.interface);
+        throw_failure(stage, own_file, files);
         if (webgl2) break;
-        program.buildReflection(EShReflectionAllBlockVariables | EShReflectionIntermediateIO |
-                                EShReflectionSeparateBuffers);
-        const std::string& own_file = is_vertex ? vertex_file : file;
-        check_bindings(program, own_file);
-        reflect(program, is_vertex, result.interface);
-        auto& spirv = result.spirv.emplace_back();
-        glslang::GlslangToSpv(*program.getIntermediate(stage), spirv);
-        spvtools::Optimizer optimizer(SPV_ENV_VULKAN_1_2);  // serves one run only
-        optimizer.RegisterPass(
-            spvtools::CreateEliminateDeadConstantPass());  // those of the prelude that this shader ignores
-        optimizer.Run(spirv.data(), spirv.size(), &spirv);
-        if (const std::vector<std::string> foreign = foreign_capabilities(spirv); !foreign.empty())
-            throw ShaderError(own_file + " uses what ssrlab's devices are not created with: " + joined(foreign, ", ") +
-                              "\n" + extension_lines(files));
-        find_constants(spirv, result.interface.constants);
+        if (!stage.foreign.empty())
+            throw ShaderError(own_file + " uses what ssrlab's devices are not created with: " +
+                              joined(stage.foreign, ", ") + "\n" + extension_lines(files));
+        result.spirv.push_back(std::move(stage.spirv));
     }
     ShaderCache::keep(key, result);
     return result;

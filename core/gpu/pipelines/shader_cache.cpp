@@ -4,7 +4,7 @@
 #include "core/files.h"
 #include "core/path_inside.h"
 
-#include <glslang/Public/ShaderLang.h>
+#include <glslang/build_info.h>
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
@@ -42,10 +42,9 @@ bool is_key(const std::string& name) {
 }  // namespace
 
 std::string ShaderCache::key_of(const std::vector<std::string>& sources) {
-    const glslang::Version glslang = glslang::GetVersion();
     ContentHash hash;
     hash.add(SSRLAB_SHADER_CODE);
-    for (const int part : {glslang.major, glslang.minor, glslang.patch}) hash.add(part);
+    for (const int part : {GLSLANG_VERSION_MAJOR, GLSLANG_VERSION_MINOR, GLSLANG_VERSION_PATCH}) hash.add(part);
     hash.add(spvSoftwareVersionDetailsString());
     for (const std::string& source : sources) hash.add(source);
     return hash.hex();

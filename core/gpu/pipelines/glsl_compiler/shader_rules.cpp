@@ -1,4 +1,4 @@
-#include "core/gpu/pipelines/shader_rules.h"
+#include "core/gpu/pipelines/glsl_compiler/shader_rules.h"
 
 #include <SPIRV/doc.h>
 #include <SPIRV/spirv.hpp>
