@@ -54,7 +54,7 @@ std::vector<FramesOfView> views_of_frames(const fs::path& folder, const std::str
         view.frames = frames_in(entry.path());
         if (view.frames.empty() || names.find('.') == std::string::npos) continue;
         view.name = scene.empty() ? view_name(names, entry.path(), search_path)
-                                  : ViewName{scene, names.substr(scene.size() + 1)};
+                                  : ViewName{.scene = scene, .camera = names.substr(scene.size() + 1)};
         views.push_back(std::move(view));
     }
     std::ranges::sort(views, {},
@@ -73,11 +73,15 @@ json shots_of(const JudgeSettings& settings) {
     }
     const std::string name = settings.scene.empty() ? "" : load_scene(settings.scene, settings.run.search_path).name;
     json shots = json::array();
-    for (const FramesOfView& view : views_of_frames(settings.frames, name, settings.run.search_path))
+    for (const FramesOfView& view : views_of_frames(settings.frames, name, settings.run.search_path)) {
+        if (view.name.is_of_capture)
+            fail(view.folder.string(), " holds frames of a capture; judge them with `--capture ", view.name.scene,
+                 " --reference FILE.exr`, where ", view.name.scene, " is the capture's folder");
         shots.push_back({{"scene", name.empty() ? view.name.scene : settings.scene},
                          {"camera", view.name.camera},
                          {"resolution", {view.width, view.height}},
                          {"frames", view.frames}});
+    }
     if (shots.empty())
         fail(settings.frames.string(), " holds no images of ", name.empty() ? "a view" : "'" + name + "'",
              "; name images SCENE.CAMERA.WIDTHxHEIGHT/fFRAME.s0.exr");

@@ -32,14 +32,17 @@ ViewName view_name(const std::string& names, const fs::path& view, const std::ve
     std::vector<ViewName> fitting;  // the longest scene first
     for (size_t dot = names.rfind('.'); dot != std::string::npos && dot > 0; dot = names.rfind('.', dot - 1))
         if (const std::string start = names.substr(0, dot); std::ranges::count(known, start) > 0)
-            fitting.push_back({start, names.substr(dot + 1)});
+            fitting.push_back({.scene = start, .camera = names.substr(dot + 1)});
     if (fitting.size() > 1)
         for (const ViewName& name : fitting)
             if (has_camera(name, search_path)) return name;
     if (!fitting.empty()) return fitting.front();
     const size_t dot = names.find('.');
     const std::string scene = names.substr(0, dot), camera = dot == std::string::npos ? "" : names.substr(dot + 1);
-    if (const std::string of_family = scene_of_family(scene); !of_family.empty()) return {of_family, camera};
+    if (const std::string of_family = scene_of_family(scene); !of_family.empty())
+        return {.scene = of_family, .camera = camera};
+    if (const size_t last = names.rfind('.'); last != std::string::npos && names.substr(last + 1) == camera_of_captures)
+        return {.scene = names.substr(0, last), .camera = camera_of_captures, .is_of_capture = true};
     fail(view.string(),
          ": its name is SCENE.CAMERA.WIDTHxHEIGHT, and no known scene begins it: cut at the first dot it ",
          "has the scene '", shortened(scene), "' and the camera '", shortened(camera),

@@ -120,6 +120,10 @@ TEST_F(CommandLine, JudgesFrames) {
     const Outcome captured = ssrlab("judge now --capture cap --reference truth.exr");
     EXPECT_EQ(captured.code, 0) << captured.text;
     EXPECT_NE(captured.text.find("\ncap.gbuffer.48x27: mse "), std::string::npos) << captured.text;
+    const Outcome inspected = ssrlab("inspect now");
+    EXPECT_EQ(inspected.code, 0) << inspected.text;
+    EXPECT_NE(inspected.text.find("cap"), std::string::npos) << inspected.text;
+    expect_mistake("judge now", "judge them with `--capture cap --reference FILE.exr`");
     expect_mistake("judge nowhere", "nowhere holds no external.json");
     expect_mistake("judge now --fail-if-worse", "--fail-if-worse needs --against");
     expect_mistake("judge now --capture before", "--capture needs --reference");

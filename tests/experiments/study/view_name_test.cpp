@@ -55,6 +55,17 @@ TEST_F(ViewNames, CamerasDecideBetweenScenesThatBothFit) {
     EXPECT_EQ(parts("a.b.top"), "a.b|top") << "neither has it: the longest";
 }
 
+TEST_F(ViewNames, WhatNoSceneBeginsIsOfACaptureIfItsCameraIs) {
+    write_text(folder / "known" / "scene.json", "not read");
+    const auto is_of_capture = [&](const std::string& names) {
+        return view_name(names, "frames/" + names, {folder}).is_of_capture;
+    };
+    EXPECT_EQ(parts("my.capture.gbuffer"), "my.capture|gbuffer");
+    EXPECT_TRUE(is_of_capture("my.capture.gbuffer"));
+    EXPECT_FALSE(is_of_capture("known.gbuffer")) << "a camera of a scene";
+    EXPECT_FALSE(is_of_capture("room_17.gbuffer"));
+}
+
 TEST_F(ViewNames, UnknownScenesSayWhereTheNameWasCut) {
     write_text(folder / "Lamp_v1.2" / "scene.json", "not read");
     const std::string text = error_message([&] { parts("Lamp_v1.3.main"); });

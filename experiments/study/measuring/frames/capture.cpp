@@ -8,6 +8,7 @@
 #include "core/numbered_files.h"
 #include "core/path_inside.h"
 #include "experiments/study/config/shots/capture_folder.h"
+#include "experiments/study/view_name.h"
 #include "groundtruth/reference/reference_file.h"
 
 #include <algorithm>
@@ -190,7 +191,8 @@ Shot capture_shot(const ShotConfig& config, const Capture& capture) {
             fail(config.gbuffer.string(), ": frame ", config.frames[i - 1], " is followed by ", frame,
                  ", but its motion vectors are those since the frame before it; name 'frames' without gaps");
     }
-    Shot shot{.config = config, .scene = {}, .camera = {.name = "gbuffer"}, .facts = {}, .steps = timeline(config)};
+    Shot shot{
+        .config = config, .scene = {}, .camera = {.name = camera_of_captures}, .facts = {}, .steps = timeline(config)};
     shot.scene.name = capture_name(config.gbuffer);
     const CameraFile camera = read_camera(path_inside(capture.folder_of(config.frames.front()), "camera.json"));
     shot.config.extent = glm::uvec2(camera.camera.extent);
