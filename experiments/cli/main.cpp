@@ -173,6 +173,8 @@ int exit_code_of(int argc, char** argv, const std::function<int()>& work) {
         say_error(shown_text(text));
         return 3;
     } catch (const std::exception& e) {
+        // oneTBB's std::runtime_error where the addresses of another thread's stack are missing.
+        if (std::string_view(e.what()).starts_with("pthread_create")) return say_memory_is_short();
         say_error(shown_text(e.what()));
         return 3;
     }
