@@ -9,5 +9,6 @@
 const std::filesystem::path& own_files();
 
 /// The folder of what the build makes for the program, at its paths in the build folder: the programs that ssrlab
-/// starts, build_commit.json, and the scripts and styles of pages. PREFIX/lib/ssrlab, or the build folder.
+/// starts, the compiler of shaders that it loads, build_commit.json, and the scripts and styles of pages.
+/// PREFIX/lib/ssrlab, or the build folder.
 const std::filesystem::path& built_files();
