@@ -5,6 +5,7 @@
 #include "core/gpu/passes/clock.h"
 #include "core/in_flight.h"
 #include "core/leftovers.h"
+#include "core/scene/scene_family.h"
 #include "experiments/study/measuring/render_technique.h"
 #include "experiments/study/shots/open_shot.h"
 #include "experiments/study/shots/point_renders.h"
@@ -76,25 +77,17 @@ public:
         fs::remove_all(folder_, error);
     }
 
-    void measure(const ShotConfig& shot) {
+    /// Points are measured in the first shot.
+    void measure(const std::vector<const ShotConfig*>& shots) {
         const CpuTimes start = read_cpu_times();
-        // The next images find the probe in the cache.
-        if (shot.has_probe) with_probe_ = spent_in([&] { open_without_reference(shot, 0); });
-        for (size_t i = 0; i < opening_.size(); ++i) {
-            rendered_[i] = spent_in([&] { open(shot, i); });
-            std::unique_ptr<OpenShot> run;
-            opening_[i] = spent_in([&] { run = open(shot, i); });
-            for (const auto& [kind, ends] : ends_of_kinds_) {
-                measure_frames(*run, i, ends, points_[kind]);
-                measure_point(*run, i, ends.first, points_[kind]);
-            }
+        for (const ShotConfig* shot : shots) {
+            const bool is_first = shot == shots.front();
+            SpentOnShot& spent = shots_.emplace_back(scenery_of(*shot), SpentOnShot{}).second;
+            measure_shot(*shot, spent, [&](OpenShot& run, size_t size) {
+                if (is_first) measure_points(run, size);
+            });
+            if (is_first) measure_points(*open_without_reference(*shot, 2), 2);
         }
-        {
-            const std::unique_ptr<OpenShot> largest = open_without_reference(shot, 2);
-            for (const auto& [kind, ends] : ends_of_kinds_) measure_frames(*largest, 2, ends, points_[kind]);
-        }
-        config_.reference.max_samples = many_samples;
-        longer_ = spent_in([&] { open(shot, 0); });
         const CpuTimes end = read_cpu_times();
         spent_ = {.wall = end.wall - start.wall, .processors = end.own - start.own};
         foreign_load_ = foreign_load(start, end);
@@ -103,36 +96,70 @@ public:
     /// Of all processors while measuring: the share that other programs took, in [0, 1]; none if not reported.
     std::optional<double> load_of_others() const { return foreign_load_; }
 
-    /// Of the shot that was measured.
+    /// `shot`: the first that was measured.
     Rates rates(const ShotConfig& shot, ByClock clock) const {
-        const OfTwoSizes opening = by(clock, opening_), rendered = by(clock, rendered_);
-        Rates rates{.opening = line_through(opening),
-                    .guide = {},
-                    .per_sample = per_sample(clock),
-                    .of_wall = per_sample(&Spent::wall) > 0 ? per_sample(clock) / per_sample(&Spent::wall) : 1,
+        const double on_wall = per_sample(shots_.front().second, &Spent::wall);
+        Rates rates{.shots = {},
+                    .of_wall = on_wall > 0 ? per_sample(shots_.front().second, clock) / on_wall : 1,
                     .of_processor = clock == &Spent::wall ? std::max(spent_.wall / spent_.processors, 1.0) : 1,
                     .clock_attempts = foreign_load_.value_or(0) > disturbing_load ? double(::clock_attempts) : 1,
-                    .probe = std::max(with_probe_.*clock - opening[0], 0.0),
                     .points = {}};
-        OfTwoSizes guide{};
-        for (size_t i = 0; i < guide.size(); ++i)
-            guide[i] = rendered[i] - opening[i] - rates.per_sample * few_samples * pixels_of(calibration_extents[i]);
-        rates.guide = line_through(guide);
+        for (const auto& [scenery, spent] : shots_) rates.shots.emplace_back(scenery, shot_rates(spent, clock));
         for (const auto& [kind, spent] : points_) rates.points[kind] = rates_of(spent, shot, clock);
         return rates;
     }
 
 private:
+    struct SpentOnShot {
+        SpentOfTwoSizes opening{}, rendered{};
+        Spent with_probe, longer;
+    };
     struct SpentOnPoint {
         Spent compiling;
         SpentOfTwoSizes of_a_seed{}, of_two_seeds{};
         SpentOfAllSizes first_frame{}, last_frame{};
     };
 
-    double per_sample(ByClock clock) const {
+    /// `on_open`: gets the shot at each of two sizes.
+    void measure_shot(const ShotConfig& shot, SpentOnShot& spent,
+                      const std::function<void(OpenShot& run, size_t size)>& on_open) {
+        config_.reference.max_samples = few_samples;
+        // The next images find the probe in the cache.
+        if (shot.has_probe) spent.with_probe = spent_in([&] { open_without_reference(shot, 0); });
+        for (size_t i = 0; i < spent.opening.size(); ++i) {
+            spent.rendered[i] = spent_in([&] { open(shot, i); });
+            std::unique_ptr<OpenShot> run;
+            spent.opening[i] = spent_in([&] { run = open(shot, i); });
+            on_open(*run, i);
+        }
+        config_.reference.max_samples = many_samples;
+        spent.longer = spent_in([&] { open(shot, 0); });
+    }
+
+    void measure_points(OpenShot& run, size_t size) {
+        for (const auto& [kind, ends] : ends_of_kinds_) {
+            measure_frames(run, size, ends, points_[kind]);
+            if (size < 2) measure_point(run, size, ends.first, points_[kind]);
+        }
+    }
+
+    static double per_sample(const SpentOnShot& spent, ByClock clock) {
         // The longer reference continues the first one, whose guide and samples it finds in the cache.
-        return std::max(longer_.*clock - opening_[0].*clock, 0.0) /
+        return std::max(spent.longer.*clock - spent.opening[0].*clock, 0.0) /
                (pixels_of(calibration_extents[0]) * (many_samples - few_samples));
+    }
+
+    static ShotRates shot_rates(const SpentOnShot& spent, ByClock clock) {
+        const OfTwoSizes opening = by(clock, spent.opening), rendered = by(clock, spent.rendered);
+        ShotRates rates{.opening = line_through(opening),
+                        .guide = {},
+                        .per_sample = per_sample(spent, clock),
+                        .probe = std::max(spent.with_probe.*clock - opening[0], 0.0)};
+        OfTwoSizes guide{};
+        for (size_t i = 0; i < guide.size(); ++i)
+            guide[i] = rendered[i] - opening[i] - rates.per_sample * few_samples * pixels_of(calibration_extents[i]);
+        rates.guide = line_through(guide);
+        return rates;
     }
 
     PointRates rates_of(const SpentOnPoint& spent, const ShotConfig& shot, ByClock clock) const {
@@ -238,14 +265,48 @@ private:
     const RunSettings& settings_;
     Config config_;
     std::map<std::string, std::pair<PointConfig, PointConfig>> ends_of_kinds_;  ///< first and last point
-    Spent with_probe_, longer_, spent_;
+    std::vector<std::pair<std::string, SpentOnShot>> shots_;                    ///< by scenery_of()
+    Spent spent_;
     std::optional<double> foreign_load_;
-    SpentOfTwoSizes opening_{}, rendered_{};
     std::map<std::string, SpentOnPoint> points_;  ///< by kind_of()
     const fs::path folder_ = unfinished_path(fs::temp_directory_path() / "ssrlab-plan");
 };
 
+/// The study's first shot, then the first shots of other sceneries, those with the most pixels first.
+std::vector<const ShotConfig*> measured_shots(const Config& config) {
+    constexpr size_t most_sceneries = 4;
+    const std::string first = scenery_of(config.shots.front());
+    std::vector<std::pair<double, const ShotConfig*>> others;
+    std::map<std::string, size_t> places;
+    for (const ShotConfig& shot : config.shots) {
+        const std::string scenery = scenery_of(shot);
+        if (scenery == first) continue;
+        const size_t place = places.emplace(scenery, others.size()).first->second;
+        if (place == others.size()) others.emplace_back(0, &shot);
+        others[place].first += pixels_of(shot.extent) * double(shot.frames.size());
+    }
+    std::ranges::stable_sort(others, std::greater<>(), &std::pair<double, const ShotConfig*>::first);
+    std::vector<const ShotConfig*> shots = {&config.shots.front()};
+    for (size_t i = 0; i < std::min(others.size(), most_sceneries - 1); ++i) shots.push_back(others[i].second);
+    return shots;
+}
+
+bool is_made_by_family(const std::string& scenery) { return scenery.ends_with(':'); }
+
 }  // namespace
+
+const ShotRates& Rates::of(const ShotConfig& shot) const {
+    const std::string scenery = scenery_of(shot);
+    const auto own = std::ranges::find(shots, scenery, &std::pair<std::string, ShotRates>::first);
+    if (own != shots.end()) return own->second;
+    const auto alike = std::ranges::find_if(
+        shots, [&](const auto& other) { return is_made_by_family(other.first) == is_made_by_family(scenery); });
+    return alike != shots.end() ? alike->second : shots.front().second;
+}
+
+std::string scenery_of(const ShotConfig& shot) {
+    return is_of_family(shot.scene) ? shot.scene.substr(0, shot.scene.find(':') + 1) : shot.scene;
+}
 
 std::string kind_of(const PointConfig& technique) { return technique.technique + " " + technique.preset; }
 
@@ -255,7 +316,8 @@ unsigned plays_of_lit_noise(const Config& config, const ShotConfig& shot) {
 
 Calibration calibrate(Device& device, const Config& config, const RunSettings& settings) {
     SmallImages images(device, config, settings);
-    const ShotConfig& shot = config.shots.front();
-    images.measure(shot);
-    return {images.rates(shot, &Spent::wall), images.rates(shot, &Spent::processors), images.load_of_others()};
+    const std::vector<const ShotConfig*> shots = measured_shots(config);
+    images.measure(shots);
+    return {images.rates(*shots.front(), &Spent::wall), images.rates(*shots.front(), &Spent::processors),
+            images.load_of_others()};
 }

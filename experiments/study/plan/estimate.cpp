@@ -58,14 +58,14 @@ public:
         const double pixels = pixels_of(shot.extent);
         switch (cell.kind) {
             case CellKind::references:
-                return std::exchange(run_seconds_, 0.0) + rates_.opening.at(pixels) +
-                       (shot.has_probe ? rates_.probe : 0) + of_references(shot, cell.units);
+                return std::exchange(run_seconds_, 0.0) + rates_.of(shot).opening.at(pixels) +
+                       (shot.has_probe ? rates_.of(shot).probe : 0) + of_references(shot, cell.units);
             case CellKind::renders:
                 return of_compiling(*cell.technique) + of_renders(*cell.technique, shot);
             case CellKind::costs:
                 return of_costs(cell, shot);
             case CellKind::times:
-                return rates_.opening.at(pixels) + of_times(shot, others) + std::exchange(proof_seconds_, 0.0);
+                return rates_.of(shot).opening.at(pixels) + of_times(shot, others) + std::exchange(proof_seconds_, 0.0);
         }
         return 0;
     }
@@ -96,19 +96,21 @@ private:
         if (!config_.has_reference || !shot.gbuffer.empty()) return 0;
         const double compared = double(compared_frames({.config = shot, .steps = timeline(shot)}).size());
         const double pixels = pixels_of(shot.extent);
-        return compared * (rates_.guide.at(pixels) + of_samples(config_.reference, pixels)) +
-               std::max(frames - compared, 0.0) * lit_share * of_samples(settings_of(config_, {}, false), pixels);
+        const ShotRates& rates = rates_.of(shot);
+        return compared * (rates.guide.at(pixels) + of_samples(config_.reference, rates, pixels)) +
+               std::max(frames - compared, 0.0) * lit_share *
+                   of_samples(settings_of(config_, {}, false), rates, pixels);
     }
 
     /// Of one reference, without its guide.
-    double of_samples(const ReferenceSettings& settings, double pixels) const {
+    double of_samples(const ReferenceSettings& settings, const ShotRates& rates, double pixels) const {
         const auto [samples, seconds] = std::pair(settings.max_samples, settings.max_seconds * rates_.of_wall);
         if (samples == 0 && seconds > 0) return seconds;
         // How many samples an error takes is not known: then those that a reference has by default.
         const unsigned of_specular = samples > 0 ? samples : ReferenceSettings::default_samples;
         const unsigned of_both = settings.lit_samples > 0 ? std::min(settings.lit_samples, of_specular) : of_specular;
         const double of_specular_alone = of_specular * (1.0 + settings.adaptive_share) - of_both;
-        const double traced = rates_.per_sample * pixels * (of_both + specular_share * of_specular_alone);
+        const double traced = rates.per_sample * pixels * (of_both + specular_share * of_specular_alone);
         return seconds > 0 ? std::min(traced, double(seconds)) : traced;
     }
 

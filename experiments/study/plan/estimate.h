@@ -19,7 +19,6 @@ struct StudyEstimate {
     std::optional<double> load_of_others;  ///< share of all processors that other programs took meanwhile, if reported
 };
 
-/// Estimates a study's cells. They are calibrated by rendering small images of the study's first shot with two points
-/// of each technique and preset: some ten seconds, longer for many presets. References count as stopping at their limit
-/// of samples or seconds; without a limit, at the default number of samples.
+/// Estimates a study's cells, after calibrate(). References count as stopping at their limit of samples or seconds;
+/// without a limit, at the default number of samples.
 StudyEstimate estimate_study(Device& device, const Config& config, const StudyPlan& plan, const RunSettings& settings);

@@ -47,6 +47,8 @@ STUDIES = {
     "motion of objects": study("moving_objects", 192, 32, STOCHASTIC, shot=moving(10, 21, 8), **QUIET),
     "room": study("room:7", 192, 64, STOCHASTIC, **QUIET),
     "two rooms": study(["room:3", "room:12"], 160, 32, MARCHES, **QUIET),
+    "scene and room": study(["corridor", "room:7"], 160, 64, MARCHES, **QUIET),
+    "street and scenes": study(["street:4", "fence", "metal_corner"], 160, 64, MARCHES, **QUIET),
     "street": study("street:4", 192, 64, EVERY, **QUIET),
     "samples": study("contact_hardening", 192, 512, [{"technique": "none"}, {"technique": "amd_sssr"}], **QUIET),
     "flip": study("mirror_pillars", 256, 64, STOCHASTIC, metrics=["mse", "flip"], targets=["specular", "image", "on_screen"], **QUIET),
