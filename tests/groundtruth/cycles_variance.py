@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Variance at equal CPU time of ssrlab's path tracer and of Cycles, of the same scenes. Needs Blender 3.4 and takes 40 minutes, so it is no part
+"""Variance at equal CPU time of ssrlab's path tracer and of Cycles, of the same scenes. Needs Blender 3.4 and takes 15 minutes, so it is no part
 of the suite. Prints how far the means are apart, and the rows of the table in groundtruth/measurements.md.
 
 usage: cycles_variance.py SSRLAB [SCENE ...] [--size W H] [--samples N] [--repeats N] [--keep FOLDER]
@@ -37,7 +37,7 @@ DARK = 0.01  # added to the squared mean that variances are relative to, as ssrl
 TRIMMED = 1e-3  # share of pixels, those of the greatest variance, that the trimmed mean leaves out
 ROUNDING = 1e-10  # relative variance of images that differ by the rounding of float alone
 CYCLES_SHARE = 0.5  # time of a render of Cycles over that of ours: its variance times time hardly depends on it
-CARRIED = {"gltf", "also", "environment", "lights", "overrides", "back_faces", "cameras", "frame_count", "frame_rate"}
+CARRIED = {"gltf", "also", "blended", "environment", "lights", "overrides", "back_faces", "cameras", "frame_count", "frame_rate"}
 
 
 def children_seconds():
@@ -88,6 +88,8 @@ def scene_for_blender(name):
     kinds = {light["type"] for light in scene.get("lights", ())}
     lacks = [*(set(scene) - CARRIED - {"gltfs", "specular"}), *(kinds - {"directional", "point"}), *({"gradient"} & set(environment))]
     lacks += ["hidden backs"] if scene.get("back_faces") != "drawn" else []  # Cycles draws both sides
+    has_blended = any(m.get("alphaMode") == "BLEND" for m in materials)  # Cycles gets opaque ones
+    lacks += ["blended materials that are cut"] if has_blended and scene.get("blended") != "opaque" else []
     lacks += ["rotation_deg"] if environment.get("rotation_deg") else []
     lacks += ["range"] if any("range" in light for light in scene.get("lights", ())) else []
     camera = scene.get("cameras", [{}])[0]
