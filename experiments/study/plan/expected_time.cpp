@@ -7,7 +7,7 @@
 namespace {
 
 // Taken / estimated, of small studies on two cores (tests/experiments/study/plan_benchmark.py). Processor time: 0.61 to
-// 1.23 of 18 without other load, 0.76 to 1.38 of 16 of 17 with much. Time: 0.67 to 1.19 without other load. The rest is
+// 1.35 of 20 without other load, 0.76 to 1.38 of 16 of 17 with much. Time: 0.66 to 1.42 without other load. The rest is
 // a margin for other machines, and for changing load.
 constexpr ExpectedRange of_wall = {0.6, 2.5}, of_processors = {0.6, 2.0};
 
