@@ -5,7 +5,5 @@
 void keep_freed_memory() {
     mallopt(M_TRIM_THRESHOLD, 1 << 28);
     mallopt(M_TOP_PAD, 1 << 24);
-    // What most versions of glibc take at most; an image of 3840x2160 floats of four channels has 2^27 bytes.
-    mallopt(M_MMAP_THRESHOLD, 1 << 25);
-    mallopt(M_MMAP_THRESHOLD, 1 << 28);
+    mallopt(M_MMAP_THRESHOLD, 1 << 25);  // what most versions of glibc take at most
 }
