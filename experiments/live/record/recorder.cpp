@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 #include "experiments/live/record/texel_stream.h"
-#include "experiments/report/report_images.h"
+#include "experiments/report/image_encoding.h"
 
 #include <cstring>
 

@@ -1,6 +1,6 @@
 #include "experiments/live/record/texel_stream.h"
 
-#include "experiments/report/report_images.h"
+#include "experiments/report/image_encoding.h"
 
 #include <algorithm>
 #include <bit>

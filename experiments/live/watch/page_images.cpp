@@ -1,7 +1,7 @@
 #include "experiments/live/watch/page_images.h"
 
 #include "core/exr/exr.h"
-#include "experiments/report/report_images.h"
+#include "experiments/report/image_encoding.h"
 #include "experiments/results/cells/image_path.h"
 
 namespace {

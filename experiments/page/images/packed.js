@@ -37,7 +37,7 @@ function undoPrediction(plane, width, codeAt) {
     return plane;
 }
 
-/// Undoes encode_halves() of experiments/report/report_images.cpp.
+/// Undoes encode_halves() of experiments/report/image_encoding.cpp.
 export function decodeHalves(bytes, {width, height, significand_bits: kept = 10}) {
     const pixels = width * height, count = 3 * pixels;
     const planes = [0, pixels, 2 * pixels].map(

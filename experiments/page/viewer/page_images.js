@@ -13,7 +13,7 @@ const imageTexts = new Map();  // of files, until they are decoded
 window.registerImage = (file, text) => imageTexts.set(file, text);
 
 /// A promise of the image's description with its pixels: `halves` (planes R, G, B of half-float bits) or `codes` (a
-/// byte per pixel: see encode_bytes() and encode_palette() of experiments/report/report_images.h). It fails with a
+/// byte per pixel: see encode_bytes() and encode_palette() of experiments/report/image_encoding.h). It fails with a
 /// sentence.
 function loadImage(index) {
     if (!loading.has(index)) loading.set(index, decodeImage(index));
