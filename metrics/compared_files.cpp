@@ -33,6 +33,10 @@ HostImage decoded(HostImage codes) {
 
 ComparedImage read_compared_image(const std::filesystem::path& file, const CompareOptions& options,
                                   std::vector<std::string>& warnings) {
+    if (std::filesystem::is_directory(file))
+        fail(file.string(),
+             " is a folder. Give an image, or the frames of a video by a pattern: ", (file / "frame_####.exr").string(),
+             " for frame_0000.exr, frame_0001.exr and so on");
     check_regular_file(file);
     const std::vector<uint8_t> bytes = first_bytes(file);
     if (const std::string why = why_unreadable(bytes, file.string(), ImageUse::comparison); !why.empty())

@@ -8,6 +8,7 @@
 #include "metrics/pooling.h"
 #include "metrics/pu21.h"
 #include "metrics/ssim.h"
+#include "metrics/temporal.h"
 
 #include <algorithm>
 #include <cmath>
@@ -100,6 +101,9 @@ const Metric& metric_named(const std::string& name) {
     const auto found = std::ranges::find(all_metrics(), name, &Metric::name);
     if (const auto instead = replaced_metrics().find(name); instead != replaced_metrics().end())
         fail("there is no metric '", name, "'; use ", instead->second);
+    if (found == all_metrics().end() && find_temporal_metric(name))
+        fail("'", name, "' is of several frames: studies measure it in shots that have them, without being asked. ",
+             "`ssrlab compare` scores two videos by cvvdp_0_5_6, of frames that a pattern names: frame_####.exr");
     if (found == all_metrics().end()) fail("no metric named '", name, "'", suggestion(name, metric_names()));
     return *found;
 }

@@ -1,9 +1,12 @@
 #pragma once
 #include "metrics/cvvdp/display.h"
 #include "metrics/flip.h"
+#include "metrics/noise.h"
 #include "metrics/plane.h"
+#include "metrics/statistics/estimates.h"
 #include "metrics/tone_map.h"
 
+#include <array>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -72,8 +75,12 @@ struct Metric {
     /// images do, to first order. nullptr if the metric is no such mean, or if `layers` holds the map.
     Plane (*mean_map)(std::span<const Plane> layers, const Mask& mask) = nullptr;
     double (*of_mean)(double mean) = nullptr;  ///< monotonic; nullptr: the mean itself
-    double greatest = INFINITY;                ///< upper bound
-    bool is_of_display = false;                ///< its value depends on MetricSettings::viewing
+    /// The 95 % interval that the reference's noise leaves to a value that is no mean over pixels. `layers`: against
+    /// the reference, half A and half B. nullptr: by the means above, or none.
+    std::optional<Interval> (*noise_interval)(const std::array<std::span<const Plane>, 3>& layers,
+                                              const ReferenceHalves& halves, const MetricSettings& settings) = nullptr;
+    double greatest = INFINITY;  ///< upper bound
+    bool is_of_display = false;  ///< its value depends on MetricSettings::viewing
 };
 
 /// All metrics, in the order of lists and tables.

@@ -39,6 +39,10 @@ void set_interval(Score& row, double raw, double half_width, const Finish& finis
     row.high = std::max(ends[0], ends[1]);
 }
 
+void set_interval(Score& row, const std::optional<Interval>& found) {
+    if (found) row.low = found->low, row.high = found->high;
+}
+
 /// d(value) / d(raw) if the row has a value that moves in proportion, as far as its noise goes; else nothing.
 using Slope = std::optional<double>;
 
@@ -173,9 +177,10 @@ std::vector<Score> score(const MetricReference& reference, const HostImage& test
         const std::vector<Plane> layers = layers_of(metric, pair, reference.halves);
         const NoisyMap terms = reference.halves ? noisy_terms(metric, *reference.halves, pair.test) : NoisyMap{};
         std::vector<std::vector<Plane>> extrapolated;
-        if (reference.halves && is_extrapolated(metric)) {
+        if (reference.halves && (is_extrapolated(metric) || metric.noise_interval)) {
             if (noisier.empty()) noisier = noisier_pairs(reference, test);
-            for (const ImagePair& each : noisier) extrapolated.push_back(metric.layers(each));
+            const size_t count = metric.noise_interval ? 2 : noisier.size();
+            for (size_t i = 0; i < count; ++i) extrapolated.push_back(metric.layers(noisier[i]));
         }
         for (const Mask& mask : masks) {
             const Mask inside = intersection(mask, finite);
@@ -191,7 +196,11 @@ std::vector<Score> score(const MetricReference& reference, const HostImage& test
             const bool has_noise = reference.halves && row.pixels > 0;
             if (has_noise) row.floor = metric.pool(reference.floor_layers[m], inside);
             NoisyMap of_value = has_noise ? set_noise(row, terms, layers, inside, noise != nullptr) : NoisyMap{};
-            if (has_noise && !extrapolated.empty()) set_extrapolated(row, layers, extrapolated, inside);
+            if (has_noise && metric.noise_interval && std::isfinite(value))
+                set_interval(row, metric.noise_interval({layers, extrapolated[0], extrapolated[1]}, *reference.halves,
+                                                        reference.settings));
+            else if (has_noise && is_extrapolated(metric))
+                set_extrapolated(row, layers, extrapolated, inside);
             if (noise) noise->push_back(std::move(of_value));
         }
     }

@@ -45,6 +45,7 @@ MetricReference metric_reference(HostImage image, std::optional<ReferenceHalves>
 ///
 /// Corrected metrics (means of weighted squares), `bias` and `energy_ratio` have intervals of the noise. All other
 /// metrics are made from the mean of a map (Metric::mean_map), and their value contains the reference's noise. Their
-/// interval reaches to the value without noise (metrics/extrapolation.h). SSIM metrics have no interval.
+/// interval reaches to the value without noise (metrics/extrapolation.h). cvvdp_0_5_6 has an interval of its own
+/// (metrics/jod_interval.h). SSIM metrics and those of PU21 codes have none.
 std::vector<Score> score(const MetricReference& reference, const HostImage& test, std::span<const Mask> masks,
                          PixelCounts* counts = nullptr, std::vector<NoisyMap>* noise = nullptr);

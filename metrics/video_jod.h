@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+inline constexpr const char* video_jod_name = "cvvdp_0_5_6_video";
+
 /// cvvdp_0_5_6_video: how visible the differences between a sequence of frames and the truth are, as ColorVideoVDP
-/// scores a video on the display of `cvvdp_0_5_6`.
-///
-/// The truth's noise lowers the score, so the video is scored three times: against the truth, whose noise has the
-/// variance v, and against both of its halves, which have 2 v. From these the interval reaches to no noise.
+/// scores a video on the display of `cvvdp_0_5_6`. The video is scored against the truth and against both of its
+/// halves, for the interval of the truth's noise (jod_interval.h).
 class VideoJod {
 public:
     /// The frames follow each other at `frames_per_second`. Sizes and rates that cannot be scored fail no study:
@@ -27,27 +27,22 @@ public:
     void add(const HostImage& test, const Truth& truth, bool is_scored);
 
     /// The score under the mask `all`, with the 95 % interval of the truth's noise. No value below two frames, or if
-    /// more than `most_undefined` of the pixels of all frames are NaN or Inf. No interval if the variance of the
-    /// truth's noise, as the display shows it, relative to the truth and weighted as relmse, is above `most_noise`.
-    /// Call it once.
+    /// more than `most_undefined` of the pixels of all frames are NaN or Inf. No interval if the mean relative_noise()
+    /// of the frames is above `most_noise_of_jod`. Call it once.
     TemporalScore score();
 
-    /// For each band of frequencies, half the change of the JOD when half A replaces half B as the truth in this band
-    /// alone. Bands of noise are independent, so these are draws of the noise in the JOD. Call it after score(); empty
-    /// without an interval.
+    /// JodInterval::draws. Call it after score(); empty without an interval.
     const std::vector<double>& noise() const { return noise_; }
 
     /// What it holds at 30 frames per second, the usual rate; 1.6 times as much at 60.
     static double bytes_per_pixel() { return 3 * video_bytes_per_pixel(30); }
 
     static constexpr double most_undefined = 0.01;
-    /// Above, noise of the truth hides what a good test lacks, and no law of its growth leads back.
-    static constexpr double most_noise = 1.0 / 64;
 
 private:
     enum Reference { whole, half_a, half_b };
 
-    float most_radiance_;             ///< that the display can show
+    Viewing viewing_;
     std::vector<CvvdpVideo> videos_;  ///< by Reference; empty if there can be no score
     std::string note_;                ///< why
     std::vector<double> noise_;

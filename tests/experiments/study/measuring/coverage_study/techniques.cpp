@@ -119,7 +119,7 @@ int main(int argc, char** argv) {
                                               .seeds = reference_sets[s].count,
                                               .targets = {"specular"},
                                               .metrics = {"mse", "relmse", "bias", "flip", "ssim", "mae", "smape",
-                                                          "psnr", "outliers", "relmse_trimmed"}};
+                                                          "psnr", "outliers", "relmse_trimmed", "cvvdp_0_5_6"}};
                 for (const CoverageRow& r :
                      technique_coverage(setting, techniques, masks, truth, sets[s], technique_seeds)) {
                     std::printf("%s,%u,%s,%s,%s,%s,%.0f,%.0f,%.4f,%.6g,%.6g,%.4g\n", scene.name.c_str(), r.samples,

@@ -6,6 +6,8 @@
 #include "metrics/flicker.h"
 #include "metrics/frame_difference.h"
 #include "metrics/ghost.h"
+#include "metrics/ghost_share.h"
+#include "metrics/video_jod.h"
 #include "tests/experiments/study/measuring/coverage_view.h"
 
 #include <array>
@@ -20,6 +22,9 @@ constexpr unsigned samples = 64, truth_samples = 8192, known_runs = 64, seed_cou
 /// Frames before what is held, held, and after the change. Of a history of weight 0.4 the correlation is 0.6: 15 frames
 /// are enough for its flicker.
 constexpr unsigned warm_up = 16, held = 20, after = 24;
+/// Of the video whose visibility is scored: so many frames, half of them before the change.
+constexpr unsigned seen = 12;
+constexpr double frames_per_second = 30;
 
 /// Both poses are of one camera.
 struct ChangingScene {
@@ -60,10 +65,25 @@ std::vector<ResultRow> rows_of(const std::vector<HostImage>& frames, const BothP
         scores.insert(scores.end(), more.begin(), more.end());
     };
     FrameDifference difference;
+    GhostShare ghosts;
     constexpr unsigned change = warm_up + held;
-    for (unsigned i = change - 1; i < change + 2; ++i)
-        difference.add(frames[i - 1], frames[i], i > change ? now : before, i >= change ? now : before, masks);
+    for (unsigned i = change - 1; i < change + 2; ++i) {
+        const MetricReference &earlier = i > change ? now : before, &later = i >= change ? now : before;
+        difference.add(frames[i - 1], frames[i], earlier, later, masks);
+        ghosts.add(frames[i], earlier, later, masks);
+    }
     append(difference.scores());
+    append(ghosts.scores());
+    VideoJod video(extent, now.settings, frames_per_second);
+    for (unsigned i = change - seen / 2; i < change + seen / 2; ++i) {
+        const PoseTruth& pose = truth[i >= change];
+        const auto image = [&](const HostImage& specular) { return sum(pose.direct, specular); };
+        video.add(image(frames[i]),
+                  {image(pose.frame_reference->image), image(pose.frame_reference->halves->a),
+                   image(pose.frame_reference->halves->b)},
+                  /*is_scored=*/true);
+    }
+    append({video.score()});
     for (const Ghost& ghost : ghost_scores(std::span(frames).subspan(change), before, now, masks))
         append({ghost.ghost_length, ghost.settling_length});
 
