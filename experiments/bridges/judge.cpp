@@ -153,7 +153,7 @@ std::vector<ViewError> errors_of(const fs::path& out, const PrimaryComparisons& 
 
 /// What the study measured, from the cells that are of it as it is: tables lack the estimates behind their intervals.
 MeasuredRows rows_of_study(const fs::path& out, const json& manifest) {
-    const CellStore store(out, [](const std::string&) {});
+    const CellStore store(out, [](const std::string& unread) { fail(unread); });
     const json stale = manifest.value("stale", json::object()).value("cells", json::array());
     std::vector<Cell> cells;
     for (const std::string& name : store.names())

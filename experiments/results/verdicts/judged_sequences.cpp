@@ -3,6 +3,7 @@
 #include "experiments/results/verdicts/power.h"
 #include "metrics/direction.h"
 #include "metrics/statistics/quantiles.h"
+#include "metrics/video_jod.h"
 
 #include <algorithm>
 #include <cmath>
@@ -199,7 +200,7 @@ std::vector<Evidence> evidence_of_ghosts(std::span<const ResultRow> rows, std::s
 std::vector<Evidence> evidence_of_visibility(std::span<const ResultRow> rows, std::span<const ReferenceNoise> noise,
                                              const PointName& point, const PointName& against,
                                              const JudgeLimits& limits) {
-    const std::string metric = "cvvdp_0_5_6_video";
+    const std::string metric = video_jod_name;
     std::vector<Evidence> evidence;
     for (auto& [shot, shares] : shares_by_shot(rows, noise, metric, "all", point, against)) {
         if (shares.noise_now.empty()) continue;

@@ -31,7 +31,7 @@ std::vector<Evidence> evidence_of_ghosts(std::span<const ResultRow> rows, std::s
 
 /// The evidence on visibility: 10 less cvvdp_0_5_6_video, which is the distance in JOD from the truth, less that of the
 /// earlier frames. As evidence_of_ghosts(), with visible_jod in place of visible_ghost. Shots whose truth is too noisy
-/// for an interval (VideoJod::most_noise) have none.
+/// for an interval (most_noise_of_jod) have none.
 std::vector<Evidence> evidence_of_visibility(std::span<const ResultRow> rows, std::span<const ReferenceNoise> noise,
                                              const PointName& point, const PointName& against,
                                              const JudgeLimits& limits);

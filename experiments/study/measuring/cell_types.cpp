@@ -3,6 +3,7 @@
 #include "core/json_types.h"
 #include "experiments/results/cells/cell.h"
 #include "metrics/extrapolation.h"
+#include "metrics/video_jod.h"
 
 #include <algorithm>
 
@@ -79,6 +80,12 @@ json cell_types() {
     return types;
 }
 
+void require_bands(const std::string& what, const json& list) {
+    constexpr size_t most_bands = 32;  // of images with sides below 2^32 pixels
+    if (list.empty() || list.size() > most_bands)
+        fail(what, " has ", list.size(), " values and needs 1 to ", most_bands, ", one for each band of frequencies");
+}
+
 /// Arrays that are gone through side by side.
 void check_lengths(const json& cell, const std::string& where) {
     const auto check_length = [&](const std::string& what, const json& list, std::initializer_list<size_t> allowed) {
@@ -90,7 +97,10 @@ void check_lengths(const json& cell, const std::string& where) {
         const json& noise = cell["reference_noise"][i];
         const std::string at = "reference_noise[" + std::to_string(i) + "]: ";
         check_length(at + "growth", noise["growth"], {growth_values, 0});
-        check_length(at + "sums", noise["sums"], {noise["growth"].empty() ? noise_groups : 0});
+        if (noise["metric"] == video_jod_name)
+            require_bands(where + ": " + at + "sums", noise["sums"]);
+        else
+            check_length(at + "sums", noise["sums"], {noise["growth"].empty() ? noise_groups : 0});
     }
     for (size_t i = 0; i < cell["splits"].size(); ++i) {
         const json& split = cell["splits"][i];

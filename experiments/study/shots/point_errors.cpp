@@ -127,7 +127,7 @@ void PointErrors::keep_noise(const SeedErrors& seed) {
     for (const GhostShare::Sums& s : seed.ghosts.sums)
         if (seed.ghosts.has_halves && s.change > 0) keep("ghost_share", s.mask, s.noise(), s.change);
     if (seed.video && !seed.video->noise().empty())
-        noise_[{"image", "cvvdp_0_5_6_video", "all", over_frames}].add(seed.video->noise());
+        noise_[{"image", video_jod_name, "all", over_frames}].add(seed.video->noise());
 }
 
 void PointErrors::add_whole(SeedErrors& seed) {

@@ -193,3 +193,27 @@ TEST(Judgement, TakesForIdenticalWhatMeasuresAlikeToTheLastDigit) {
     EXPECT_FALSE(alike({row("a", 0, {}), row("b", 0, {})})) << "nothing is known of either";
     EXPECT_FALSE(alike({}));
 }
+
+/// Several frames have more numbers than one: flicker, ghosts and visibility.
+TEST_F(JudgeTest, JudgesSequences) {
+    const auto write_frames = [&](const std::string& name, unsigned first_seed, float scale) {
+        write_noisy(name, first_seed, scale);
+        const fs::path images = folder / name / view;
+        for (unsigned number = 1; number < 4; ++number)
+            for (const std::string kind : {"off", "s0", "s1", "s2", "s3", "s4", "s5", "s6", "s7"}) {
+                const std::string next = kind == "off" ? kind : "s" + std::to_string((kind[1] - '0' + number) % seeds);
+                fs::copy_file(images / ("f0." + next + ".exr"),
+                              images / ("f" + std::to_string(number) + "." + kind + ".exr"));
+            }
+    };
+    write_frames("week1", 0, 1), write_frames("week2", 100, 1), write_frames("darker", 200, 0.7f);
+    const Judgement same = judge("week2", "week1").against.value();
+    EXPECT_NE(same.verdict, judgement::worse);
+    const JudgedFrames darker = judge("darker", "week1");
+    EXPECT_EQ(darker.against->verdict, judgement::worse);
+    std::set<std::string> judged;
+    for (const JudgedView& number : darker.against->views) judged.insert(number.what);
+    EXPECT_TRUE(judged.contains(judged_number::error));
+    EXPECT_TRUE(judged.contains(judged_number::flicker));
+    EXPECT_TRUE(judged.contains(judged_number::visibility)) << darker.text.headline;
+}
