@@ -35,7 +35,8 @@ struct Evidence {
     double no_change = 1;                      ///< 1; ghosts, visibility: 0
     double p_different = 1, p_equivalent = 1;  ///< of "not worse by the tolerance, nor better"; of "not equivalent"
     double detectable = 1;                     ///< the change that 95 % of such comparisons alone would call worse
-    std::string no_interval = {};              ///< why `low`, `high` and `detectable` are not known; else empty
+    double of_light = 1;           ///< by this factor the noise of the light that frames read widens the interval
+    std::string no_interval = {};  ///< why `low`, `high` and `detectable` are not known; else empty
 };
 
 struct JudgedView : Evidence {

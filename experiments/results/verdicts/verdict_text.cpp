@@ -7,6 +7,7 @@
 #include "core/number_text.h"
 #include "core/path_inside.h"
 #include "experiments/results/verdicts/judged_sequences.h"
+#include "metrics/video_jod.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,11 +27,19 @@ std::string judged_metric(const JudgedView& view, const PrimaryComparisons& prim
     return view.what == judged_number::error     ? primary.metric
            : view.what == judged_number::flicker ? "frame_difference"
            : view.what == judged_number::ghosts  ? "ghost_share"
-                                                 : "cvvdp_0_5_6_video";
+                                                 : video_jod_name;
 }
 
 std::string change_text(const JudgedView& view) {
     return number_text(view.change) + " [" + number_text(view.low) + ", " + number_text(view.high) + "]";
+}
+
+/// Why a ratio is undecided that better light would decide.
+std::string light_text(const JudgedView& view) {
+    constexpr double much = 1.2;
+    if (view.verdict != judgement::undecided || view.of_light < much) return "";
+    return ". The noise of the light in these frames widens the interval by a factor of up to " +
+           number_text(view.of_light, 3) + ". Add half images, or make the light with more `scene-for --samples`";
 }
 
 std::string sentence_on(const JudgedView& view, const PrimaryComparisons& primary, const std::string& before) {
@@ -40,9 +49,11 @@ std::string sentence_on(const JudgedView& view, const PrimaryComparisons& primar
     const std::string more = is_ratio                                 ? " times"
                              : view.what == judged_number::visibility ? " JOD further from the truth"
                                                                       : " more";
-    return start + change_text(view) + more + (is_ratio ? " that of " : " than in ") + before + ": " + view.verdict +
-           " (p " + number_text(view.p_holm, 2) + "; " + number_text(view.detectable, 3) + more +
-           " would be seen in 95 % of runs)";
+    const std::string found =
+        start + change_text(view) + more + (is_ratio ? " that of " : " than in ") + before + ": " + view.verdict;
+    if (is_ratio && view.low == 1 && view.high == 1) return found;  // the same pixels
+    return found + " (p " + number_text(view.p_holm, 2) + "; " + number_text(view.detectable, 3) + more +
+           " would be seen in 95 % of runs)" + light_text(view);
 }
 
 /// "error in A and B; flicker in A": what has the verdict of the whole.

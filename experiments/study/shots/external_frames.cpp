@@ -126,9 +126,12 @@ private:
             fail(point_.shot.name(), ": ", proof.count(),
                  " pixels show the background or surfaces that emit, of which ", least_proof_pixels,
                  " are needed to see whether images of another program have the same camera; choose another view");
-        const std::string why =
+        std::string why =
             has_reflections ? why_refused_with_reflections(image, proof, is_proved) : why_refused(image, proof);
         if (why.empty()) return;
+        if (images_.has_given_light && !has_reflections)
+            why += ". The light that scene-for wrote must have as many samples as the truth here, which has " +
+                   std::to_string(point_.config.reference.max_samples) + " (--samples)";
         const std::string name = "images/refused." + point_.technique.technique + "." + point_.shot.name() + ".f" +
                                  std::to_string(step.frame) + ".png";
         const std::filesystem::path picture = path_inside(settings_.out, name);

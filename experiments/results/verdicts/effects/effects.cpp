@@ -150,7 +150,9 @@ std::vector<EffectRow> effects_of_rows(const SeedsOfPoint& point, const SeedsOfP
     }
     const bool is_exact = has_noise && shared.variance == 0;
     for (LitNoise* part : {&lit, &base_lit}) part->added /= double(row.seeds), part->half_width /= double(row.seeds);
-    if (are_positive) add_lit_noise(shared, lit, error.value, base_lit, base_error.value);
+    // Equal errors of equal noise are of the same pixels, to which the light adds the same.
+    const bool are_same_pixels = is_exact && errors == base_errors && lit.added == base_lit.added;
+    if (are_positive && !are_same_pixels) add_lit_noise(shared, lit, error.value, base_lit, base_error.value);
     set_ratio(row, error, base_error, shared);
     if (!row.ratio) return {row};
     const bool has_seeds = point.depends_on_seed || baseline.depends_on_seed;

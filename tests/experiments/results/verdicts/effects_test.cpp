@@ -281,6 +281,35 @@ TEST(Effects, HoldWhatNoisyLightMayHaveAdded) {
     EXPECT_EQ(*noisy.p, 1.0);
 }
 
+/// The light may have added nearly all of an error: of the same pixels it has added the same.
+TEST(Effects, OfTheSamePixelsAreOneWhateverTheLight) {
+    const auto noise_of = [](const char* point, float scale) {
+        ReferenceNoise noise{.shot = "s",
+                             .frame = "0",
+                             .technique = "v",
+                             .point = point,
+                             .target = "specular",
+                             .metric = "mse",
+                             .mask = "all"};
+        for (size_t g = 0; g < noise_groups; ++g) noise.sums.push_back(scale * (g % 2 ? 0.01f : -0.01f));
+        return noise;
+    };
+    const auto effect = [&](double error, float noise) {
+        std::vector<ResultRow> rows = {row("0", "base", 0, "mse", 1), row("0", "better", 0, "mse", error)};
+        for (ResultRow& r : rows) r.lit_noise = 0.9, r.lit_half_width = 0.01, r.floor = 0.1;
+        mark_representative_rows(rows);
+        std::vector<ComparedPoint> points = two_points;
+        for (ComparedPoint& point : points) point.depends_on_seed = false;
+        return paired_effects(rows, points, {}, std::vector{noise_of("base", 1), noise_of("better", noise)}).at(0);
+    };
+    const EffectRow same = effect(1, 1);
+    EXPECT_EQ(same.ratio, 1.0);
+    EXPECT_EQ(same.low, 1.0);
+    EXPECT_EQ(same.high, 1.0);
+    EXPECT_LT(*effect(1, 0.5f).low, 0.2) << "equal errors of other pixels may have got more or less of the light";
+    EXPECT_LT(*effect(1.1, 1.1f).low, 0.2);
+}
+
 /// Intervals of logarithms can have ends beyond all numbers, which no table can hold: they are left out.
 TEST(Effects, HaveNoEndsBeyondAllNumbers) {
     constexpr int points = 20;

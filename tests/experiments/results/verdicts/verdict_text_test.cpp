@@ -59,6 +59,22 @@ TEST(VerdictText, NamesWhatGotWorseAndWhereFirst) {
     EXPECT_EQ(text.lead().back(), "verdict.json holds all 3 numbers.");
 }
 
+TEST(VerdictText, NamesTheLightWhereItsNoiseHidesTheChange) {
+    Evidence hidden = evidence("a", judged_number::error, 5.6, 0.06);
+    hidden.of_light = 28;
+    const auto sentence = [](const Evidence& of) { return verdict_text(judge({of}), {}, {}, "before").numbers.at(0); };
+    EXPECT_EQ(
+        sentence(hidden),
+        "a: error (mse) 5.6 [5.04, 6.16] times that of before: undecided (p 0.06; 1.02 times would be seen in 95 % "
+        "of runs). The noise of the light in these frames widens the interval by a factor of up to 28. Add half "
+        "images, or make the light with more `scene-for --samples`");
+    hidden.p_different = 1e-9;
+    EXPECT_EQ(sentence(hidden).find("light"), std::string::npos) << "it hides nothing";
+    Evidence same = evidence("a", judged_number::error, 1, 1);
+    same.low = same.high = 1, same.p_equivalent = 0;
+    EXPECT_EQ(sentence(same), "a: error (mse) 1 [1, 1] times that of before: equivalent");
+}
+
 TEST(VerdictText, NamesVisibilityInJod) {
     const Judgement judged =
         judge({evidence("a", judged_number::error, 1, 0.5), evidence("a", judged_number::visibility, 0.2, 1e-9)});
