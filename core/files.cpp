@@ -26,6 +26,8 @@ void fail_write(const std::filesystem::path& file, const std::string& reason) {
 
 void create_folder(const std::filesystem::path& folder) {
     std::error_code error;
+    if (std::filesystem::exists(folder, error) && !std::filesystem::is_directory(folder, error))
+        fail(folder.string(), " is a file and no folder; name another");
     std::filesystem::create_directories(folder, error);
     if (error) fail_machine("cannot create the folder ", folder.string(), ": ", error.message(), elsewhere);
 }

@@ -98,7 +98,15 @@ bool are_lifted(const TechniqueLimits& limits, const nlohmann::json& parameters)
 
 }  // namespace
 
+void refuse_folder_without_dot(const std::string& name) {
+    std::error_code error;
+    if (std::filesystem::is_regular_file(std::filesystem::path(name) / "technique.json", error) &&
+        !std::ranges::count(technique_table(), name, &TechniqueEntry::name))
+        fail("unknown technique '", name, "'; for the folder of this name write ./", name);
+}
+
 const TechniqueEntry& find_technique(const std::string& name) {
+    refuse_folder_without_dot(name);
     return find_named(technique_table(), name, "unknown technique");
 }
 

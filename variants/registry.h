@@ -25,7 +25,10 @@ std::string technique_point_name(const std::string& text);
 /// a name that the entry has. Names and values of parameters are checked when a preset is used.
 void add_tuned_presets(TechniqueEntry& entry, const std::filesystem::path& file);
 
-/// Fails with a near miss if there is none of that name.
+/// Fails if `name` is no technique and a folder with one: folders are named with a '/'.
+void refuse_folder_without_dot(const std::string& name);
+
+/// Fails with a near miss if there is none of that name, or as refuse_folder_without_dot().
 const TechniqueEntry& find_technique(const std::string& name);
 
 /// Whether a technique with these values reads its parameter `name`: not if `name` belongs to a tracer or denoiser that

@@ -58,7 +58,8 @@ void add_advise(Commands& line) {
     CLI::App& command = line.add(
         "advise", "Name the technique and parameters of least error within a time on a GPU, from a table of studies",
         "ssrlab advise --chip navi21 --ms 1 --place room --motion");
-    option(command, "--chip NAME", advise.question.chip, "Chip, such as navi21; default: all of the table, in short");
+    option(command, "--chip NAME", advise.question.chip,
+           "Chip or product, such as navi21 or \"RX 6800 XT\"; default: all of the table, in short");
     option(command, "--ms MS", advise.question.ms,
            "Time that reflections may take at 1920x1080; default: all of the table, in short")
         ->check(positive());

@@ -91,6 +91,7 @@ static void describe(const DescribeOptions& asked, std::ostream& out) {
     if (is_denoiser(options.technique)) return describe_denoiser(out, find_denoiser(options.technique));
     if (!options.technique.empty() &&
         !std::ranges::count(technique_table(), options.technique, &TechniqueEntry::name)) {
+        refuse_folder_without_dot(options.technique);
         std::vector<std::string> names = names_of(technique_table(), &TechniqueEntry::name);
         std::ranges::move(names_of(tracer_table(), &TracerEntry::name), std::back_inserter(names));
         std::ranges::move(names_of(denoiser_table(), &DenoiserEntry::name), std::back_inserter(names));

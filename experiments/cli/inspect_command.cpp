@@ -15,6 +15,7 @@ namespace {
 struct InspectOptions {
     std::string file;               ///< or a folder, or a scene's name
     bool has_all = false;           ///< lists are not cut
+    std::string scene;              ///< of an engine's frames; "": by the views' names
     std::filesystem::path json;     ///< "-": in place of the page; "": none
     std::filesystem::path picture;  ///< a PNG of the first view; "": none
 };
@@ -35,7 +36,7 @@ Description draw_first_view(const Scene& scene, const std::filesystem::path& fil
 }  // namespace
 
 static void inspect_command(const InspectOptions& options, const CommonOptions& common) {
-    const Inspected inspected = inspect(options.file, scene_search_path(common.scene_path));
+    const Inspected inspected = inspect(options.file, scene_search_path(common.scene_path), options.scene);
     Description description = inspected.description;
     const bool prints_json = options.json == "-", writes_json = !options.json.empty() && !prints_json;
     if (!options.picture.empty() && inspected.refusal.empty() && !inspected.scene)
@@ -60,6 +61,8 @@ void add_inspect(Commands& line) {
            "A .gltf, .glb or scene.json file, the folder of one, the name of a scene, an image, or the folder of a "
            "capture or of an engine's frames")
         ->required();
+    option(command, "--scene SCENE", inspect.scene,
+           "Scene of an engine's frames: a name or a file, as for `ssrlab judge`; default: by the views' names");
     command.add_flag("--all", inspect.has_all, "Print lists in full; by default, the first eight entries of each");
     option(command, "--json FILE.json", inspect.json, "Also write everything as JSON; with - print only JSON");
     option(command, "--picture FILE.png", inspect.picture,

@@ -13,6 +13,7 @@
 #include "experiments/cli/commands.h"
 #include "experiments/cli/config_of_study.h"
 #include "experiments/gpu_costs/chips/chip_compiler.h"
+#include "experiments/gpu_costs/chips/chip_rates.h"
 #include "metrics/metric.h"
 #include "metrics/temporal.h"
 #include "variants/denoisers/denoisers.h"
@@ -142,12 +143,15 @@ std::vector<Topic> topics(const std::filesystem::path& mesa, const CommonOptions
             {"metrics",
              [](auto& out) {
                  list_metrics(out, all_metrics());
-                 out << "\nOf shots that move or repeat a frame:\n";
+                 out << "\nOf shots that move or repeat a frame, where they are measured without being named:\n";
                  list_metrics(out, temporal_metrics());
              }},
             {"devices", list_vulkan_devices},
             {"chips", [&](auto& out) {
-                 for (const Chip& chip : known_chips(mesa)) list_entry(out, chip.name, 12, chip.driver);
+                 for (const Chip& chip : known_chips(mesa)) {
+                     const auto rates = chip_rates(chip.name);
+                     list_entry(out, chip.name, 12, (rates ? rates->product + ": " : "") + chip.driver);
+                 }
              }}};
 }
 

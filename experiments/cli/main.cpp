@@ -73,7 +73,7 @@ int parse_words(std::vector<std::string> words, const std::vector<EndedPoint>& e
     words = with_help_option(std::move(words));
     CLI::App app{
         "ssrlab compares screen-space reflection techniques with path-traced truth.\n"
-        "Exit codes: 0 done, 2 an error in the request, 3 a fault of this machine, 130 stopped by Ctrl-C.\n"
+        "Exit codes: 0 done, 1 a check that did not pass, 2 an error in the request, 3 a fault of this machine, 130 stopped by Ctrl-C.\n"
         "Scenes, studies and documents are in " +
             own_files().string() + ". Paths such as experiments/docs/quickstart.md begin there.",
         "ssrlab"};
@@ -168,6 +168,9 @@ int exit_code_of(int argc, char** argv, const std::function<int()>& work) {
         return 2;
     } catch (const std::bad_alloc&) {
         return say_memory_is_short();
+    } catch (const std::filesystem::filesystem_error& e) {
+        say_error(shown_text(message_text("cannot use ", e.path1().string(), ": ", e.code().message())));
+        return 3;
     } catch (const std::system_error& e) {
         const std::string text = is_of_memory(e.code()) ? memory_sentence(message_text(" (", e.what(), ")")) : e.what();
         say_error(shown_text(text));

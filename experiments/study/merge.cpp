@@ -153,7 +153,10 @@ size_t merge_study(const Config& config, const RunSettings& settings, const std:
              devices.size() > 1 ? " They hold cells of several devices: --device NAME says whose are merged" : "");
     write_results(study, missing.empty(), {});
     say(counted(study.finished.size(), "cell") + " merged, " + std::to_string(missing.size()) + " missing");
-    for (size_t i = 0; i < std::min<size_t>(missing.size(), 5); ++i) say("  missing: " + missing[i]);
+    constexpr size_t most_named = 5;
+    for (size_t i = 0; i < std::min(missing.size(), most_named); ++i) say("  missing: " + missing[i]);
+    if (missing.size() > most_named) say("  and " + std::to_string(missing.size() - most_named) + " more");
+    if (missing.empty() && settings.write_report) say("Report: " + (settings.out / "report.html").string());
     if (!missing.empty()) {
         say("They are done by:");
         say("  " + command_line("run", config, settings));

@@ -1,6 +1,7 @@
 #include "experiments/study/write_results.h"
 
 #include "core/files.h"
+#include "core/path_inside.h"
 #include "experiments/results/answers/answers.h"
 #include "experiments/results/cells/host_info.h"
 #include "experiments/results/cells/provenance.h"
@@ -75,7 +76,8 @@ void handle_stale_files(StudySession& study, nlohmann::json& manifest, const nlo
     manifest["stale"] = {{"cells", stale.cells}, {"images", stale.images}};
     study.progress.say("note: " + std::to_string(stale.cells.size()) + " cells and " +
                        std::to_string(stale.images.size()) + " images of earlier versions of this study stay in " +
-                       out.string() + "; --prune removes them");
+                       out.string() + "; `ssrlab run " + path_inside(out, "study.json").string() +
+                       " --out=" + out.string() + " --prune` removes them");
 }
 
 }  // namespace

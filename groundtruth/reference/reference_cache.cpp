@@ -79,7 +79,9 @@ Reference cached_reference(const Scene& scene, const ScenePose& pose, const Came
 
     std::error_code error;
     fs::create_directories(folder, error);
-    if (error) fail_machine("cannot create the cache folder ", folder.string(), ": ", error.message());
+    if (error)
+        fail_machine("cannot create the cache folder ", folder.string(), ": ", error.message(),
+                     "; choose another with --cache or SSRLAB_CACHE");
     const Lock lock(folder / (key + ".lock"), run);
     if (std::optional<Reference> found = load(file, key, run)) return std::move(*found);  // made while waiting
 

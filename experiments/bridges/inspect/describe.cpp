@@ -80,9 +80,9 @@ Inspected inspect_image(const fs::path& file, ImageFormat format) {
     }
 }
 
-Inspected inspect_folder(const fs::path& folder, const std::vector<fs::path>& search_path) {
+Inspected inspect_folder(const fs::path& folder, const std::string& scene, const std::vector<fs::path>& search_path) {
     if (is_there(folder / "external.json"))
-        return {.description = describe_external_frames(folder, search_path), .scene = {}};
+        return {.description = describe_external_frames(folder, scene, search_path), .scene = {}};
     if (is_there(folder / "scene.json")) return inspect_scene((folder / "scene.json").string(), search_path);
     if (holds_capture(folder)) return {.description = describe_capture(folder), .scene = {}};
     fail(
@@ -93,10 +93,10 @@ Inspected inspect_folder(const fs::path& folder, const std::vector<fs::path>& se
 
 }  // namespace
 
-Inspected inspect(const std::string& name, const std::vector<fs::path>& search_path) {
+Inspected inspect(const std::string& name, const std::vector<fs::path>& search_path, const std::string& scene) {
     const fs::path path = name;
     std::error_code error;
-    if (fs::is_directory(path, error)) return inspect_folder(path, search_path);
+    if (fs::is_directory(path, error)) return inspect_folder(path, scene, search_path);
     if (!is_there(path)) return inspect_scene(name, search_path);
     check_regular_file(path);
     const std::vector<uint8_t> bytes = first_bytes(name);

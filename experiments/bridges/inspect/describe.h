@@ -18,8 +18,10 @@ struct Inspected {
 };
 
 /// Describes `name`: an image, a capture's folder, a folder of an engine's frames, or a scene as load_scene() takes it.
-/// Fails with Error if it is none of these, or if nothing of it can be read.
-Inspected inspect(const std::string& name, const std::vector<std::filesystem::path>& search_path);
+/// `scene`: of an engine's frames, as views_of_frames() takes it. Fails with Error if `name` is none of these, or if
+/// nothing of it can be read.
+Inspected inspect(const std::string& name, const std::vector<std::filesystem::path>& search_path,
+                  const std::string& scene = "");
 
 /// Describes an OpenEXR, PNG, JPEG, WebP or Radiance file, whose bytes tell the format.
 Description describe_image(const std::filesystem::path& file);
@@ -34,6 +36,6 @@ Description describe_gltf_document(const std::filesystem::path& file);
 
 /// `folder`: as Capture takes it.
 Description describe_capture(const std::filesystem::path& folder);
-/// `folder`: as read_external_images() takes it.
-Description describe_external_frames(const std::filesystem::path& folder,
+/// `folder`: as read_external_images() takes it. `scene`: as views_of_frames() takes it.
+Description describe_external_frames(const std::filesystem::path& folder, const std::string& scene,
                                      const std::vector<std::filesystem::path>& search_path);

@@ -2,6 +2,7 @@
 #include "core/error.h"
 #include "core/exr/exr.h"
 #include "core/parameters.h"
+#include "core/scene/load_scene.h"
 #include "experiments/bridges/inspect/channel_range.h"
 #include "experiments/bridges/inspect/describe.h"
 #include "experiments/bridges/judge.h"
@@ -56,10 +57,12 @@ Description describe_capture(const fs::path& folder) {
             {"notes", contents.notes}};
 }
 
-Description describe_external_frames(const fs::path& folder, const std::vector<fs::path>& search_path) {
+Description describe_external_frames(const fs::path& folder, const std::string& scene,
+                                     const std::vector<fs::path>& search_path) {
     const auto images = read_external_images(folder, folder.string());
     Description views = Description::array();
-    for (const FramesOfView& view : views_of_frames(folder, "", search_path)) {
+    const std::string name = scene.empty() ? "" : load_scene(scene, search_path).name;
+    for (const FramesOfView& view : views_of_frames(folder, name, search_path)) {
         Description& entry = views.emplace_back(Description{{"scene", view.name.scene},
                                                             {"camera", view.name.camera},
                                                             {"width", view.width},

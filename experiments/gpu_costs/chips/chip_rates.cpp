@@ -3,6 +3,7 @@
 #include "core/list_text.h"
 #include "experiments/gpu_costs/chips/chip_compiler.h"
 
+#include <cctype>
 #include <map>
 #include <ranges>
 
@@ -57,6 +58,21 @@ std::optional<ChipRates> chip_rates(const std::string& chip) {
     auto found = all_rates().find(chip);
     if (found == all_rates().end()) found = all_rates().find(other_name(chip));
     return found == all_rates().end() ? std::nullopt : std::optional(found->second);
+}
+
+std::string chip_named(const std::string& text) {
+    const auto plain = [](const std::string& name) {
+        std::string letters;
+        for (const char c : name)
+            if (std::isalnum(static_cast<unsigned char>(c)))
+                letters += char(std::tolower(static_cast<unsigned char>(c)));
+        for (const std::string maker : {"amd", "radeon", "rx"})
+            if (letters.starts_with(maker)) letters.erase(0, maker.size());
+        return letters;
+    };
+    for (const auto& [chip, rates] : all_rates())
+        if (plain(rates.product) == plain(text)) return chip;
+    return text;
 }
 
 std::vector<std::string> chips_with_rates() { return names_of(std::views::keys(all_rates())); }

@@ -34,5 +34,9 @@ struct ChipRates {
 /// The rates of the product that represents a chip; nullopt for a chip without published rates here.
 std::optional<ChipRates> chip_rates(const std::string& chip);
 
+/// The chip of a product in any common spelling ("RX 6800 XT", "rx6800xt", "Radeon RX 6800 XT"); another text is
+/// returned as it is.
+std::string chip_named(const std::string& text);
+
 /// The names of the chips with rates.
 std::vector<std::string> chips_with_rates();

@@ -5,6 +5,7 @@
 #include "core/near_miss.h"
 #include "core/number_text.h"
 #include "core/shown_text.h"
+#include "experiments/gpu_costs/chips/chip_rates.h"
 #include "experiments/gpu_costs/chips/model_range.h"
 #include "experiments/results/tradeoff/answer_context.h"
 #include "experiments/results/verdicts/standings.h"
@@ -59,7 +60,12 @@ void require_asked(const AdviceRows& rows, std::string AdviceRow::*member, const
                    const std::string& what, const std::string& how) {
     const Names known = distinct(rows, [&](const AdviceRow* row) { return row->*member; });
     if (asked.empty() || std::ranges::any_of(known, is_asked)) return;
-    fail("the table has no ", what, " '", shortened(asked), "'; it has ", joined(known), ". To add one, ", how, " (",
+    Names shown;
+    for (const std::string& name : known) {
+        const auto chip = chip_rates(name);
+        shown.push_back(name + (chip ? " (" + chip->product + ")" : ""));
+    }
+    fail("the table has no ", what, " '", shortened(asked), "'; it has ", joined(shown), ". To add one, ", how, " (",
          page_of_advice, ")");
 }
 
@@ -73,7 +79,7 @@ AdviceRows rows_asked_for(const Advice& advice, const AdviceQuestion& question) 
         require_asked(rows, member, asked, is_asked, what, how);
         std::erase_if(rows, [&](const AdviceRow* row) { return !asked.empty() && !is_asked(row->*member); });
     };
-    narrow(&AdviceRow::chip, question.chip, "chip",
+    narrow(&AdviceRow::chip, chip_named(question.chip), "chip",
            "name it in \"gpu_compilers\" of the study of costs, run it, and make the table again");
     narrow(&AdviceRow::place, question.place, "place",
            "run both studies with shots of that group, and make the table again");

@@ -107,6 +107,7 @@ std::string cheaper_sentence(const ShotAnswer& answer, const std::vector<Scored>
                (clock.is_proven ? "" : " (timer not validated)") + " and has " +
                shown(over_best(find(scored, *p), *answer.best)) + " the error of " + best + ".";
     }
+    if (!(worth_while > 0)) return " Times of copies of one point differ too much here to name a cheaper point.";
     return " No point on the front saves " + percent_text(1 - worth_while) + " of this time.";
 }
 

@@ -38,7 +38,8 @@ std::map<std::string, std::string> scene_names(const std::vector<ShotAnswer>& an
 class ByPoint {
 public:
     void add(const AnswerPoint& point, const std::string& where) {
-        const std::string name = name_of(point);
+        // Alone, "none" would read as if there were no such point.
+        const std::string name = point.technique == "none" ? "no reflections (none)" : name_of(point);
         auto at = std::ranges::find(found_, name, [](const auto& entry) { return entry.first; });
         if (at == found_.end()) at = found_.insert(at, {name, {}});
         at->second.push_back(where);

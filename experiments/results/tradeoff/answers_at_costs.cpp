@@ -64,7 +64,8 @@ struct AtCosts : AnswerContext {
             return {shown_number(cost), "no technique fits in all scenes", "", ""};
         Names near;
         for (const AcrossRow* row : rows)
-            if (row->rank && row != first && row->standing != standing::behind) near.push_back(row->label);
+            if (row->rank && row != first && row->standing != standing::behind)
+                near.push_back(row->label == base_label ? "no reflections (" + row->label + ")" : row->label);
         return {shown_number(cost), first->label, measured(first->ratio, first->low, first->high), joined(near, ", ")};
     }
 

@@ -116,7 +116,9 @@ void check_technique(ConfigObject& study, ConfigObject& tune, Config& config) {
 
 }  // namespace
 
-Values names_of_metrics() { return some_of(named(one_of(metric_names()), "a name from `ssrlab list metrics`")); }
+Values names_of_metrics() {
+    return some_of(named(one_of(metric_names()), "a metric of one frame from `ssrlab list metrics`"));
+}
 
 Keys table_keys() {
     const Values names = some_of(any_text()),

@@ -128,6 +128,14 @@ TEST_F(CommandLine, JudgesFrames) {
     expect_mistake("judge now --fail-if-worse", "--fail-if-worse needs --against");
     expect_mistake("judge now --capture before", "--capture needs --reference");
     expect_mistake("judge now --scene fence", "now holds no images of 'fence'");
+    expect_mistake("judge now --out truth.exr", "truth.exr is a file and no folder");
+    // What has another form than the command takes.
+    write_text(folder / "mine/technique.json", "{}");
+    expect_mistake("describe mine", "for the folder of this name write ./mine");
+    expect_mistake("compare now before --metric mse", "now is a folder. Give an image, or the frames of a video");
+    expect_mistake("compare truth.exr truth.exr --metric cvvdp_0_5_6_video", "scores two videos by cvvdp_0_5_6");
+    expect_mistake("advise --chip 'RX 480'", "it has gfx1100 (Radeon RX 7900 XTX)");
+    EXPECT_EQ(ssrlab("advise --chip 'rx 6800xt' --ms 1").text, ssrlab("advise --chip navi21 --ms 1").text);
 }
 
 TEST_F(CommandLine, WritesScenesForEngines) {
