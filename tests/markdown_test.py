@@ -101,6 +101,8 @@ class Markdown(unittest.TestCase):
             "questions/pictures/metal_corner.png": "questions/pictures/engines.crops.json",
             "questions/pictures/roughness_gradient.png": "questions/pictures/visibility.crops.json",
             "questions/pictures/thin_pole.png": "questions/pictures/visibility.crops.json",
+            "questions/pictures/toy_car.png": "questions/pictures/visibility_stills.crops.json",
+            "questions/pictures/rails.png": "questions/pictures/visibility_stills.crops.json",
         }
         for name, source in made_from.items():
             picture = (ROOT / "experiments/studies" / name).read_bytes()

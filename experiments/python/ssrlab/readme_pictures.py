@@ -135,6 +135,7 @@ def command_line():
     parser.add_argument("--engines", metavar="ENGINES", help="that of experiments/bridges/engines/engines.json, for those of engines")
     parser.add_argument("--rooms", metavar="ROOMS_GPU_PICTURES", help="that of the study rooms_gpu_pictures, for that of a room at 1 ms")
     parser.add_argument("--visibility", metavar="VISIBILITY", help="that of the study visibility, for those where metrics disagree")
+    parser.add_argument("--visibility-stills", metavar="VISIBILITY_STILLS", help="that of the study visibility_stills, for those of still images")
     return parser
 
 

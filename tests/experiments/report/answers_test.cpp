@@ -252,12 +252,12 @@ TEST(Answers, SayWhatIsCertainInTheseScenes) {
     EXPECT_EQ(
         in_these_scenes(answers, json::object(), headline),
         "In these 3 shots these points have the least mse: a in p and q; b in r. Certainly within 5 % of the least: b "
-        "in q. Certainly worse in each of these shots: none and c.");
+        "in q. Certainly worse in each of these shots: no reflections (none) and c.");
     const json scenes = {{"shots", {{{"shot", "p"}, {"scene", "hall"}}, {{"shot", "q"}, {"scene", "yard"}}}}};
     answers[2].best = {};
     EXPECT_EQ(in_these_scenes(answers, scenes, headline),
               "In 2 of these 3 shots these points have the least mse: a in hall and yard. Certainly within 5 % of the "
-              "least: b in yard. Certainly worse in each of these shots: none and c.");
+              "least: b in yard. Certainly worse in each of these shots: no reflections (none) and c.");
     for (ShotAnswer& a : answers) a.best = {};
     EXPECT_EQ(in_these_scenes(answers, json::object(), headline), "In these 3 shots nothing is ranked by mse.");
 }
