@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ssrlab.mistakes import ResultsError
+from ssrlab.mistakes import ResultsError, counted
 from ssrlab.text_files import path_inside, whole_file, write_text
 
 # Layers and their channels: core/gbuffer/gbuffer_file.h.
@@ -85,7 +85,7 @@ def write_frame(folder, layers, camera):
         values = np.asarray(values, np.float32)
         values = values if values.ndim == 3 else values[..., None]
         if values.shape[2] != len(CHANNELS[name]):
-            raise ResultsError(f"{folder}: '{name}' has {values.shape[2]} channels and needs {len(CHANNELS[name])}")
+            raise ResultsError(f"{folder}: '{name}' has {counted(values.shape[2], 'channel')} and needs {len(CHANNELS[name])}")
         for i, channel in enumerate(CHANNELS[name]):
             planes[f"{name}.{channel}"] = values[..., i]
     height, width = planes["depth.Z"].shape

@@ -4,7 +4,7 @@ tests need none."""
 import numpy as np
 
 from capture_files import CHANNELS, vulkan_clip
-from ssrlab.mistakes import ResultsError
+from ssrlab.mistakes import ResultsError, counted
 
 FLOATS = {2: "<f2", 4: "<f4", 8: "<f8"}
 WHOLES = {1: "u1", 2: "<u2", 4: "<u4"}
@@ -116,7 +116,7 @@ def layer_of(name, texels, entry, camera):
         else:
             raise ResultsError(f"{where}: there is no decoder '{step}'; known are: {', '.join(DECODERS)}")
     if values.shape[2] != len(CHANNELS[name]):
-        raise ResultsError(f"{where} has {values.shape[2]} channels after decoding and needs {len(CHANNELS[name])}")
+        raise ResultsError(f"{where} has {counted(values.shape[2], 'channel')} after decoding and needs {len(CHANNELS[name])}")
     return values
 
 

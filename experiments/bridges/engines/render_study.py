@@ -16,16 +16,16 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, os.pardir, os.pardir, "python"))
 from ssrlab import interrupts  # noqa: E402
 from ssrlab.json_files import read_json  # noqa: E402
-from ssrlab.mistakes import Fault, ResultsError, exit_code, say  # noqa: E402
+from ssrlab.mistakes import Fault, ResultsError, counted, exit_code, say  # noqa: E402
 from ssrlab.shots import scene_folder_name, scene_for_words, single_shots  # noqa: E402
-from ssrlab.text_files import path_inside  # noqa: E402
+from ssrlab.text_files import exists, path_inside  # noqa: E402
 
 
 def scene_folder(shot, study, ssrlab, out):
     """What `scene-for` wrote of a shot, written where it is not there."""
     words = scene_for_words(shot, study)
     folder = path_inside(out, f"scenes/{scene_folder_name(words)}")
-    if os.path.exists(path_inside(folder, "scene.json")):
+    if exists(path_inside(folder, "scene.json")):
         return folder
     code = interrupts.run([ssrlab, "scene-for", "any", *words, "--out", folder])
     if code != 0:
@@ -51,7 +51,7 @@ def has_images(folder, view, seeds):
     kinds = ["off", *(f"s{seed}" for seed in range(seeds))]
     halves = ["half_a", "half_b"] if all("light_halves" in frame for frame in view["frames"]) else []
     names = [f"{view['view']}/f{frame['frame']}.{kind}.exr" for frame in view["frames"] for kind in kinds + halves]
-    return all(os.path.exists(path_inside(folder, name)) for name in names)
+    return all(exists(path_inside(folder, name)) for name in names)
 
 
 def main():
@@ -87,7 +87,7 @@ def main():
             say(f"it failed there (exit code {code}), for the reason above")
     say(f"{rendered} rendered, {left_out} of them left out")
     if failed:
-        raise Fault(f"{failed} of {rendered} renders failed, for the reasons above; put that right and start again: what is there stays")
+        raise Fault(f"{failed} of {counted(rendered, 'render')} failed, for the reasons above; put that right and start again: what is there stays")
     return 0
 
 

@@ -6,7 +6,7 @@ import io
 import math
 import re
 
-from ssrlab.mistakes import ResultsError
+from ssrlab.mistakes import ResultsError, counted
 from ssrlab.text_files import read_text
 
 FORMULA = re.compile(r"'*[=+\-@\t\r]")
@@ -66,7 +66,7 @@ def parse_rows(text, file, first_line=1):
                 if twice is not None:
                     raise ResultsError(f"{file}:{line}: the column '{twice}' is named twice")
             elif len(fields) != len(columns):
-                raise ResultsError(f"{file}:{line}: {len(fields)} fields, but the first line names {len(columns)} columns")
+                raise ResultsError(f"{file}:{line}: {counted(len(fields), 'field')}, but the first line names {counted(len(columns), 'column')}")
             else:
                 rows.append(Row(zip(columns, fields), file, line))
     except csv.Error as e:

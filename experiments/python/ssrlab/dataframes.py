@@ -1,7 +1,6 @@
 """The tables of a results folder as pandas DataFrames, with the types, units and meanings of its schema.json."""
 
 import io
-import os
 import re
 
 import pandas
@@ -9,7 +8,7 @@ import pandas
 from ssrlab import csv_files
 from ssrlab.mistakes import ResultsError
 from ssrlab.results import read_manifest, read_schema
-from ssrlab.text_files import path_inside, read_text
+from ssrlab.text_files import exists, path_inside, read_text
 
 PANDAS_TYPES = {"integer": "Int64", "number": "float64", "boolean": "boolean", "string": "string"}
 
@@ -34,7 +33,7 @@ class Tables:
         return [name for name in self._fields if name in self]
 
     def __contains__(self, name):
-        return name in self._fields and os.path.exists(path_inside(self.folder, name + ".csv"))
+        return name in self._fields and exists(path_inside(self.folder, name + ".csv"))
 
     def __getitem__(self, name):
         if name not in self:

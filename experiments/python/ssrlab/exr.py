@@ -11,6 +11,7 @@ import zlib
 import numpy as np
 
 from ssrlab import memory
+from ssrlab.mistakes import counted
 
 ROWS_PER_BLOCK = {0: 1, 2: 1, 3: 16}  # no compression, ZIPS, ZIP
 LONG_NAMES = 0x400  # of layers and attributes: changes nothing of the layout
@@ -86,7 +87,7 @@ def _unpacked(block, size):
         return block
     inflated = zlib.decompressobj().decompress(block, size + 1)  # at most what is announced: a few bytes can hold gigabytes
     if len(inflated) != size:
-        raise ValueError(f"a block has {len(inflated)} bytes and not {size}")
+        raise ValueError(f"a block has {counted(len(inflated), 'byte')} and not {size}")
     data = np.frombuffer(inflated, np.uint8).copy()
     data[1:] -= 128
     data = np.add.accumulate(data, dtype=np.uint8)  # modulo 256

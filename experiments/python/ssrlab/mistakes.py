@@ -42,6 +42,11 @@ def known(name, choices):
     return f"the nearest of {len(choices)} names are: {', '.join(difflib.get_close_matches(name, choices, 5, 0))}"
 
 
+def counted(count, what):
+    """"1 table", "2 tables", as core/list_text.h has it."""
+    return f"{count} {what}{'s' * (count != 1)}"
+
+
 def say(text):
     """Prints a line that may hold names from files."""
     print(shown(text), flush=True)

@@ -9,7 +9,7 @@ from ssrlab.csv_files import needed_number, number, read_rows, whole
 from ssrlab.exr import ExrError, read_exr_rgb
 from ssrlab.json_files import read_json
 from ssrlab.mistakes import ResultsError, known, shown
-from ssrlab.text_files import path_inside
+from ssrlab.text_files import exists, path_inside
 
 # manifest.json as far as scripts read it, as require() of json_files.py has shapes (experiments/docs/results_folder.md explains it).
 _NUMBER, _TEXT = (float, None), (str, None)
@@ -20,7 +20,7 @@ _SHOT = {
     "reference?": ({"samples_median?": _NUMBER, "relative_error?": ({"median?": _NUMBER, "p95?": _NUMBER}, None)}, None),
 }
 _TECHNIQUE = {
-    **{"technique": str, "point": str, "label?": _TEXT, "group?": _TEXT, "parameters?": dict, "uses_scene_data?": bool},
+    **{"technique": str, "point": str, "label?": _TEXT, "group?": _TEXT, "parameters?": dict, "uses_scene_data?": bool, "swept?": dict},
     "single_change?": {"parameter": str, "value": (bool, float, str)},
 }
 _IMAGE = {"shot?": _TEXT, "target?": _TEXT, "kind?": _TEXT, "technique": str, "point?": _TEXT, "frame?": (int, None), "seed?": (int, None), "exr?": _TEXT}
@@ -49,7 +49,7 @@ _SCHEMA = {"resources": [{"name": str, "schema": {"fields": [{"name": str, "type
 
 def read_manifest(folder):
     file = path_inside(folder, "manifest.json")
-    if not os.path.exists(file):
+    if not exists(file):
         raise ResultsError(f"{folder} is no results folder: it has no manifest.json; `ssrlab run` makes one")
     return read_json(file, MANIFEST)
 
@@ -57,7 +57,7 @@ def read_manifest(folder):
 def read_schema(folder):
     """{table: its fields} of schema.json; {} if there is none."""
     file = path_inside(folder, "schema.json")
-    return {r["name"]: r["schema"]["fields"] for r in read_json(file, _SCHEMA)["resources"]} if os.path.exists(file) else {}
+    return {r["name"]: r["schema"]["fields"] for r in read_json(file, _SCHEMA)["resources"]} if exists(file) else {}
 
 
 ONE_SEED = "none: 1 seed"  # experiments/results/verdicts/interval.h
@@ -206,7 +206,7 @@ class Results:
 
     def read_csv(self, name, is_optional=False):
         file = path_inside(self.folder, name)
-        if is_optional and not os.path.exists(file):
+        if is_optional and not exists(file):
             return []
         columns, rows = read_rows(file)
         lacking = [c for c in EVALUATED.get(name, ()) if c not in columns]

@@ -30,6 +30,17 @@ def read_bytes(file):
         raise ResultsError(f"cannot read {file}: {e.strerror}") from e
 
 
+def exists(path):
+    """Whether there is such a file or folder. Where that may not be looked up, nobody knows: a mistake with its reason, not an absence."""
+    try:
+        os.stat(path)
+    except (FileNotFoundError, NotADirectoryError):
+        return False
+    except OSError as e:
+        raise ResultsError(f"cannot read {path}: {e.strerror}") from e
+    return True
+
+
 def path_inside(folder, name, where=""):
     """The path that a file or folder of an unknown author calls `name`, by the rule of core/path_inside.h. Fails with ResultsError if it
     leads out of `folder` or passes a symbolic link. `where`: file and key of the name, for the message."""

@@ -83,6 +83,21 @@ class BrokenFiles(unittest.TestCase):
                 stream.write(whole)
         self.assertGreater(self.refused, 0)
 
+    def test_folders_that_nobody_may_read(self):
+        """The reason is said, not that a file is missing. Root may read all, and so becomes another user."""
+        tables_study.write_results(self.folder)
+        is_root = os.geteuid() == 0
+        os.chmod(self.folder, 0o700 if is_root else 0)
+        if is_root:
+            os.seteuid(65534)
+        try:
+            said = [self.run_script(work, [self.folder]) for work in (tables.main, figures.main, lambda: ssrlab.read(self.folder) and None)]
+        finally:
+            if is_root:
+                os.seteuid(0)
+            os.chmod(self.folder, 0o700)
+        self.assertEqual(said, [(2, f"error: cannot read {self.path('manifest.json')}: Permission denied\n")] * 3)
+
     def test_tables(self):
         tables_study.write_results(self.folder)
         self.break_files(("manifest.json", "summary.csv", "effects.csv", "splits.csv", "time_summary.csv"), tables.main, self.folder)

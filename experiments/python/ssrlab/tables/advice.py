@@ -6,7 +6,7 @@ from ssrlab.csv_files import number, read_rows
 from ssrlab.figures.numbers import in_prose
 from ssrlab.json_files import read_json
 from ssrlab.markdown_text import markdown_text
-from ssrlab.mistakes import ResultsError
+from ssrlab.mistakes import ResultsError, counted
 from ssrlab.tables.formats import NO_VALUE
 from ssrlab.tables.markdown import COMMIT
 
@@ -24,7 +24,7 @@ class Advice:
         _, self.rows = read_rows(self.file)
         self.sources = read_json(os.path.splitext(self.file)[0] + ".json", _SOURCES)
         if self.sources["rows"] != len(self.rows):
-            raise ResultsError(f"{self.file} has {len(self.rows)} rows, not {self.sources['rows']}; make it again with `ssrlab advise --keep`")
+            raise ResultsError(f"{self.file} has {counted(len(self.rows), 'row')}, not {self.sources['rows']}; make it again with `ssrlab advise --keep`")
 
     def of(self, chip, surface="all"):
         found = [r for r in self.rows if r["chip"] == chip and r["surface"] == surface]

@@ -8,7 +8,7 @@ from dataclasses import fields
 
 from ssrlab.csv_files import number, parse_rows, whole, write_lines
 from ssrlab.json_files import parse_json
-from ssrlab.mistakes import ResultsError
+from ssrlab.mistakes import ResultsError, counted
 from ssrlab.text_files import read_text, write_text
 from ssrlab.results import commits_of
 from ssrlab.tables.cell import Cell
@@ -122,9 +122,9 @@ def _parsed(file, text):
 def made_from(origin_of_all, table, cells):
     """The line below a table: command, commit, the shots of its own cells, their sizes, seeds, device, clock and compiler of GPUs."""
     seeds = sorted({c.seeds for c in cells if c.seeds})
-    counted = f", {seeds[0]} to {seeds[-1]} seeds" if len(seeds) > 1 else f", {seeds[0]} seed{'s' * (seeds[0] > 1)}" if seeds else ""
+    of_seeds = f", {seeds[0]} to {seeds[-1]} seeds" if len(seeds) > 1 else f", {counted(seeds[0], 'seed')}" if seeds else ""
     count, whole = len(table["shots"]), origin_of_all["shots"]
-    shots = f"{count} shot{'s' * (count != 1)}"
+    shots = counted(count, "shot")
     if count < whole:
         shots = f"{count} of the study's {whole} shots"
         if 0 < count <= MOST_NAMED:
@@ -134,5 +134,5 @@ def made_from(origin_of_all, table, cells):
     compilers = " and ".join(table.get("compilers", []))
     return (
         f"`ssrlab run {origin_of_all['study']}`{'' if origin_of_all['is_complete'] else ' (not complete)'}: "
-        f"commit {origin_of_all['commit']}, {shots}{sizes}{counted}, {origin_of_all['device']}{clocks and f', clock {clocks}'}{compilers and f', compiled by {compilers}'}."
+        f"commit {origin_of_all['commit']}, {shots}{sizes}{of_seeds}, {origin_of_all['device']}{clocks and f', clock {clocks}'}{compilers and f', compiled by {compilers}'}."
     )

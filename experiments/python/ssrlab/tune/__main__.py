@@ -14,7 +14,7 @@ import os
 import sys
 
 from ssrlab.json_files import read_json
-from ssrlab.mistakes import ResultsError, exit_code, say, shown, stop
+from ssrlab.mistakes import ResultsError, counted, exit_code, say, shown, stop
 
 try:
     import scipy  # noqa: F401
@@ -76,7 +76,7 @@ class Tuning:
         self.few, self.rest = seeds[: max(2, len(seeds) // 2)], seeds[max(2, len(seeds) // 2) :]
         entries = [self.given_entry(i) for i in range(len(self.given))]
         self.names += [AT_DEFAULTS] if self.program else []
-        say(f"start: {', '.join(self.names)} in {len(self.studies.shots)} shots, which need references")
+        say(f"start: {', '.join(self.names)} in {counted(len(self.studies.shots), 'shot')}, which {'needs' if len(self.studies.shots) == 1 else 'need'} references")
         if self.program:
             self.program.render(AT_DEFAULTS, {}, self.studies.shots)
             entries.append(self.trial_entry(AT_DEFAULTS, {}))
@@ -170,7 +170,7 @@ class Tuning:
         left, seen = points, 0
         for count in self.steps:
             self.measure(f"{folder}_shots_{count}", left, studies.shots[seen:count], self.few)
-            left, seen = self.those_left(left, f"{count} of {self.steps[-1]} shots"), count
+            left, seen = self.those_left(left, f"{count} of {counted(self.steps[-1], 'shot')}"), count
         chancy = [p for p in left if any(len(seeds) > 1 for seeds in p.errors.values())]
         if self.rest:
             self.measure(f"{folder}_seeds", chancy, studies.shots, self.rest, is_timed=False)
@@ -257,7 +257,7 @@ class Tuning:
         least = f"; least error x{math.exp(self.race.mean_log(best)):.3f} in x{math.exp(self.race.log_time(best)):.2f}" if best else ""
         stopped = sum(bool(p.stopped) for p in fresh)
         say(
-            f"batch {number}: {len(fresh)} new points, {stopped} stopped early; {runs} of {self.most_runs} runs, "
+            f"batch {number}: {counted(len(fresh), 'new point')}, {stopped} stopped early; {runs} of {counted(self.most_runs, 'run')}, "
             f"{minutes:.1f} min, about {left:.0f} min left{least}"
         )
 

@@ -10,7 +10,7 @@ from ssrlab.figures.placed_labels import place_labels
 from ssrlab import statistics
 from ssrlab.csv_files import write_lines
 from ssrlab.markdown_text import markdown_code, markdown_text
-from ssrlab.mistakes import say
+from ssrlab.mistakes import counted, say
 from ssrlab.results import Measured
 from ssrlab.text_files import path_inside, whole_file, write_text
 
@@ -42,7 +42,7 @@ class Outcome:
             self.draw()
         complete = sum(not p.stopped for p in self.tuning.tried)
         say(
-            f"{len(self.tuning.tried)} points tried, {complete} of them in full: {self.tuning.runs()} runs in place of "
+            f"{counted(len(self.tuning.tried), 'point')} tried, {complete} of them in full: {counted(self.tuning.runs(), 'run')} in place of "
             f"{self.tuning.runs_of_a_point() * len(self.points)}; {os.path.join(self.tuning.out, 'tuned.md')}"
         )
 
@@ -114,9 +114,9 @@ class Outcome:
                 return f"error and {word} are {error} and {time} times those of {base}" if time else f"the error is {error} times the error of {base}"
 
             time_of_search = f"{math.exp(self.race.log_time(point)):.2f}" if within else ""
-            text = f"for low error{within}, found by `ssrlab tune`. On the {scenes_of_search} scenes of the search, {said(with_interval(searched), time_of_search)}"
+            text = f"for low error{within}, found by `ssrlab tune`. On the {counted(scenes_of_search, 'scene')} of the search, {said(with_interval(searched), time_of_search)}"
             if judged:
-                text += f". On {judged[1]} other scenes, {said(with_interval(judged[0]), judged[2] and with_interval(judged[2]))}"
+                text += f". On {counted(judged[1], 'other scene')}, {said(with_interval(judged[0]), judged[2] and with_interval(judged[2]))}"
             name = f"best_{min(budgets):g}x" if self.studies.has_time else "best"
             preset = {"technique": self.tuning.searched, "name": name, "description": text}
             presets.append(preset | {"parameters": self.changes(point)})
@@ -145,7 +145,7 @@ class Outcome:
             "the seeds and the reference's noise, for these scenes as they are; of unseen ones by how they differ among each other, none below "
             "4 scenes.",
             "",
-            f"{len(tuning.tried)} points were tried, {sum(not p.stopped for p in tuning.tried)} of them in full, in {tuning.runs()} runs of one seed in one "
+            f"{counted(len(tuning.tried), 'point')} {'was' if len(tuning.tried) == 1 else 'were'} tried, {sum(not p.stopped for p in tuning.tried)} of them in full, in {counted(tuning.runs(), 'run')} of one seed in one "
             f"shot ({tuning.runs_of_a_point() * len(self.points)} without stopping any). The least of many measured errors looks smaller than it is; "
             "that on unseen scenes does not.",
             "",

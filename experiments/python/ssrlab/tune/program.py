@@ -14,7 +14,7 @@ from ssrlab import interrupts
 from ssrlab.json_files import read_json
 from ssrlab.mistakes import ResultsError
 from ssrlab.shots import scene_folder_name, scene_for_words
-from ssrlab.text_files import path_inside, write_text
+from ssrlab.text_files import exists, path_inside, write_text
 
 OF_SCENES = ("--scene-path", "--cache", "--max-memory", "--allow-outside")  # options of `ssrlab run` that `scene-for` has, too
 
@@ -67,7 +67,7 @@ class Program:
     def render(self, name, values, shots):
         """Renders a point's images of some shots, unless an earlier search did. `values`: settings that differ from the defaults."""
         file = path_inside(self.out, f"images/{self.point(name)}.json")
-        done = read_json(file, {"rendered": [str]})["rendered"] if os.path.exists(file) else []
+        done = read_json(file, {"rendered": [str]})["rendered"] if exists(file) else []
         for shot in shots:
             scene = self._scene(shot)
             if scene in done:
@@ -84,7 +84,7 @@ class Program:
         words = scene_for_words(shot, self.study)
         folder = f"scenes/{scene_folder_name(words)}"
         written = path_inside(self.out, folder)
-        if not os.path.exists(path_inside(written, "scene.json")):
+        if not exists(path_inside(written, "scene.json")):
             self._call([self.ssrlab, "scene-for", "any", *words, "--out", written, *self.options], f"{folder}.log")
         return folder
 

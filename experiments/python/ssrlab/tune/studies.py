@@ -10,7 +10,7 @@ from ssrlab.json_files import read_json
 from ssrlab.mistakes import ResultsError
 from ssrlab.results import Results
 from ssrlab.shots import single_shots
-from ssrlab.text_files import path_inside, write_text
+from ssrlab.text_files import exists, path_inside, write_text
 from ssrlab.tune.race import NORMAL
 
 NOT_OF_STUDIES = ("tune", "tables", "techniques", "shots", "seeds", "timing", "costs", "$schema")
@@ -92,7 +92,7 @@ class Studies:
     def _keep_minutes(self, name, minutes):
         """Keeps the time of a study's first run; later runs only read results."""
         kept = {}
-        if os.path.exists(self.minutes_file):
+        if exists(self.minutes_file):
             kept = read_json(self.minutes_file, {"*": float})
         self.minutes[name] = kept.setdefault(name, minutes)
         write_text(self.minutes_file, json.dumps(kept, indent=1))
