@@ -19,6 +19,7 @@ from ssrlab.tables import shot_names, summary_file
 from ssrlab.tables.cell import Cell
 from ssrlab.tables.documents import Numbers
 from ssrlab.tables.halving import halving_share
+from ssrlab.tables.latex import latex
 from ssrlab.tables.markdown import markdown
 from ssrlab.tables.variance_shares import KINDS, share_of_total, variance_parts
 from ssrlab.mistakes import ResultsError, exit_code
@@ -55,7 +56,7 @@ def test_the_script_itself(folder):
 
 def test_numbers(folder):
     result = tables(folder)
-    check(result.returncode == 0, result.stderr)
+    check(result.returncode == 0 and result.stdout == f"3 tables in {folder}/tables\n", result.stdout + result.stderr)
     changes = read(os.path.join(folder, "tables", "changes.md")).splitlines()
     # exp(mean of logs) = 1; half-widths of the logarithms are ln(1 / 0.9) each, their root of squares over 2 is
     # 0.0745, so that the interval is [0.928, 1.077].
@@ -77,7 +78,8 @@ def test_numbers(folder):
     check(r"\toprule" in latex and r"\caption{What each change does\_to \{the\} error}" in latex, latex)
     check(r"taps = 4 & 1.000 {\scriptsize [0.928, 1.077]\P{} (0.500 to 2.000)} & 0.810 \\" in latex, latex)
     grid = list(csv.reader(open(os.path.join(folder, "tables", "changes.csv"))))
-    check(grid[0] == ["", "mse", "mse low", "mse high", "flip", "flip low", "flip high"], grid[0])
+    check(grid[0] == ["taps", "mse", "mse low", "mse high", "flip", "flip low", "flip high"], grid[0])
+    check([row[0] for row in grid[1:]] == ["sixteen | taps", "4"], "the head says the key of a value")
     check(abs(float(grid[2][1]) - 1) < 1e-12 and abs(float(grid[2][2]) - math.exp(-half)) < 1e-9, grid[2])
 
 
@@ -284,7 +286,8 @@ def test_best(folder):
     write_rows(file, [row | {"standing": "tied"} for row in rows])
     check(tables(folder).returncode == 0, "no best")
     grid = list(csv.reader(open(os.path.join(folder, "tables", "levels.csv"))))
-    check(grid[0][4] == "floor standing" and [row[4] for row in grid[1:]] == ["tied", "tied"], grid)
+    check(grid[0][:2] == ["technique", "point"] and [row[:2] for row in grid[1:]] == [["sssr", "taps=4"], ["sssr", "default"]], "a column for each key")
+    check(grid[0][5] == "floor standing" and [row[5] for row in grid[1:]] == ["tied", "tied"], grid)
     check(r"\textit{0.00234}" in read(os.path.join(folder, "tables", "levels.tex")), "LaTeX")
     higher = [row | {"metric": "ssim", "standing": "best" if row["point"] == "default" else "behind"} for row in rows]
     write_rows(file, higher)
@@ -295,6 +298,19 @@ def test_best(folder):
     write_rows(file, [{k: v for k, v in row.items() if k != "standing"} for row in rows])
     failed = tables(folder)
     check(failed.returncode != 0 and "no column 'standing'" in failed.stderr and "ssrlab run" in failed.stderr, failed.stderr)
+
+
+def test_latex_names_shots_as_markdown_does():
+    """By their scene, without a break within a name; below both stands what that leaves out."""
+    shot = "mine.Cam.192x108.w8"
+    about = {"name": "t", "caption": "t", "rows": ["point"], "columns": ["shot"], "shots": [shot], "over": None, "over_count": None, "clocks": []}
+    cells = [Cell("t", "default", shot, 0.5, 0.4, 0.6, interval="reference")]
+    made = {"Markdown": markdown(about, cells, "made"), "LaTeX": latex(about, cells, "made")}
+    check("| | mine |" in made["Markdown"] and r"point & mine \\" in made["LaTeX"], made)
+    for language, text in made.items():
+        check("Shots: camera Cam, after 8 frames." in text, f"{language}: {text}")
+    once = "mine.Cam.192x108.w1"
+    check("after 1 frame." in latex(about | {"shots": [once]}, [Cell("t", "default", once, 0.5)], "made"), "one is no plural")
 
 
 def test_display_names(folder):
@@ -441,8 +457,8 @@ def test_shares(folder):
     lines = read(os.path.join(folder, "tables", "rays.md")).splitlines()
     check(lines[2] == f"| | correct | false_hit | empty{A} |", lines[2])
     grid = list(csv.reader(open(os.path.join(folder, "tables", "rays.csv"))))
-    check(grid[1][0] == "default, trace", grid[1])
-    numbers = [float(text) if text else None for text in grid[1][1:]]
+    check(grid[1][:2] == ["default", "trace"], grid[1])
+    numbers = [float(text) if text else None for text in grid[1][2:]]
     # Half-widths of 0.02 and 0.02, and of 0 and 0.1: the root of their squares' sum over 2.
     half = math.sqrt(2 * 0.02**2) / 2
     expected = [0.75, 0.75 - half, 0.75 + half, 0.25, 0.2, 0.3, 0, None, None]
@@ -543,8 +559,8 @@ def test_estimates(temporary):
     check(result.returncode == 0, result.stderr)
     grid = list(csv.reader(open(os.path.join(folder, "tables", "stages.csv"))))
     by_head = [dict(zip(grid[0], row, strict=True)) for row in grid[1:]]
-    check([r[""] for r in by_head] == ["trace, vector", "total, vector"], grid)
-    check({head.removesuffix(" low").removesuffix(" high") for head in grid[0][1:]} == {f"navi21, {q}" for q in ("microseconds", "vector", "active_lanes")}, f"only numbers are quantities: {grid[0]}")
+    check([(r["stage"], r["bound"]) for r in by_head] == [("trace", "vector"), ("total", "vector")], grid)
+    check({head.removesuffix(" low").removesuffix(" high") for head in grid[0][2:]} == {f"navi21, {q}" for q in ("microseconds", "vector", "active_lanes")}, f"only numbers are quantities: {grid[0]}")
     time = [by_head[0]["navi21, microseconds" + end] for end in ("", " low", " high")]
     check([float(n) for n in time] == [14.5, 12, 15], grid)
     check((by_head[0]["navi21, vector"], by_head[0]["navi21, vector low"]) == ("14.5", ""), "the interval is the time's")
@@ -724,6 +740,7 @@ def main():
         test_numbers(folder)
         test_the_script_itself(folder)
         test_reading()
+        test_latex_names_shots_as_markdown_does()
         test_names_in_prose(temporary)
         test_effects_in_prose(temporary)
         test_halving()

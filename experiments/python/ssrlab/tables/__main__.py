@@ -13,7 +13,7 @@ from ssrlab.tables.command_line import parse_arguments
 
 ARGUMENTS = parse_arguments() if __name__ == "__main__" else None  # before the imports below, which take half a second
 
-from ssrlab.mistakes import ResultsError, exit_code, shown
+from ssrlab.mistakes import ResultsError, counted, exit_code, shown
 from ssrlab.results import Results
 from ssrlab.text_files import path_inside, write_text
 from ssrlab.tables import documents, formats, latex, summary_file
@@ -54,7 +54,7 @@ def make(folder, out, summary_folder):
         made_from = summary_file.made_from(origin, table, cells)
         write_text(stem + ".md", markdown(table, cells, made_from))
         write_text(stem + ".tex", latex.latex(table, cells, made_from))
-        write_text(stem + ".csv", formats.comma_separated(cells))
+        write_text(stem + ".csv", formats.comma_separated(table, cells))
         tables.append(table)
         every += cells
     if out == default_folder(folder):
@@ -75,10 +75,10 @@ def main():
     if arguments.results:
         out = arguments.out or default_folder(arguments.results)
         count = make(arguments.results, out, summaries if arguments.keep else None)
-        print(f"{count} tables in {out}")
+        print(f"{counted(count, 'table')} in {out}")
     if arguments.fill or arguments.keep:
         changed = documents.rewrite(arguments.root, summaries)
-        print(f"{len(changed)} documents changed" + "".join(f"\n{file}" for file in changed))
+        print(f"{counted(len(changed), 'document')} changed" + "".join(f"\n{file}" for file in changed))
 
 
 if __name__ == "__main__":

@@ -188,6 +188,11 @@ class Selection:
             words.append(self.table.labels.get(text, text))
         return ", ".join(word for word in words if word)
 
+    def texts(self, row, keys):
+        """The names of a row along an axis, one for each key; without "parameter = ", as the key already says it."""
+        every = ((key, self.label(row, [key])) for key in keys)
+        return [text.removeprefix(f"{key} = ") for key, text in every]
+
     def place(self, row, keys):
         """The row's place in the order of the values that the table's `where` lists; equal for all others."""
         listed = self.table.where
@@ -295,6 +300,7 @@ def _about(selection, filled):
         "is_estimated": table.of == "estimates",
         "compilers": sorted({r["driver"] for r in filled if r.get("driver")}),
         "sample": ASSETS if over in SAMPLED else None,
+        "texts_of_rows": {selection.label(r, table.rows): selection.texts(r, table.rows) for r in reversed(selection.rows)},
         "assets": {selection.label(s, table.rows): selection.results.asset(s["shot"]) for s in shots} if table.rows == ["shot"] else None,
     }
 

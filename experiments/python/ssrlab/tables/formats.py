@@ -137,12 +137,13 @@ def grid(cells):
     return rows, columns, {(c.row, c.column): c for c in cells}
 
 
-def comma_separated(cells):
-    """The grid as CSV: columns for each value, low and high, and its standing if the table marks the best."""
+def comma_separated(table, cells):
+    """The grid as CSV: a column for each key of the rows, by its name; then columns for each value, low and high, and its standing if the
+    table marks the best."""
     rows, columns, at = grid(cells)
     parts = ["value", "low", "high", *(["standing"] if any(c.standing for c in cells) else [])]
-    lines = [[""] + [c if part == "value" else f"{c} {part}" for c in columns for part in parts]]
-    lines += [[row] + [getattr(at.get((row, c)), part, None) for c in columns for part in parts] for row in rows]
+    lines = [table["rows"] + [c if part == "value" else f"{c} {part}" for c in columns for part in parts]]
+    lines += [table["texts_of_rows"][row] + [getattr(at.get((row, c)), part, None) for c in columns for part in parts] for row in rows]
     out = io.StringIO()
     write_lines(out, lines)
     return out.getvalue()

@@ -6,6 +6,7 @@ import zlib
 from ssrlab.mistakes import shown
 from ssrlab.results import LIKE_BEST
 from ssrlab.figures.texts import wrapped
+from ssrlab.tables.shot_names import about, shown_names
 from ssrlab.tables.formats import DISTURBED, NO_VALUE, cell_text, grid, is_bold, notes
 
 ESCAPES = str.maketrans(
@@ -94,7 +95,8 @@ def latex(table, cells, made_from):
     """What is too wide for a page's text is set in two lines for each row, and shrunk where that is not enough; what is wider than a column
     spans both of a page that has two, and what is longer than a page becomes several tables."""
     rows, columns, at = grid(cells)
-    names = LETTER * max(len(row) for row in rows)
+    name_of, shots = shown_names(table, [*rows, *columns])
+    names = LETTER * max(len(name_of[row]) for row in rows)
     one, two = (list(widths) for widths in zip(*_widths(table, rows, columns, at)))
     is_stacked = names + sum(GAP + w for w in one) > TEXT
     widths = [max(w, HEAD * LETTER) for w in (two if is_stacked else one)]
@@ -113,13 +115,13 @@ def latex(table, cells, made_from):
         lines = []
         for row in rows:
             first, second = zip(*(shown(row, c) for c in columns))
-            lines.append(" & ".join([_name(row), *first]) + (r" \\[-2.5pt]" if any(second) else r" \\"))
+            lines.append(" & ".join([_name(name_of[row]), *first]) + (r" \\[-2.5pt]" if any(second) else r" \\"))
             lines += [" & ".join(["", *second]).lstrip() + r" \\"] if any(second) else []
             lines += [r"\addlinespace[2pt]"] if is_stacked and row != rows[-1] else []
         return lines
 
-    explained = notes(table, cells)
-    heads = [_head(head_of(c, table.get("columns", [])), w) for c, w in zip(columns, widths)]
+    explained = " ".join(part for part in (about(shots), notes(table, cells)) if part)
+    heads = [_head(head_of(name_of[c], table.get("columns", [])), w) for c, w in zip(columns, widths)]
     corner = escaped(", ".join(readable(key) for key in table.get("rows", [])))
 
     def page(rows, number, count):

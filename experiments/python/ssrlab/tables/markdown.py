@@ -9,7 +9,7 @@ from ssrlab.figures import numbers
 from ssrlab.tables import formats, shot_names
 from ssrlab.tables.formats import NO_VALUE
 from ssrlab.markdown_text import markdown_prose, markdown_text
-from ssrlab.mistakes import shown
+from ssrlab.mistakes import counted, shown
 from ssrlab.results import LIKE_BEST
 
 MOST_ROWS, MOST_COLUMNS = 8, 5  # of a table that a reader surveys at a glance; a larger one is folded
@@ -141,14 +141,6 @@ def _percent(share):
     return f"{math.ceil(percent * 10**places - 1e-9) / 10**places:.{places}f}"
 
 
-def _shown_names(table, names):
-    """{name: with short names of shots}, and the shots among them."""
-    words = dict.fromkeys(word for name in names for word in name.split(", "))
-    shots = [word for word in words if word in set(table["shots"])]
-    short = shot_names.short_names(shots)
-    return {name: ", ".join(short.get(word, word) for word in name.split(", ")) for name in names}, shots
-
-
 def _summary(text):
     """A caption within HTML."""
     return re.sub(r"`([^`]*)`", r"<code>\1</code>", html.escape(shown(text), quote=False))
@@ -157,7 +149,7 @@ def _summary(text):
 def markdown(table, cells, made_from):
     rows, columns, at = formats.grid(cells)
     marks = _Marks(cells)
-    names, shots = _shown_names(table, [*rows, *columns])
+    names, shots = shot_names.shown_names(table, [*rows, *columns])
 
     def shown(row, column):
         cell = at.get((row, column))
@@ -180,5 +172,5 @@ def markdown(table, cells, made_from):
     below = markdown_prose(" ".join(part for part in (COMMIT.sub(r"\1", made_from), shot_names.about(shots), explained) if part))
     if len(rows) <= MOST_ROWS and len(columns) <= MOST_COLUMNS:
         return "\n".join([markdown_prose(table["caption"]), "", *lines, "", below, ""])
-    counted = f"{len(rows)} row{'s' * (len(rows) > 1)}, {len(columns)} column{'s' * (len(columns) > 1)}"
-    return "\n".join(["<details>", f"<summary>{_summary(table['caption'])}; {counted}</summary>", "", *lines, "", below, "", "</details>", ""])
+    size = f"{counted(len(rows), 'row')}, {counted(len(columns), 'column')}"
+    return "\n".join(["<details>", f"<summary>{_summary(table['caption'])}; {size}</summary>", "", *lines, "", below, "", "</details>", ""])

@@ -3,6 +3,8 @@
 import re
 from collections import Counter
 
+from ssrlab.mistakes import counted
+
 SIZE = re.compile(r"\d+x\d+")
 KINDS = ("camera", "size", "frames", "settings")
 
@@ -29,7 +31,7 @@ def _frames(words):
         elif kind == "n":
             said.append(f"{number} of them")
         else:
-            said.append(f"after {number} frames" if kind == "w" else f"repeated {number} times")
+            said.append(f"after {counted(int(number), 'frame')}" if kind == "w" else f"repeated {counted(int(number), 'time')}")
     return " ".join(said)
 
 
@@ -63,3 +65,11 @@ def about(shots):
     said = [", ".join(common)] if common else []
     said += [f"{name}: {', '.join(words)}" for name, words in exceptions.items()]
     return f"Shots: {'; '.join(said)}." if said else ""
+
+
+def shown_names(table, names):
+    """{name of a row or column: with short names of shots}, and the shots among them."""
+    words = dict.fromkeys(word for name in names for word in name.split(", "))
+    shots = [word for word in words if word in set(table.get("shots", ()))]
+    short = short_names(shots)
+    return {name: ", ".join(short.get(word, word) for word in name.split(", ")) for name in names}, shots
