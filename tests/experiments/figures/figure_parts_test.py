@@ -3,7 +3,7 @@
 usage: figure_parts_test.py
 """
 
-from figures_start import check
+from figures_start import check, outside, request_of
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -59,6 +59,33 @@ def test_wrapped():
         ("x" * 30 + " y", 22, "x" * 30 + "\ny"),
     ):
         check(style.wrapped(text, longest) == expected, f"{text} becomes {style.wrapped(text, longest)!r}")
+
+
+def test_fitted():
+    """Lines are no wider than asked, even of wide letters and of names without a place to break; no letter is lost but spaces."""
+    style.apply()
+    for text in ("mcguire_dda dda.stride=1 dda.thickness=0.05", "W" * 40, "none\n(1 seed)", "MMMM_MMMM.WWWW=" * 4):
+        lines = style.fitted(text, 3.0).split("\n")
+        check(max(map(style.text_width, lines)) <= 3.0, f"{text} becomes {lines}")
+        check("".join(lines).replace(" ", "") == text.replace(" ", "").replace("\n", ""), f"{text} becomes {lines}")
+
+
+def test_titles_stay_inside():
+    """Titles and labels neither leave the picture nor meet those of the panel beside them."""
+    style.apply()
+    figure, grid = style.panels(4, request_of("", width=style.WIDTHS["page"]), most_columns=2)
+    for axes in grid:
+        axes.set_title("breakfast_room_glossy_floor.Camera.001.1920x1080.f20-35.w12.another_setting_with_a_long_name")
+        axes.set_xlabel("roughness of a name that is longer than any panel of two is wide, even on a page of a paper")
+        axes.set_ylabel("root mean squared error of what is seen, over the limit")
+    height = figure.get_figheight()
+    style.keep_inside(figure)
+    check(outside(figure) == [], f"{outside(figure)} leave the picture")
+    for of_panel in (lambda a: a.title, lambda a: a.xaxis.label):
+        left, right = (of_panel(axes).get_window_extent() for axes in grid[:2])
+        check(left.x1 < right.x0, "texts of two panels meet")
+    check(figure.get_figheight() > height, "the panels lose what the lines need")
+    plt.close(figure)
 
 
 def test_values_not_above_zero():
@@ -121,6 +148,8 @@ test_crop_boxes()
 test_fronts()
 test_file_names()
 test_wrapped()
+test_fitted()
+test_titles_stay_inside()
 test_values_not_above_zero()
 test_labels_do_not_overlap()
 test_exposure()

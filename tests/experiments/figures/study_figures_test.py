@@ -11,13 +11,14 @@ import subprocess
 import sys
 import tempfile
 
-from figures_start import check, request_of
+from figures_start import check, outside, request_of
 
 import matplotlib.pyplot as plt
 import numpy as np
-from ssrlab.figures.__main__ import SHOT_FIGURES, STUDY_FIGURES, for_each_shot, make
+from ssrlab.figures.__main__ import SHOT_FIGURES, STUDY_FIGURES, drawn as figures_of_request, for_each_shot, make
 from matplotlib.text import Text
-from ssrlab.figures import effects, error_time, fetches, motion, style
+from ssrlab.figures import effects, error_time, fetches, motion, style, sweeps
+from ssrlab.figures.request import OPTIONS
 from ssrlab.figures.numbers import short
 from ssrlab.figures.request import Look
 from PIL import Image
@@ -161,6 +162,54 @@ def test_sweep_figures(folder):
     means = [float(split["bias_squared"]) + float(split["variance"]) / n for n in (1, 2, 3, 4)]
     check(np.allclose(drawn(figure.get_axes(), "y"), sorted(means), rtol=1e-9), "what the mean over seeds errs")
     plt.close("all")
+
+
+def test_figures_of_sweeps(folder):
+    """Without figures.json, each parameter of a sweep has a `response`, and two together have a `map`; scattered points have none."""
+    shot = "still_a.main.160x90.w8.r8"
+    results = Results(folder)
+    names = ("first", "first float_histories=true", "first round_up_tiles=true", "fixed")
+    check(sweeps.unasked(results, request_of("")) == [], "a study without a sweep")
+    for name in names:
+        entry = results.techniques["sssr", name]
+        entry["swept"] = {k: entry["parameters"][k] for k in ("float_histories", "round_up_tiles", "form")}
+    results.hidden, results.single_changes = set(), {}
+    found = sweeps.unasked(results, request_of("", shots=[shot]))
+    expected = ["response_sssr_float_histories", "response_sssr_round_up_tiles", "map_sssr_float_histories_round_up_tiles"]
+    check([r.name for r in found] == expected, f"figures: {[r.name for r in found]}")
+    with tempfile.TemporaryDirectory(prefix="ssrlab_sweeps_") as out:
+        check(make(results, found, Look(formats=("svg",)), out) == 3 and len(os.listdir(out)) == 3, f"files: {os.listdir(out)}")
+    for name in names[1:3]:
+        del results.techniques["sssr", name]["swept"]
+    check(sweeps.unasked(results, request_of("")) == [], "two points that differ in two values are neither a line nor a map")
+    plt.close("all")
+
+
+def test_long_names(folder):
+    """Whatever points and shots are called, all kinds of figures keep their texts in the picture, in a column too."""
+    results = Results(folder)
+    for technique, point in results.techniques:
+        results.labels[f"{technique} {point}" if point != "default" else technique] = f"mcguire_dda_with_history {point} dda.stride=8 dda.thickness=0.05 hierarchy.max_traversal_intersections=128"
+    for shot in results.shots():
+        results.labels[shot] = f"breakfast_room_glossy_floor_{shot}.Camera.001.1920x1080"
+    options = {
+        "response": {"parameter": "float_histories"},
+        "map": {"x": "float_histories", "y": "round_up_tiles", "where": {"race": False}},
+        "convergence": {"over": "frame"},
+        "stage_costs": {"quantity": "bytes_read"},
+    }
+    view, width = results.narrowed(["moving.main.160x90.f3-6.w4"]), style.WIDTHS["column"]  # a shot of which most kinds have something
+    style.apply("sans", width)
+    for kind in OPTIONS:
+        for name, figure in figures_of_request(view, request_of(kind, results.headline_metric(), width=width, options=options.get(kind, {}))):
+            if figure is None or kind == "motion":
+                continue
+            style.keep_inside(figure)
+            check(outside(figure) == [], f"{name}: {outside(figure)} leave the picture")
+            narrowest = min(a.get_window_extent().width for a in figure.axes if a.has_data() and a.get_label() != "<colorbar>") / figure.dpi / style.CENTIMETRE
+            check(narrowest > 2, f"{name}: a panel is {narrowest:.1f} cm wide")
+            plt.close(figure)
+    style.apply()
 
 
 def test_front(folder):
@@ -351,6 +400,8 @@ with tempfile.TemporaryDirectory(prefix="ssrlab_figures_") as temporary:
     test_study(study)
     test_motion(study)
     test_sweep_figures(study)
+    test_figures_of_sweeps(study)
+    test_long_names(study)
     test_front(study)
     test_stage_costs(study)
     test_stage_estimates(study)

@@ -1,8 +1,9 @@
 """Paper figures from a results folder, as PDF, SVG and PNG: those that figures.json asks for (experiments/docs/figures.md), else all
-that the study has results for. Of each shot: error against time, times, counted costs and estimated GPU times of stages, crops with error maps, and
+that the study has results for, except `convergence`. Of each shot: error against time, times, counted costs and estimated GPU times of stages, crops with error maps, and
 of shots in motion an animated GIF.
 Of the study: error and bias by roughness, bias and variance, effects of changes, temporal metrics, the error of each frame,
-errors against the truth ladder, what error a cost buys, and depth fetches per ray against the resolution.
+errors against the truth ladder, what error a cost buys, errors and times over swept parameters, and depth fetches per ray against the
+resolution.
 
 usage: python3 experiments/python figures RESULTS [--out DIR] [--choice figures.json] [--target specular] [--metric mse] [--mask reflective]
 
@@ -20,7 +21,7 @@ ARGUMENTS = parse_arguments() if __name__ == "__main__" else None  # before the 
 
 os.environ["SOURCE_DATE_EPOCH"] = "0"  # matplotlib writes no time of day into its files
 
-from ssrlab.mistakes import ResultsError, exit_code, say, stop
+from ssrlab.mistakes import ResultsError, counted, exit_code, say, stop
 
 try:
     import matplotlib
@@ -45,6 +46,7 @@ from ssrlab.figures import (
     roughness,
     stages,
     style,
+    sweeps,
     temporal,
 )
 from ssrlab.figures.crop_choice import read_crops
@@ -164,14 +166,14 @@ def main():
     collected = read_crops(file, content, results)
     results.colors = request.read_colors(file, content, results)
     if "figures" not in content:
-        requests = for_each_shot(results, requests)
+        requests = for_each_shot(results, requests) + sweeps.unasked(results, requests[0])
     for chosen in requests:
         chosen.crops = collected
     if results.errors:
         results.errors_of(**texts)  # a mistake in what is asked for is said before anything is written
     out = arguments.out or path_inside(arguments.results, "figures")
     os.makedirs(out, exist_ok=True)
-    print(f"{make(results, requests, look, out)} files in {out}")
+    print(f"{counted(make(results, requests, look, out), 'file')} in {out}")
 
 
 if __name__ == "__main__":

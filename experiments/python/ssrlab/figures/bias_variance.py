@@ -24,7 +24,9 @@ def draw(results, chosen):
     limits = _limits([m for part in parts.values() for m in part])
     seeds = {p: "/".join(sorted({s["seeds"] for s in rows if (s["technique"], s["point"]) == p})) for p in points}
     names = [f"{results.point_label(*p)}\n({seeds[p]} seed{'s' * (seeds[p] != '1')})" for p in points]
-    figure, panels = style.panels(len(shots), chosen, height=2.2 + 0.8 * len(points), sharex=True, sharey=True)
+    names, row = style.row_names(names, style.width_of(chosen, len(shots)))
+    height = 2.2 + max(row, 0.8) * len(points)  # two marks, or words in place of them, need 0.8
+    figure, panels = style.panels(len(shots), chosen, height=height, sharex=True, sharey=True)
     for axes, shot in zip(panels, shots):
         style.log_axis(axes.xaxis)
         axes.set_xlim(limits)
@@ -32,10 +34,10 @@ def draw(results, chosen):
             for row, measured in zip(rows, part):
                 if row["shot"] == shot:
                     _draw_part(axes, points.index((row["technique"], row["point"])), index, name, measured, limits)
-        axes.set_title(style.panel_title(results.shot_label(shot), axes))
+        axes.set_title(style.panel_title(results.shot_label(shot), axes, names))
         axes.tick_params(labelbottom=True)
         style.name_rows(axes, names)
-        axes.set_xlabel("part of the MSE (radiance\N{SUPERSCRIPT TWO})")
+        axes.set_xlabel(style.panel_title("part of the MSE (radiance\N{SUPERSCRIPT TWO})", axes, names))
     style.draw_legend(figure, panels)
     return figure
 

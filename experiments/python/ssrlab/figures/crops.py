@@ -188,8 +188,7 @@ def draw(results, shot, chosen):
     of_shot = {key: errors.get((shot, *key)) for key in shown}
     marks = results.standings_of(shot, chosen.target, chosen.metric, chosen.mask)
     cell = 0.95 * _width(chosen) / min(_most_columns(chosen), len(shown) + 1)
-    letters = style.letters(0.95 * cell)
-    titles = [_truth_title(results, shot), *(_title(results, k, of_shot[k], chosen, marks, letters, cell) for k in shown)]
+    titles = [_truth_title(results, shot), *(_title(results, k, of_shot[k], chosen, marks, cell) for k in shown)]
     grid = _Grid(chosen, truth, crops, titles)
     grid.begin(_below(results, shot, target, chosen, of_shot, look, crops))
     maximum = max(float(np.nanquantile(m, 0.99)) for m in maps.values()) or 1.0
@@ -199,8 +198,9 @@ def draw(results, shot, chosen):
     return grid.figure
 
 
-def _title(results, key, error, chosen, marks, letters, cell):
-    text = style.wrapped(results.point_label(*key), letters)
+def _title(results, key, error, chosen, marks, cell):
+    widening = 1.15 if marks.get(key) == BEST else 1.0  # of bold letters
+    text = style.fitted(results.point_label(*key), 0.95 * cell / widening)
     if error is None:
         return text
     value, _, interval = numbers.with_interval(error).partition(" ")
@@ -278,7 +278,7 @@ class _Grid:
         return 1.15 * self.line if part == ("maps" if "maps" in self.parts else "crops") else 0.0
 
     def begin(self, below):
-        text = style.wrapped(below, style.letters(self.width))
+        text = style.fitted(below, 0.95 * self.width)
         foot = (text.count("\n") + 1.4) * self.line
         self.height = self.blocks * self.block + foot + (3.1 * self.line + 0.25 if self.has_bar else 0)
         self.figure = plt.figure(figsize=(self.width * style.CENTIMETRE, self.height * style.CENTIMETRE))

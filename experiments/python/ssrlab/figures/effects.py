@@ -7,7 +7,6 @@ from ssrlab.figures import numbers, style
 from ssrlab.figures.sweeps import value_text
 from ssrlab.results import is_of, label
 
-LABELS = 0.36  # of the figure's width at most; longer labels are broken
 FARTHEST = 20.0  # ratios further from 1 would squeeze all others; they are written at the border of their panel
 CUT = 2.0  # intervals reach at most this factor beyond the outermost ratio
 
@@ -55,17 +54,13 @@ def draw(results, chosen, rows):
 
 def _draw(results, chosen, rows, groups, against):
     width = style.width_of(chosen, 2)
-    letters = style.letters(width)
-    groups = {key: style.wrapped(text, style.letters(LABELS * width)) for key, text in groups.items()}
-    row = 0.38 + 0.3 * max(text.count("\n") for text in groups.values())  # cm
-    below = style.wrapped(
-        f"{chosen.metric} of {chosen.target}, {chosen.mask} pixels, relative to {against}; "
-        f"95 % intervals; {_family(rows)}",
-        letters,
-    )
+    names, row = style.row_names(groups.values(), width)
+    groups = dict(zip(groups, names))
+    said = f"{chosen.metric} of {chosen.target}, {chosen.mask} pixels, relative to {against}; 95 % intervals; {_family(rows)}"
+    below = style.fitted(said, 0.95 * width)
     shots = [s for s in results.shots() if any(e["shot"] == s for e in rows)]
     columns = min(len(shots), max(int(width / 4.4), 1))
-    titles = {s: style.wrapped(results.shot_label(s), style.letters(0.75 * width / columns)) for s in shots}
+    titles = {s: style.fitted(results.shot_label(s), 0.95 * (width - style.widest(names) - 0.5 * style.scale()) / columns) for s in shots}
     grid_rows = -(-len(titles) // columns)
     lines = grid_rows * (1 + max(t.count("\n") for t in titles.values())) + below.count("\n")
     figure, grid = plt.subplots(

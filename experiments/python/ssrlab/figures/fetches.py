@@ -74,7 +74,7 @@ def draw(results, chosen):
         axes.set_xticks(rows, [str(r) for r in rows])
         axes.minorticks_off()
         axes.margins(y=0.12)
-        axes.set_title(f"{scene}: fetches ~ rows^p, p ± 95 %")
+        axes.set_title(style.panel_title(f"{scene}: fetches ~ rows^p, p ± 95 %", axes))
         axes.set_xlabel("rows of pixels")
         axes.set_ylabel("depth fetches per ray")
     style.draw_legend(figure, panels, names)

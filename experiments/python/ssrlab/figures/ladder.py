@@ -23,9 +23,7 @@ def draw(results, chosen):
     if not shots:
         return None
     keys = results.points()
-    longest = style.letters(0.36 * style.width_of(chosen, len(shots)))
-    names = [style.wrapped(results.point_label(*k), longest) for k in keys]
-    row = 0.12 + 0.27 * (1 + max(name.count("\n") for name in names))
+    names, row = style.row_names([results.point_label(*k) for k in keys], style.width_of(chosen, len(shots)))
     figure, panels = style.panels(len(shots), chosen, height=1.8 + row * len(keys), sharey=True)
     for axes, shot in zip(panels, shots):
         style.log_axis(axes.xaxis)
@@ -45,7 +43,7 @@ def draw(results, chosen):
             style.draw_mark(axes, error, row, "o", color, error.is_one_seed, markersize=3.4 * style.scale(), markeredgewidth=0.8)
         axes.margins(x=0.08)
         style.name_rows(axes, names, 0.4)
-        axes.set_title(style.panel_title(results.shot_label(shot), axes))
+        axes.set_title(style.panel_title(results.shot_label(shot), axes, names))
     style.draw_legend(figure, panels)
     style.note(figure, f"{chosen.metric} of {chosen.target}, {chosen.mask} pixels, 95 % intervals; bars begin at that limit")
     return figure

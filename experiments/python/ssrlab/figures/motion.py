@@ -14,7 +14,7 @@ MOST_POINTS = 5  # beside the truth: two rows of three
 COLUMNS = 3
 MOST_WIDTH = 1000  # pixels of a row: smaller images are magnified, larger ones reduced
 DPI = 110  # of letters
-TITLE, GAP, BELOW = 36, 8, 52  # pixels
+GAP, LINE = 8, 14  # pixels: between pictures, and of a line of text
 FRAME_MS, LAST_MS = 150, 600  # the last stays, so that the jump to the first is seen as such
 
 
@@ -55,22 +55,32 @@ def _magnified(codes, scale):
     return np.repeat(np.repeat(np.uint8(np.rint(255 * codes)), scale, axis=0), scale, axis=1)
 
 
-def _drawn(pictures, titles, caption, size):
-    """One frame: `pictures` (RGB arrays or None, of `size` width, height) below their titles."""
+def _row_width(count, size):
+    """Pixels of a row of the pictures and what stands beside them."""
+    return min(COLUMNS, count) * (size[0] + GAP) + GAP
+
+
+def _height_of(texts):
+    """Pixels of the text with most lines."""
+    return round(LINE * style.scale()) * (1 + max(text.count("\n") for text in texts)) + GAP
+
+
+def _drawn(pictures, titles, caption, below, size):
+    """One frame: `pictures` (RGB arrays or None, of `size` width, height) below their titles. `below`: pixels of its caption."""
     columns = min(COLUMNS, len(titles))
     rows = -(-len(titles) // columns)
-    width, height = columns * (size[0] + GAP) + GAP, rows * (size[1] + TITLE + GAP) + BELOW
+    width, above = _row_width(len(titles), size), _height_of(titles)
+    height = rows * (size[1] + above + GAP) + below + GAP
     figure = plt.figure(figsize=(width / DPI, height / DPI), dpi=DPI)
     for index, (picture, title) in enumerate(zip(pictures, titles)):
         left = GAP + index % columns * (size[0] + GAP)
-        top = height - index // columns * (size[1] + TITLE + GAP) - TITLE
+        top = height - index // columns * (size[1] + above + GAP) - above
         figure.text(left / width, (top + 4) / height, title, va="bottom")
         if picture is None:
             figure.text(left / width, (top - 4) / height, "no reference of this frame", va="top")
         else:
             figure.figimage(picture, left, top - size[1], origin="upper")
-    letters = style.letters((width - 2 * GAP) / DPI * 2.54)
-    figure.text(GAP / width, (BELOW - GAP) / height, style.wrapped(caption, letters), va="top")
+    figure.text(GAP / width, below / height, caption, va="top")
     figure.canvas.draw()
     array = np.asarray(figure.canvas.buffer_rgba())[..., :3].copy()
     plt.close(figure)
@@ -99,15 +109,17 @@ def draw(results, shot, chosen):
     exposure = auto_exposure(truths[-1]) if truths else results.exposure(shot)
     scale = max(1, MOST_WIDTH // (columns * shape[1]))
     size = (scale * shape[1], scale * shape[0])
-    letters = style.letters(size[0] / DPI * 2.54)
     titles = ["truth"]
     for key in keys:
         error = errors.get((shot, *key))
         value = f", {chosen.metric} {numbers.short(error.value)}" if error else ""
-        titles.append(style.wrapped(results.point_label(*key) + value, letters))
+        titles.append(style.fitted(results.point_label(*key) + value, size[0] / DPI * 2.54))
     caption = f"{results.shot_label(shot)}, {target}, {exposure:+g} EV, first seed; errors of {chosen.mask} pixels over the shot"
+    row = (_row_width(len(titles), size) - 2 * GAP) / DPI * 2.54
+    captions = {frame: style.fitted(f"{caption}. Frame {frame} of {frames[0]} to {frames[-1]}.", row) for frame in frames}
+    below = _height_of(captions.values())  # the same in all frames, which have one size
     drawn = []
     for frame, images in of_frames.items():
         pictures = [_magnified(display(images[k], exposure), scale) if k in images else None for k in (REFERENCE, *keys)]
-        drawn.append(_drawn(pictures, titles, f"{caption}. Frame {frame} of {frames[0]} to {frames[-1]}.", size))
+        drawn.append(_drawn(pictures, titles, captions[frame], below, size))
     return Animation(drawn, caption)

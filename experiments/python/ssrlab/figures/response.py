@@ -4,7 +4,7 @@ import matplotlib.pyplot as plt
 
 from ssrlab.figures import style, sweeps
 from ssrlab.figures.lines import draw_lines
-from ssrlab.mistakes import ResultsError
+from ssrlab.mistakes import ResultsError, say
 
 SHOWN = ("error", "time")
 MOST_LINES = 14  # that marks and colours distinguish
@@ -53,7 +53,11 @@ def draw(results, chosen):
     parameter, shown = chosen.option("parameter"), _wanted(chosen)
     families = sweeps.families(results, chosen, [parameter])
     if len(families) > MOST_LINES:
-        raise ResultsError(f"{chosen.where}: {len(families)} lines over '{parameter}', of which {MOST_LINES} can be distinguished: narrow it by 'where'")
+        many = f"{len(families)} lines over '{parameter}', of which {MOST_LINES} can be distinguished"
+        if chosen.where:
+            raise ResultsError(f"{chosen.where}: {many}: narrow it by 'where'")
+        say(f"note: {many}: no figure {chosen.name}; ask for a part of it with --choice")
+        return None
     values, is_numeric = sweeps.axis_values(families, 0)
     errors = results.errors_of(chosen.target, chosen.metric, chosen.mask, with_hidden=True)
     shots = [s for s in results.shots() if any((s, *key) in errors for points in families.values() for key in points.values())]

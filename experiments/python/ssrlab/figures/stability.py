@@ -32,6 +32,8 @@ VERDICTS = {
     "refused": ("_", "#000000"),
 }
 CELL = 0.30  # cm
+NAME_SIZE, CASE_SIZE = 5, 4.5  # pt
+KEY = 3.0  # cm of a verdict in the legend
 
 
 def in_order(rows, name):
@@ -41,12 +43,18 @@ def in_order(rows, name):
 def draw(rows, out):
     techniques = in_order(rows, lambda r: (r["technique"], r["point"]))
     cases = in_order(rows, lambda r: (r["group"], r["case"]))
-    width, height = (len(cases) * CELL + 6.0) * style.CENTIMETRE, (len(techniques) * CELL + 6.2) * style.CENTIMETRE
+    names = [v if p == "default" else f"{v} {p}" for v, p in techniques]
+    left = max(4.4, NAME_SIZE / style.text_size() * style.widest(names) + 0.3)
+    above = max(5.2, CASE_SIZE / style.text_size() * style.widest([case for _, case in cases]) + 0.3)
+    width = len(cases) * CELL + left + 1.6
+    columns = min(len(VERDICTS), max(int(width / KEY), 1))
+    below = 0.6 + 0.4 * -(-len(VERDICTS) // columns)
+    width, height = width * style.CENTIMETRE, (len(techniques) * CELL + above + below) * style.CENTIMETRE
     figure = plt.figure(figsize=(width, height))
     axes = figure.add_axes(
         (
-            4.4 * style.CENTIMETRE / width,
-            1.0 * style.CENTIMETRE / height,
+            left * style.CENTIMETRE / width,
+            below * style.CENTIMETRE / height,
             len(cases) * CELL * style.CENTIMETRE / width,
             len(techniques) * CELL * style.CENTIMETRE / height,
         )
@@ -62,8 +70,8 @@ def draw(rows, out):
             markersize=3.6 if verdict != "ok" else 1.6,
             label=f"{verdict} ({len(points)})",
         )
-    style.name_rows(axes, [v if p == "default" else f"{v} {p}" for v, p in techniques], 0.3, fontsize=5)
-    axes.set_xticks(range(len(cases)), [case for _, case in cases], rotation=90, fontsize=4.5)
+    style.name_rows(axes, names, 0.3, fontsize=NAME_SIZE)
+    axes.set_xticks(range(len(cases)), [case for _, case in cases], rotation=90, fontsize=CASE_SIZE)
     axes.xaxis.tick_top()
     axes.set_xlim(-0.7, len(cases) - 0.3)
     axes.tick_params(length=0, pad=2)
@@ -74,7 +82,7 @@ def draw(rows, out):
     for i, (technique, _) in enumerate(techniques):
         if i and techniques[i - 1][0] != technique:
             axes.axhline(i - 0.5, color="#999999", linewidth=0.4)
-    figure.legend(loc="lower center", ncol=len(VERDICTS), fontsize=6, handletextpad=0.2)
+    figure.legend(loc="lower center", ncol=columns, fontsize=6, handletextpad=0.2)
     figure.savefig(out, metadata={"Date": None} if out.endswith(".svg") else None)
 
 

@@ -104,13 +104,12 @@ def _draw(results, shot, chosen, points, said, total_text):
         return None
     width = style.width_of(chosen, 1 if sum(map(len, groups.values())) <= 8 else 2)
     scale = style.scale()
-    longest = style.letters(0.36 * width)
     blocks = []
     for technique, points in groups.items():
         named, rest = _named_stages(points)
         is_one_pass = len({s for stages in points.values() for s in stages} - {"total"}) == 1
         lines = [] if is_one_pass else _legend_lines([*named, *([REST] if rest else [])], width - 0.4)
-        labels = {k: style.wrapped(results.own_label(*k) or (results.point_name(*k) or "default"), longest) for k in points}
+        labels = {k: style.fitted(results.own_label(*k) or (results.point_name(*k) or "default"), style.ROW_NAMES * width) for k in points}
         blocks.append((results.labels.get(technique, technique), points, named, rest, lines, labels))
     rows = {id(b): [max(ROW * scale, LINE * scale * (t.count("\n") + 1)) for t in b[5].values()] for b in blocks}
     height = sum(sum(rows[id(b)]) + LINE * scale * (1 + len(b[4])) + 0.15 for b in blocks)
@@ -136,7 +135,7 @@ def _draw(results, shot, chosen, points, said, total_text):
     axes.spines["left"].set_visible(False)
     axes.grid(axis="y", visible=False)
     style.note(figure, said)
-    axes.set_title(style.wrapped(results.shot_label(shot), style.letters(0.55 * width)))
+    axes.set_title(style.fitted(results.shot_label(shot), 0.55 * width))
     _draw_totals(figure, axes, list(ticks), [s for _, points, *_ in blocks for s in points.values()], total_text)
     return figure
 

@@ -1,5 +1,6 @@
 """The look that all figures share, and how they are saved."""
 
+import functools
 import hashlib
 import io
 import re
@@ -8,7 +9,8 @@ import textwrap
 import matplotlib
 import matplotlib.pyplot as plt
 from matplotlib.colors import to_rgb
-from matplotlib.textpath import TextPath
+from matplotlib.font_manager import FontProperties
+from matplotlib.textpath import text_to_path
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 import numpy as np
 
@@ -106,6 +108,8 @@ def darker(color):
 
 
 MOST_NAMES = 8  # that a legend in a column has room for
+ROW_NAMES = 0.36  # of a figure's width at most, left of its panels; longer names are broken
+LINE = 0.3  # cm of a line of text, at the size of a page's text
 
 
 def width_of(chosen, count, names=()):
@@ -113,11 +117,16 @@ def width_of(chosen, count, names=()):
     return getattr(chosen, "width", None) or WIDTHS["column" if count == 1 and len(names) <= MOST_NAMES else "page"]
 
 
+def columns_in(width, most):
+    """How many panels have room side by side."""
+    return min(most, max(int(width / 5.0), 1))
+
+
 def panels(count, chosen=None, most_columns=3, height=4.6, names=(), **shared):
     """A figure with `count` axes in rows. `height`: of a row (cm). `chosen`: width of the figure and height of a row, if asked for.
     `names`: of its legend. `shared`: sharex, sharey, as in pyplot.subplots."""
     width = width_of(chosen, count, names)
-    most = min(count, most_columns, max(int(width / 5.0), 1))
+    most = min(count, columns_in(width, most_columns))
     rows = -(-count // most)
     columns = -(-count // rows)
     height = getattr(chosen, "height", None) or height * scale()
@@ -134,11 +143,11 @@ def draw_legend(figure, panels, names=()):
     texts = [text for text in dict.fromkeys(names) if text in by_label] + [text for text in by_label if text not in names]
     if not texts:
         return
-    longest = letters(figure.get_figwidth() / CENTIMETRE) - 6
+    longest = figure.get_figwidth() / CENTIMETRE - 0.9 * scale()  # without the marks, which stand left of the texts
     for columns in range(min(len(texts), 6), 0, -1):
         legend = figure.legend(
             [by_label[t] for t in texts],
-            [wrapped(t, longest) for t in texts],
+            [fitted(t, longest) for t in texts],
             loc="upper center",
             ncols=columns,
             borderaxespad=0.2,
@@ -167,7 +176,7 @@ def note(figure, text):
     before = figure._supxlabel.get_text() if figure._supxlabel else ""
     longest = letters(figure.get_figwidth() / CENTIMETRE)
     lines = [part for line in text.split("\n") for part in textwrap.wrap(line, longest, break_long_words=False, break_on_hyphens=False)]
-    shown = "\n".join(wrapped(line, longest) for line in lines)
+    shown = "\n".join(fitted(line, figure.get_figwidth() / CENTIMETRE) for line in lines)
     lines = (shown.count("\n") + 1 if shown else 0) - (before.count("\n") + 1 if before else 0)
     figure.supxlabel(shown, linespacing=1.15)
     _grow(figure, below=lines * 1.2 * text_size() / 72)
@@ -187,13 +196,48 @@ def listed(entries, centimetres):
 
 def text_width(text):
     """cm of a line of text."""
-    return TextPath((0, 0), text, size=text_size()).get_extents().width / 72 * 2.54 if text.strip() else 0.0
+    return _width_of(text, tuple(matplotlib.rcParams["font.family"]), text_size())
 
 
-def panel_title(text, axes):
-    """In lines as long as the panel's share of its figure."""
+@functools.cache
+def _width_of(text, family, size):
+    points, _, _ = text_to_path.get_text_width_height_descent(text, FontProperties(family, size=size), False) if text.strip() else (0.0, 0.0, 0.0)
+    return points / 72 * 2.54
+
+
+def fitted(text, centimetres):
+    """In lines no wider than that: broken as wrapped() does, and within a name that is too wide and has no such place."""
+    lines = []
+    for line in (part for given in text.split("\n") for part in wrapped(given, centimetres, text_width).split("\n")):
+        while len(line) > 1 and text_width(line) > centimetres:
+            end = next((n for n in range(len(line) - 1, 1, -1) if text_width(line[:n]) <= centimetres), 1)
+            lines.append(line[:end])
+            line = line[end:]
+        lines.append(line)
+    return "\n".join(lines)
+
+
+def row_names(names, width):
+    """Names of rows in their share of a `width` (cm), and the height (cm, at the size of a page's text) of the row with most lines."""
+    names = [fitted(name, ROW_NAMES * width) for name in names]
+    return names, 0.12 + LINE * (1 + max((name.count("\n") for name in names), default=0))
+
+
+def widest(names):
+    """cm of the widest line."""
+    return max((text_width(line) for name in names for line in name.split("\n")), default=0.0)
+
+
+def panel_title(text, axes, names=()):
+    """In lines as long as the panel's share of its figure. `names`: of rows, which the layout puts left of the panel, or of the first of
+    panels that share them."""
     columns = axes.get_subplotspec().get_gridspec().ncols
-    return wrapped(text, letters(0.8 * axes.figure.get_figwidth() / CENTIMETRE / columns))
+    width = axes.figure.get_figwidth() / CENTIMETRE
+    if not names:
+        return fitted(text, 0.8 * width / columns)
+    beside = widest(names) + 0.5 * scale()  # with ticks
+    is_shared = len(axes.get_shared_y_axes().get_siblings(axes)) > 1
+    return fitted(text, 0.95 * ((width - beside) / columns if is_shared else width / columns - beside))
 
 
 def panel_width(axes):
@@ -255,8 +299,52 @@ def file_name(text, longest=150):
     return f"{name[: longest - 13]}-{digest}"
 
 
+def _room(text, axes, panels, side):
+    """Pixels that a title or label of a panel may take along a side (0: width, 1: height) without leaving the picture or meeting what stands
+    beside: the same text of another panel, or a panel that has none."""
+    own = axes.get_window_extent()
+    middle = sum(own.get_points()[:, side]) / 2
+    before, behind = 0.0, axes.figure.bbox.size[side]
+    for other in panels:
+        box = other.get_window_extent().get_points()
+        is_beside = max(box[0, 1 - side], own.get_points()[0, 1 - side]) < min(box[1, 1 - side], own.get_points()[1, 1 - side])
+        if other is axes or not is_beside:
+            continue
+        centre = sum(box[:, side]) / 2
+        has_text = bool(text(other).get_text())
+        if centre < middle:
+            before = max(before, (centre + middle) / 2 if has_text else box[1, side])
+        else:
+            behind = min(behind, (centre + middle) / 2 if has_text else box[0, side])
+    return 2 * min(middle - before, behind - middle)
+
+
+def keep_inside(figure):
+    """Breaks titles and labels of panels that would leave the picture or meet others: matplotlib's layout makes room for their height alone.
+    The figure grows by their lines."""
+    if figure.get_layout_engine() is None:
+        return
+    figure.draw_without_rendering()
+    panels = [axes for axes in figure.axes if axes.axison]
+    added = {}
+    for of_panel, side in ((lambda a: a.title, 0), (lambda a: a.xaxis.label, 0), (lambda a: a.yaxis.label, 1)):
+        for axes in panels:
+            text = of_panel(axes)
+            room = _room(of_panel, axes, panels, side) - 0.1 * CENTIMETRE * figure.dpi
+            if not text.get_text() or text.get_window_extent().size[side] <= room:
+                continue
+            broken = fitted(text.get_text(), max(room / figure.dpi / CENTIMETRE, 0.5))
+            if side == 0:
+                row = round(axes.get_window_extent().y0)
+                added[row] = max(added.get(row, 0), broken.count("\n") - text.get_text().count("\n"))
+            text.set_text(broken)
+    if any(added.values()):
+        _grow(figure, below=sum(added.values()) * 1.2 * text_size() / 72)
+
+
 def save(figure, folder, name, formats=FORMATS):
     """Writes name.pdf, .svg and .png."""
+    keep_inside(figure)
     name = file_name(name)
     metadata = {
         "pdf": {"CreationDate": None, "ModDate": None, "Producer": None, "Creator": "ssrlab"},

@@ -1,8 +1,10 @@
 """Points of a study by their parameter values: points that differ in one parameter form a line, in two a map."""
 
+import itertools
 import json
+from dataclasses import replace
 
-from ssrlab.figures import numbers, style
+from ssrlab.figures import numbers
 from ssrlab.figures.request import near
 from ssrlab.mistakes import ResultsError
 
@@ -42,6 +44,48 @@ def families(results, chosen, axes):
     if not found:
         raise ResultsError(f"{chosen.where}: no two points differ in {' and '.join(axes)} alone{' where ' + json.dumps(where) if where else ''}")
     return {_name(results, rest, list(found)): points for rest, points in found.items()}
+
+
+def _swept(results):
+    """{technique: ([points of a sweep], [parameters of which it has several values])}, without single changes."""
+    points = {}
+    for key in results.points():
+        if results.techniques.get(key, {}).get("swept"):
+            points.setdefault(key[0], []).append(key)
+
+    def names_of(keys):
+        values = [(name, json.dumps(value)) for key in keys for name, value in results.techniques[key]["swept"].items()]
+        several = {name for (name, value), (other, another) in itertools.product(set(values), repeat=2) if name == other and value != another}
+        return [name for name in dict.fromkeys(name for name, _ in values) if name in several]
+
+    return {technique: (keys, names_of(keys)) for technique, keys in points.items()}
+
+
+def unasked(results, template):
+    """The figures of what a study sweeps, as requests like `template`: a `response` for each parameter with points that differ in it alone,
+    and of a sweep over two parameters a `map`, for each combination of what else differs. Points drawn at random make no map."""
+    requests = []
+
+    def found(options, points, axes):
+        chosen = replace(template, points=points, options=options)
+        try:
+            return chosen, families(results.narrowed(template.shots, points), chosen, axes)
+        except ResultsError:
+            return chosen, {}  # no two points differ in these alone
+
+    for technique, (points, names) in _swept(results.narrowed(template.shots, template.points)).items():
+        for name in names:
+            chosen, lines = found({"parameter": name}, points, [name])
+            requests += [replace(chosen, kind="response", name=f"response_{technique}_{name}")] if lines else []
+        if len(names) != 2:
+            continue
+        options = dict(zip(("x", "y"), names))
+        maps = found(options, points, names)[1]
+        for family, cells in maps.items():
+            if len(cells) > max(len(set(values)) for values in zip(*cells)):
+                name = "_".join(["map", technique, *names, *([family] if len(maps) > 1 else [])])
+                requests.append(replace(template, kind="map", name=name, points=list(cells.values()), options=options))
+    return requests
 
 
 def _name(results, rest, every):

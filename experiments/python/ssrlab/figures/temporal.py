@@ -23,15 +23,19 @@ def draw(results, chosen):
         return None
     most = max(len({r["shot"] for r in rows if r["metric"] == m}) for m in metrics)
     names = [results.point_label(*k) for k in results.points()]
-    figure, panels = style.panels(len(metrics), chosen, most_columns=2, height=2.2 + most * (0.5 + 0.22 * len(names)), names=names)
+    width = style.width_of(chosen, len(metrics), names)
+    shot_names, row = style.row_names([results.shot_label(s) for s in results.shots()], width / min(len(metrics), style.columns_in(width, 2)))
+    row = max(0.5 + 0.22 * len(names), row)
+    figure, panels = style.panels(len(metrics), chosen, most_columns=2, height=2.2 + most * row, names=names)
     for axes, metric in zip(panels, metrics):
-        _draw_metric(results, axes, [r for r in rows if r["metric"] == metric], metric)
-        axes.set_xlabel(style.panel_title(f"{METRICS[metric]}, {chosen.mask}", axes))
+        own = _draw_metric(results, axes, [r for r in rows if r["metric"] == metric], metric, dict(zip(results.shots(), shot_names)))
+        axes.set_xlabel(style.panel_title(f"{METRICS[metric]}, {chosen.mask}", axes, own))
     style.draw_legend(figure, panels, names)
     return figure
 
 
-def _draw_metric(results, axes, rows, metric):
+def _draw_metric(results, axes, rows, metric, shot_names):
+    """Returns the names of its rows."""
     shots, points = list(dict.fromkeys(r["shot"] for r in rows)), results.points()
     is_log = "length" not in metric
     for r in rows:
@@ -51,4 +55,5 @@ def _draw_metric(results, axes, rows, metric):
     if not is_log:
         axes.set_xlim(left=-0.5, right=max(axes.get_xlim()[1], 1.0))
         axes.xaxis.set_major_locator(MaxNLocator(6, integer=True))
-    style.name_rows(axes, [style.wrapped(results.shot_label(s), 22) for s in shots])
+    style.name_rows(axes, [shot_names[s] for s in shots])
+    return [shot_names[s] for s in shots]
