@@ -113,9 +113,18 @@ def representative_rows(rows):
     return [r for r in rows if r["represents_shot"] == "1"]
 
 
+def programs_of(manifest):
+    """The programs that made a study's cells. One that was built beside files of no commit counts as the committed program that wrote the tables, if both have the same code: those files are no part of either."""
+    written = manifest.get("written", {}).get("ssrlab", {})
+    is_committed = written.get("commit") and not written.get("dirty") and written.get("code")
+    for maker in manifest.get("provenance", []):
+        program = maker["ssrlab"]
+        yield written if is_committed and program.get("dirty") and program.get("code") == written["code"] else program
+
+
 def commits_of(manifest):
     """Commits of the programs that made a study's cells."""
-    programs = (maker["ssrlab"] for maker in manifest.get("provenance", []))
+    programs = programs_of(manifest)
     return " and ".join(dict.fromkeys((p["commit"] or "unknown") + (" with changes" if p.get("dirty") else "") for p in programs))
 
 

@@ -726,6 +726,11 @@ def test_kept_numbers(temporary):
         write(os.path.join(folder, "manifest.json"), json.dumps(made_up))
         result = tables(folder, "--keep", "--root", root)
         check(result.returncode == 2 and why in result.stderr, f"{why}: {result.stderr}")
+    # The same code, built beside files of no commit, and from a commit, which wrote the tables.
+    made_up["written"] = {"ssrlab": {"commit": "def5678", "dirty": False, "code": "00ff", "estimators": 7}}
+    check(summary_file.why_not_kept(made_up) is None and commits_of(made_up) == "def5678", made_up)
+    made_up["written"]["ssrlab"]["code"] = "0100"
+    check("no commit holds" in summary_file.why_not_kept(made_up), made_up)
     made_up["provenance"].append(json.loads(json.dumps(made_up["provenance"][0])))
     made_up["provenance"][1]["ssrlab"]["estimators"] = 8
     write(os.path.join(folder, "manifest.json"), json.dumps(made_up))

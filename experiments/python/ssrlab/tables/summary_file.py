@@ -10,7 +10,7 @@ from ssrlab.csv_files import number, parse_rows, whole, write_lines
 from ssrlab.json_files import parse_json
 from ssrlab.mistakes import ResultsError, counted
 from ssrlab.text_files import read_text, write_text
-from ssrlab.results import commits_of
+from ssrlab.results import commits_of, programs_of
 from ssrlab.tables.cell import Cell
 
 MOST_BYTES = 180_000  # what the comparison of 22 points over 49 shots (experiments/studies/configs/comparison.json) takes
@@ -36,7 +36,7 @@ def why_not_kept(manifest):
     """Why results cannot be committed, as a sentence, or None. They must be complete, and a commit must say how to make them again."""
     if manifest.get("is_complete") is not True:
         return "the study is not complete; run it to its end"
-    programs = [maker["ssrlab"] for maker in manifest["provenance"]]
+    programs = list(programs_of(manifest))
     if any(not p["commit"] for p in programs):
         return "its program was built without git, so that no commit is known; build it from a clone and run it again"
     if any(p.get("dirty") for p in programs):
