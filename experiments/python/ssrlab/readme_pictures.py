@@ -161,6 +161,8 @@ def main():
         draw_crops(arguments.rooms, "rooms_at_gpu_time")
     if arguments.visibility:
         draw_crops(arguments.visibility, "visibility")
+    if arguments.visibility_stills:
+        draw_crops(arguments.visibility_stills, "visibility_stills")
 
 
 if __name__ == "__main__":
