@@ -4,6 +4,7 @@
 #include "core/own_files.h"
 #include "core/shown_text.h"
 #include "experiments/cli/commands.h"
+#include "experiments/gpu_costs/chips/chip_rates.h"
 #include "experiments/results/advice/advice_answer.h"
 
 #include <iostream>
@@ -41,6 +42,7 @@ static void advise_command(const AdviseOptions& options) {
     if (options.makes_table()) return make_table(options);
     if (options.is_moving && options.is_at_rest) fail("--motion and --rest exclude each other; leave one of them out");
     AdviceQuestion question = options.question;
+    question.chip = chip_named(question.chip);
     question.movement = options.is_moving ? "in motion" : options.is_at_rest ? "at rest" : "";
     const Advice advice = read_advice(options.table);
     const std::string answer = advice_answer(advice, question);

@@ -73,7 +73,8 @@ int parse_words(std::vector<std::string> words, const std::vector<EndedPoint>& e
     words = with_help_option(std::move(words));
     CLI::App app{
         "ssrlab compares screen-space reflection techniques with path-traced truth.\n"
-        "Exit codes: 0 done, 1 a check that did not pass, 2 an error in the request, 3 a fault of this machine, 130 stopped by Ctrl-C.\n"
+        "Exit codes: 0 done, 1 a check that did not pass, 2 an error in the request, 3 a fault of this machine, 130 "
+        "stopped by Ctrl-C.\n"
         "Scenes, studies and documents are in " +
             own_files().string() + ". Paths such as experiments/docs/quickstart.md begin there.",
         "ssrlab"};

@@ -88,9 +88,10 @@ void add_watch(Commands& line) {
     option(command, "--scene SCENE...", watch.scenes,
            "Scenes, one or more, by name (see: ssrlab list scenes) or path; the first is shown first")
         ->required();
-    option(command, "--against NAME", watch.against,
-           "Also compare with this technique, as NAME or NAME:PRESET, or with another folder; best: frostbite_sssr:best, "
-           "which errs least over the included scenes (in rooms, composed_ssr errs less)");
+    option(
+        command, "--against NAME", watch.against,
+        "Also compare with this technique, as NAME or NAME:PRESET, or with another folder; best: frostbite_sssr:best, "
+        "which errs least over the included scenes (in rooms, composed_ssr errs less)");
     option(command, "--preset NAME", watch.preset, "Preset of the technique; default: the default parameters");
     option(command, "--camera NAME", watch.camera, "Camera of the scenes, by name; default: the first of each scene");
     add_size(command, watch.size);

@@ -101,7 +101,7 @@ def our_results(build, images, runs):
         def jod(number, *options):
             command = [build / "ssrlab", "compare", *(f"{folder}/{name}_{number}.png" for name in ("reference", "test"))]
             printed = subprocess.run([*command, "--metric", "cvvdp_0_5_6", "--display", DISPLAY, "--json", *options], check=True, capture_output=True)
-            return json.loads(printed.stdout)["metrics"]["cvvdp_0_5_6"]
+            return json.loads(printed.stdout)["metrics"][0]["value"]
 
         scores = jod("0000"), jod("####", "--fps", str(FRAMES_PER_SECOND), "--padding", "replicate")
     cases = {"still": f"cvvdp_0_5_6/still/{DISPLAY}", "frame": f"cvvdp_0_5_6/frame/{FRAMES_PER_SECOND}"}

@@ -79,7 +79,7 @@ AdviceRows rows_asked_for(const Advice& advice, const AdviceQuestion& question) 
         require_asked(rows, member, asked, is_asked, what, how);
         std::erase_if(rows, [&](const AdviceRow* row) { return !asked.empty() && !is_asked(row->*member); });
     };
-    narrow(&AdviceRow::chip, chip_named(question.chip), "chip",
+    narrow(&AdviceRow::chip, question.chip, "chip",
            "name it in \"gpu_compilers\" of the study of costs, run it, and make the table again");
     narrow(&AdviceRow::place, question.place, "place",
            "run both studies with shots of that group, and make the table again");

@@ -58,7 +58,7 @@ Evidence evidence_of_ratio(const EffectRow& row, const char* what, const JudgeLi
         .p_different = limits.worse_by > 1 ? row.estimate.p_outside(limits.worse_by) : *row.p,
         .p_equivalent = is_in_row ? row.p_equivalent.value_or(1) : row.estimate.p_beyond(limits.most_equivalent() - 1),
         .detectable = detectable_ratio(row, limits.worse_by),
-        .of_light = 1 / (1 - std::max(row.estimate.excess_of_a, row.estimate.excess_of_b))};
+        .of_light = std::exp(std::max(row.estimate.excess_of_a, row.estimate.excess_of_b))};
 }
 
 std::vector<Evidence> evidence_of_errors(std::span<const EffectRow> effects, const PrimaryComparisons& primary,

@@ -118,6 +118,12 @@ TEST(Judgement, ADeterministicRendererMayErrMoreWithinATolerance) {
     EXPECT_EQ(verdict({.worse_by = 1.5}), judgement::better) << "less needs no tolerance";
 }
 
+TEST(Judgement, KnowsHowFarTheLightWidensAnInterval) {
+    EffectRow row = effect("a", 5, 0.06);
+    row.estimate = {.value = 5, .excess_of_b = std::log(28.0)};  // logarithms
+    EXPECT_NEAR(evidence_of_ratio(row, judged_number::error, {}, 0.05).of_light, 28, 1e-9);
+}
+
 TEST(Judgement, SaysNothingOfWhatCannotBeDecided) {
     EffectRow without = effect("a", 1, 0.5);
     without.p.reset(), without.interval = "none: 1 seed";

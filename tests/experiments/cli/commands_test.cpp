@@ -128,7 +128,7 @@ TEST_F(CommandLine, JudgesFrames) {
     expect_mistake("judge now --fail-if-worse", "--fail-if-worse needs --against");
     expect_mistake("judge now --capture before", "--capture needs --reference");
     expect_mistake("judge now --scene fence", "now holds no images of 'fence'");
-    expect_mistake("judge now --out truth.exr", "truth.exr is a file and no folder");
+    expect_mistake("judge before --out truth.exr", "truth.exr is a file and no folder");
     // What has another form than the command takes.
     write_text(folder / "mine/technique.json", "{}");
     expect_mistake("describe mine", "for the folder of this name write ./mine");

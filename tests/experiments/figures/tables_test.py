@@ -15,6 +15,7 @@ import tempfile
 
 import ssrlab.tables.__main__ as tables_script
 from ssrlab.figures import numbers
+from ssrlab.results import commits_of
 from ssrlab.tables import shot_names, summary_file
 from ssrlab.tables.cell import Cell
 from ssrlab.tables.documents import Numbers

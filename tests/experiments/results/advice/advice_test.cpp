@@ -173,8 +173,8 @@ TEST_F(KeptAdvice, NamesWhatTheTableHas) {
         question.*member = value;
         return error_message([&] { advice_answer(advice, question); });
     };
-    EXPECT_TRUE(
-        says(message_of(&AdviceQuestion::chip, "gfx1100"), "no chip 'gfx1100'; it has navi21. To add one, name"));
+    EXPECT_TRUE(says(message_of(&AdviceQuestion::chip, "gfx1100"),
+                     "no chip 'gfx1100'; it has navi21 (Radeon RX 6800 XT). To add one, name"));
     EXPECT_TRUE(says(message_of(&AdviceQuestion::place, "cave"), "no place 'cave'; it has rooms. To add one, run"));
     EXPECT_TRUE(says(message_of(&AdviceQuestion::movement, "in motion"), "no movement 'in motion'; it has at rest"));
     EXPECT_TRUE(says(message_of(&AdviceQuestion::surface, "rough"), "no surface 'rough'; it has all, mirrors"));
