@@ -136,10 +136,10 @@ def tables(witnesses, folder, errors, effects):
     """Bold is the best or a tied one in `levels`, and a significant change in `changes`."""
     run(SSRLAB, "tables", folder)
     with open(os.path.join(folder, "tables", "levels.csv"), newline="", encoding="utf-8") as stream:
-        levels = {r.pop(""): r for r in csv.DictReader(stream)}
+        levels = {(r.pop("technique"), r.pop("point")): r for r in csv.DictReader(stream)}
     shots = {re.sub(r" standing$", "", c) for r in levels.values() for c in r if c.endswith(" standing")}
     for shot in shots & set(errors):
-        marked = {p: levels[", ".join(p)][shot + " standing"] for p in errors[shot]}
+        marked = {p: levels[p][shot + " standing"] for p in errors[shot]}
         best = next(p for p in errors[shot] if not errors[shot][p]["p_best"])
         assert marked[best] in ("best", "tied"), (shot, best, marked)
         for point, standing in marked.items():
@@ -148,7 +148,7 @@ def tables(witnesses, folder, errors, effects):
     with open(os.path.join(folder, "tables", "changes.md"), encoding="utf-8") as stream:
         lines = [[c.strip() for c in line.strip("| \n").split("|")] for line in stream if line.startswith("|")]
     with open(os.path.join(folder, "tables", "changes.csv"), newline="", encoding="utf-8") as stream:
-        columns = next(csv.reader(stream))[1:]
+        columns = next(csv.reader(stream))[5:]  # behind the keys of a row
     head = [c for c in columns if c in {r["shot"] for r in effects}]  # with whole names: those of Markdown are short
     assert len(head) == len(lines[0]), (head, lines[0])
     rows = {line[0].replace("\\", ""): line[1:] for line in lines[2:]}
