@@ -34,12 +34,16 @@ std::map<std::string, std::string> scene_names(const std::vector<ShotAnswer>& an
     return names;
 }
 
+/// Alone, "none" would read as if there were no such point.
+std::string said_name(const AnswerPoint& point) {
+    return point.technique == "none" ? "no reflections (none)" : name_of(point);
+}
+
 /// Points in the order in which they first appear, each with the shots that it is said of.
 class ByPoint {
 public:
     void add(const AnswerPoint& point, const std::string& where) {
-        // Alone, "none" would read as if there were no such point.
-        const std::string name = point.technique == "none" ? "no reflections (none)" : name_of(point);
+        const std::string name = said_name(point);
         auto at = std::ranges::find(found_, name, [](const auto& entry) { return entry.first; });
         if (at == found_.end()) at = found_.insert(at, {name, {}});
         at->second.push_back(where);
@@ -119,7 +123,7 @@ std::string in_scenes_like_these(const StudyResults& tables) {
         if (!is_of_headline(row)) continue;
         const AnswerPoint point{row.technique, row.point, row.ratio,
                                 row.low,       row.high,  labels[{row.technique, row.point}]};
-        const std::string& name = names[{row.technique, row.point}] = name_of(point);
+        const std::string& name = names[{row.technique, row.point}] = said_name(point);
         rows.push_back(&row);
         if (!row.rank || rows.size() == 1) continue;
         if (row.standing == standing::behind) behind.push_back(name);
@@ -154,8 +158,7 @@ std::string in_scenes_like_these(const StudyResults& tables) {
     const std::string gain =
         is_baseline ? ""
                     : ": " + shown(Ratio{first.ratio, first.low, first.high}) + " the " + headline.metric + " of " +
-                          (baseline.technique == "none" ? "no reflections (none)" : name_of(baseline)) +
-                          ", geometric mean over " + count +
+                          said_name(baseline) + ", geometric mean over " + count +
                           (first.scenes < scenes.size() ? " of " + std::to_string(scenes.size()) : "") + " scenes";
     std::string text = "In scenes like these " + name;
     if (first.standing == standing::best) return text + " certainly has the least error on average" + gain + ".";
