@@ -65,7 +65,7 @@ struct AtCosts : AnswerContext {
         Names near;
         for (const AcrossRow* row : rows)
             if (row->rank && row != first && row->standing != standing::behind)
-                near.push_back(row->label == base_label ? "no reflections (" + row->label + ")" : row->label);
+                near.push_back(row->technique == "none" ? "no reflections (" + row->label + ")" : row->label);
         return {shown_number(cost), first->label, measured(first->ratio, first->low, first->high), joined(near, ", ")};
     }
 
