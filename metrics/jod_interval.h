@@ -18,7 +18,8 @@ double relative_noise(const HostImage& half_a, const HostImage& half_b, const Vi
 struct JodInterval {
     Interval jod;  ///< 95 %
     /// For each band of frequencies, half the change of the JOD when half A replaces half B as the truth in this band
-    /// alone. Bands of noise are independent, so these are draws of the noise in the JOD.
+    /// alone. The noise of most pixels is independent from band to band, so these are draws of the noise in the JOD. A
+    /// rare bright path moves all bands alike, which `jod` allows for.
     std::vector<double> draws;
 };
 

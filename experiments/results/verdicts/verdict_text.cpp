@@ -36,7 +36,7 @@ std::string change_text(const JudgedView& view) {
 
 /// Why a ratio is undecided that better light would decide.
 std::string light_text(const JudgedView& view) {
-    constexpr double much = 1.2;
+    constexpr double much = 1.2;  // less hardly changes what an interval excludes
     if (view.verdict != judgement::undecided || view.of_light < much) return "";
     return ". The noise of the light in these frames widens the interval by a factor of up to " +
            number_text(view.of_light, 3) + ". Add half images, or make the light with more `scene-for --samples`";
