@@ -307,7 +307,7 @@ TEST_F(CommandLine, WaitsForNoFifo) {
     for (const std::string command :
          {"run fifo", "plan fifo", "merge fifo", "tune fifo", "compare fifo.exr fifo.exr", "needs fifo.gltf",
           "reference fifo.json", "gbuffer fifo.json", "stability --table fifo"}) {
-        const Outcome o = ssrlab(command, "timeout 20 env");
+        const Outcome o = ssrlab(command, "timeout 120 env");
         EXPECT_EQ(o.code, 2) << command << "\n" << o.text;
         EXPECT_NE(o.text.find("it is a FIFO"), std::string::npos) << command << "\n" << o.text;
     }

@@ -6,7 +6,7 @@ import sys
 
 try:
     from selenium import webdriver
-    from selenium.common.exceptions import WebDriverException
+    from selenium.common.exceptions import StaleElementReferenceException, TimeoutException, WebDriverException
     from selenium.webdriver.common.by import By
     from selenium.webdriver.support.ui import Select, WebDriverWait
 except ImportError:
@@ -14,6 +14,7 @@ except ImportError:
         "these tests run in a browser: install python3-selenium, chromium and chromium-driver (tests/run.sh does)"
     )
 
+PATIENCE = 120  # seconds of a wait: each ends within one on a quiet machine, and a busy machine is no fault of a page
 CHROMIUM, DRIVER = "/usr/bin/chromium", "/usr/bin/chromedriver"
 FLAGS = [
     "--headless",
@@ -27,6 +28,7 @@ FLAGS = [
     "--window-size=1400,1000",
     "--force-device-scale-factor=1",
 ]
+DRAWN_ANEW = (IndexError, StaleElementReferenceException)  # what a part raises that is replaced while the test reads
 
 
 def open_browser(profile, flags=()):
@@ -53,10 +55,16 @@ def equal(found, expected, what):
     check(found == expected, f"{what}: found {found!r}, expected {expected!r}")
 
 
+def wait_until(page, is_so, what):
+    """The first value of is_so(page) that is true; without one the test fails, since `what` did not come."""
+    try:
+        return WebDriverWait(page, PATIENCE, 0.1, DRAWN_ANEW).until(is_so)
+    except TimeoutException:
+        check(False, f"{what}: not there after {PATIENCE} s")
+
+
 def until_ready(page):
-    WebDriverWait(page, 20).until(
-        lambda p: p.execute_script("return document.documentElement.hasAttribute('data-ready')")
-    )
+    wait_until(page, lambda p: p.execute_script("return document.documentElement.hasAttribute('data-ready')"), "the page")
     page.execute_script("Object.assign(window, ssrlab)")  # what its modules export, by name
 
 

@@ -6,7 +6,7 @@ import os
 import shutil
 import subprocess
 
-from report_browser import By, WebDriverWait, check, equal, table_of, until_ready
+from report_browser import By, wait_until, check, equal, table_of, until_ready
 from report_crops import SHOT
 from report_viewer import captions
 
@@ -57,14 +57,14 @@ def test_diff(page, program, folder, scratch):
         check(abs(float(row[5][1]) - float(row[4][1]) - RAISED) < 1e-9 and row[8][0] == "changed", f"a number and its verdict: {row}")
     equal(str(len(cells)), lead.split()[0], "how many there are")
     page.execute_script("document.querySelector('.diff-point').scrollIntoView()")
-    WebDriverWait(page, 10).until(lambda p: len(p.find_elements(By.CSS_SELECTOR, ".diff-pictures canvas")) == 3, "its pictures")
+    wait_until(page, lambda p: len(p.find_elements(By.CSS_SELECTOR, ".diff-pictures canvas")) == 3, "its pictures")
     sums = page.execute_script(
         """return [...document.querySelectorAll('.diff-pictures canvas')].map(c =>
         c.getContext('2d').getImageData(0, 0, c.width, c.height).data.reduce((a, b) => (a * 31 + b) % 1e9))"""
     )
     equal(len(set(sums)), 3, "old, new and their difference look different")
     page.find_element(By.CSS_SELECTOR, ".diff-pictures canvas").click()
-    WebDriverWait(page, 10).until(lambda p: len(captions(p)) == 3, "both in the viewer")
+    wait_until(page, lambda p: len(captions(p)) == 3, "both in the viewer")
     equal(captions(page), ["truth, old", f"mcguire_dda · {POINT}, old", f"mcguire_dda · {POINT}, new"], "what the viewer shows")
     largest = page.execute_script(
         """const [, a, b] = viewer.shown.map(s => s.image);

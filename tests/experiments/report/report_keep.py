@@ -2,7 +2,7 @@
 
 import xml.etree.ElementTree
 
-from report_browser import CATCH_SAVES, By, WebDriverWait, check, choose, equal, pixels, until_ready
+from report_browser import CATCH_SAVES, By, wait_until, check, choose, equal, pixels, until_ready
 from report_crops import SHOT
 from report_viewer import NAMES, OTHER_SHOT, captions
 from selenium.webdriver.common.action_chains import ActionChains
@@ -14,7 +14,7 @@ def test_address(page, url):
         return {shot, target, mode, layout, curve, chosen, exposure, scale, active, pinned, ...view}"""
     page.execute_script("window.scrollTo(0, 0); at('viewer').scrollIntoView()")
     choose(page, "Shot", OTHER_SHOT)
-    WebDriverWait(page, 20).until(lambda p: captions(p) == NAMES)
+    wait_until(page, lambda p: captions(p) == NAMES, "all captions")
     choose(page, "Show", "absolute difference")
     page.execute_script(
         """setExposure(1.5); setScale(-1); viewer.curve = 'reinhard'; Object.assign(view, {zoom: 4, x: 0.25, y: 0.5});
@@ -23,7 +23,7 @@ def test_address(page, url):
         box.value = 5, box.dispatchEvent(new Event('input'));
         return choose([viewer.methods[1].key], false)"""
     )
-    WebDriverWait(page, 10).until(lambda p: "30+40" in p.execute_script("return location.hash"), "the address")
+    wait_until(page, lambda p: "30+40" in p.execute_script("return location.hash"), "the address")
     before, seen, address = page.execute_script(state), pixels(page, 1), page.execute_script("return location.hash")
     page.get("about:blank")
     page.get(url + address)
@@ -97,7 +97,7 @@ def test_save_tools(page):
         ActionChains(page, duration=0).move_to_element(page.find_element(By.CSS_SELECTOR, selector)).perform()
         page.execute_script("window.kept = null")
         ActionChains(page, duration=0).move_to_element(page.find_elements(By.CSS_SELECTOR, "#save-tools button")[place]).click().perform()
-        WebDriverWait(page, 10).until(lambda p: p.execute_script("return window.kept") is not None, selector)
+        wait_until(page, lambda p: p.execute_script("return window.kept") is not None, selector)
         return page.execute_async_script(
             "const done = arguments[0], [blob, name] = window.kept; blob.text().then(text => done([name, text, blob.size]))"
         )

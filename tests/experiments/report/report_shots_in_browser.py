@@ -8,7 +8,7 @@ import subprocess
 import sys
 import tempfile
 
-from report_browser import CATCH_SAVES, By, Select, WebDriverWait, check, choose_in, equal, open_browser, rows_of, until_ready, values
+from report_browser import CATCH_SAVES, By, Select, wait_until, check, choose_in, equal, open_browser, rows_of, until_ready, values
 
 MOST_NODES = 50_000  # of a page of 400 shots: a browser lays out so many in a fraction of a second
 POINTS = 20
@@ -25,10 +25,7 @@ def open_report(page, folder, shots):
 
 
 def wait_for(page, script, what, *arguments):
-    try:
-        WebDriverWait(page, 20).until(lambda p: p.execute_script("return " + script, *arguments))
-    except Exception as e:
-        check(False, f"{what}: {e}")
+    wait_until(page, lambda p: p.execute_script("return " + script, *arguments), what)
 
 
 def test_nodes(few, many, shots):

@@ -5,7 +5,7 @@ import json
 import os
 import re
 
-from report_browser import By, WebDriverWait, check, choose_in, equal, rows_of, table_of, until_ready
+from report_browser import By, wait_until, check, choose_in, equal, rows_of, table_of, until_ready
 
 AXE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "vendor", "axe.min.js")
 BEST, BASELINE = ("mcguire_dda", "stride=1"), ("mcguire_dda", "stride=4")
@@ -93,7 +93,7 @@ def test_unfinished_study(page, folder):
     page.execute_script("dispatchEvent(new Event('pointerdown')); waits[0][0]()")
     equal(page.execute_script("return waits.length"), 2, "a page that is used waits")
     page.execute_script("window.isOld = true; scrollTo(0, 900); setTimeout(reloadInPlace)")
-    WebDriverWait(page, 20).until(lambda p: p.execute_script("return !window.isOld && document.documentElement.hasAttribute('data-ready')"))
+    wait_until(page, lambda p: p.execute_script("return !window.isOld && document.documentElement.hasAttribute('data-ready')"), "the page after a reload")
     equal(page.execute_script("return scrollY"), 900, "the place after a reload")
 
 
@@ -133,7 +133,7 @@ def test_answers(page, shots):
         below = "return [viewer.shot, ...new Set([...document.querySelectorAll('details.shot[open]')].map(d => d.dataset.shot))]"
         equal(set(page.execute_script(below)), {shots[shot]}, "the shot that the sections below show")
         labels = "return [...document.querySelectorAll('#answer-pictures canvas')].map(c => c.getAttribute('aria-label'))"
-        WebDriverWait(page, 20).until(lambda p: all(shots[shot] in label for label in p.execute_script(labels)))
+        wait_until(page, lambda p: all(shots[shot] in label for label in p.execute_script(labels)), "labels of the shot")
     titles = texts(page, "#answer-pictures b")
     equal(titles, ["truth", "least mse: mcguire_dda · stride=1", "baseline: mcguire_dda · stride=4"], "pictures")
     colours = page.execute_script(
@@ -199,14 +199,14 @@ def test_chosen_point(page, shot):
     chosen = "return [...new Set([...document.querySelectorAll('#answer-charts .point.chosen')].map(m => m.dataset.point))]"
     equal(page.execute_script(chosen), ["stride=1"], "the best is chosen first")
     page.execute_script("const b = at('budget'); b.value = 1e6; b.dispatchEvent(new Event('input'))")
-    WebDriverWait(page, 20).until(lambda p: p.find_elements(By.CSS_SELECTOR, "#budget-answer .thumbnail canvas"))
+    wait_until(page, lambda p: p.find_elements(By.CSS_SELECTOR, "#budget-answer .thumbnail canvas"), "a picture of the budget's answer")
     page.execute_script("document.querySelector('#answer-charts .point[data-point=\"stride=4\"]').dispatchEvent(new Event('click'))")
     equal(page.execute_script(chosen), ["stride=4"], "the mark that was clicked")
     page.execute_script("answerOf(answerChoice.shot).baseline = null; return drawAnswerPictures()")
     equal(texts(page, "#answer-pictures b")[2:], ["chosen: mcguire_dda · stride=4"], "its picture")
     page.find_element(By.CSS_SELECTOR, "#budget-answer button").click()
     equal(page.execute_script(chosen), ["stride=1"], "the budget's row that was clicked")
-    WebDriverWait(page, 20).until(lambda p: len(texts(p, "#answer-pictures b")) == 2)
+    wait_until(page, lambda p: len(texts(p, "#answer-pictures b")) == 2, "two pictures of the answer")
     page.execute_script("answerChoice.point = null; return drawChosenPoint()")
 
 
@@ -214,7 +214,7 @@ def opened(page):
     """The shot and the points that the viewer shows, once a click has changed them."""
     read = """if (viewer.shot === null || at('panes').getAttribute('aria-busy') !== 'false') return null;
         return {shot: viewer.shot, points: viewer.shown.slice(1).map(s => s.method.label)}"""
-    was = WebDriverWait(page, 20).until(lambda p: p.execute_script(read))
+    was = wait_until(page, lambda p: p.execute_script(read), "the state of the viewer")
     page.execute_script("viewer.shot = null")
     return was
 

@@ -16,12 +16,12 @@ from report_browser import (
     pixels,
     srgb_code,
     until_ready,
+    wait_until,
     webdriver,
 )
 from report_crops import FIGURES_JSON, SHOT
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
-from selenium.webdriver.support.ui import WebDriverWait
 
 OTHER_SHOT = "fence.low.160x90"
 NAMES = ["truth", "none", "mcguire_dda · stride=1", "mcguire_dda · stride=4"]
@@ -153,12 +153,12 @@ def test_inspector(page, expected):
     )
     colors = [pixels(page, i, *middle)[:3] for i in range(4)]
     ActionChains(page).move_to_element(canvas(page, 0)).perform()
-    WebDriverWait(page, 10).until(lambda p: [row[10] for row in numbers_of(p)] == ["–", "–", "right", "right"], "rays at a pixel that is pointed at")
+    wait_until(page, lambda p: [row[10] for row in numbers_of(p)] == ["–", "–", "right", "right"], "rays at a pixel that is pointed at")
     ActionChains(page).click().perform()
     caption = text_of(page, "#readout caption")
     check(f"Pixel {x}, {y} (pinned" in caption, f"the pointer is over pixel {x}, {y}, but it says {caption}")
     # What is not shown is loaded when a pixel is pinned.
-    WebDriverWait(page, 10).until(lambda p: numbers_of(p)[3][9] not in ("–", "loading") and "Rung on_screen" in text_of(p, "#pixel-facts"))
+    wait_until(page, lambda p: numbers_of(p)[3][9] not in ("–", "loading") and "Rung on_screen" in text_of(p, "#pixel-facts"), "a rung at a pixel that is pointed at")
     shown = numbers_of(page)
     equal([row[0] for row in shown], NAMES, "methods in the inspector")
     values = [[float(v) for v in row[1:4]] for row in shown]
@@ -234,7 +234,7 @@ def test_false_color(page):
 def test_flip_map(page, expected):
     """The page's own FLIP against that of metrics/, of the half-rounded values that both have, and where it is read."""
     choose(page, "Show", "FLIP")
-    WebDriverWait(page, 10).until(lambda p: p.find_element(By.ID, "panes").get_attribute("aria-busy") == "false")
+    wait_until(page, lambda p: p.find_element(By.ID, "panes").get_attribute("aria-busy") == "false", "pictures that are no longer busy")
     maps = page.execute_script("return viewer.shown.slice(1).map(s => [...scalarsOf(s.image, viewer.shown[0].image, 'flip')])")
     for name, found in zip(FILES[1:], maps):
         wanted = expected(f"{SHOT}/{FILES[0]}_image.exr", f"{SHOT}/{name}_image.exr", 0.5)  # the fixture's exposure
@@ -243,7 +243,7 @@ def test_flip_map(page, expected):
         # What the authors' programs in single precision differ by (flip_map_pixel of tests/data/vectors/metrics).
         check(worst <= 2e-4, f"FLIP of {name} is {worst} from that of metrics/flip.h")
     page.execute_script("pin({x: 30, y: 80})")
-    WebDriverWait(page, 10).until(lambda p: "FLIP" in text_of(p, "#readout"))
+    wait_until(page, lambda p: "FLIP" in text_of(p, "#readout"), "FLIP in the readout")
     shown = float(numbers_of(page)[3][8])
     equal(shown, maps[2][80 * 160 + 30], "FLIP in the inspector")
     check(text_of(page, "#scale-text").startswith("1 (LDR-FLIP"), "its scale: " + text_of(page, "#scale-text"))
@@ -254,7 +254,7 @@ def test_flip_map(page, expected):
 def test_jod_map(page):
     """Maps of visible differences, which the report has: against the truth, of the target `image` alone."""
     choose(page, "Show", "visible difference (JOD)")
-    WebDriverWait(page, 10).until(lambda p: p.find_element(By.ID, "panes").get_attribute("aria-busy") == "false")
+    wait_until(page, lambda p: p.find_element(By.ID, "panes").get_attribute("aria-busy") == "false", "pictures that are no longer busy")
     equal(captions(page)[1:], [f"{name} visible difference" for name in NAMES[1:]], "captions")
     of_all = page.execute_script("return viewer.shown.map(s => jodMap(s.method)).map(map => map ? [...scalarsOf(map, null, 'jod')] : null)")
     check(of_all[0] is None, "the truth has no difference to itself")
@@ -262,7 +262,7 @@ def test_jod_map(page):
         check(len(values) == 160 * 90 and max(values) > 0.1 and min(values) >= 0, f"{name}: {min(values)} to {max(values)} JOD")
     check("JOD lost" in text_of(page, "#scale-text"), "its scale: " + text_of(page, "#scale-text"))
     choose_in(page, "viewer", "Target", "specular")
-    WebDriverWait(page, 10).until(lambda p: "no JOD map" in captions(p)[1])
+    wait_until(page, lambda p: "no JOD map" in captions(p)[1], "a caption without a JOD map")
     choose_in(page, "viewer", "Target", "image")
     choose(page, "Show", "colour")
 
@@ -270,7 +270,7 @@ def test_jod_map(page):
 def test_shot_beside(page):
     """The same points of two shots together; each compared with its own truth, or with the same point."""
     choose(page, "Beside it", OTHER_SHOT)
-    WebDriverWait(page, 20).until(lambda p: len(captions(p)) == 8, "both shots")
+    wait_until(page, lambda p: len(captions(p)) == 8, "both shots")
     equal(captions(page), [f"{n}, {shot}" for n in NAMES for shot in ("mirror_pillars front", "fence low")], "each point beside its other")
     page.execute_script("return setMode('absolute')")
     of = lambda base: page.execute_script(
@@ -283,7 +283,7 @@ def test_shot_beside(page):
     check(before[0] != before[1], "a point and the other shot's difference from it look alike")
     check(OTHER_SHOT in page.execute_script("return decodeURIComponent(viewerAddress())"), "the other shot in the address")
     choose(page, "Beside it", "no other shot")
-    WebDriverWait(page, 20).until(lambda p: captions(p)[1:] == [f"{n} absolute difference" for n in NAMES[1:]], "without it")
+    wait_until(page, lambda p: captions(p)[1:] == [f"{n} absolute difference" for n in NAMES[1:]], "without it")
     choose(page, "Show", "colour")
 
 
@@ -336,12 +336,12 @@ def test_chooser(page):
     visible = [b.text for b in page.find_elements(By.CSS_SELECTOR, "#chooser label[data-key]") if b.is_displayed()]
     equal(visible, ["stride=4"], "what a filter leaves")
     page.find_element(By.ID, "chooser-all").click()
-    WebDriverWait(page, 10).until(lambda p: pane_count(p) == 1)
+    wait_until(page, lambda p: pane_count(p) == 1, "one picture")
     equal(captions(page), [NAMES[3]], "the listed one")
     page.find_element(By.ID, "chooser-filter").clear()
     page.execute_script("filterChooser('')")
     page.find_element(By.ID, "chooser-all").click()
-    WebDriverWait(page, 10).until(lambda p: captions(p) == NAMES)
+    wait_until(page, lambda p: captions(p) == NAMES, "all captions")
     page.find_element(By.CSS_SELECTOR, f"[aria-label='Remove {NAMES[1]}']").click()
     equal(captions(page), [NAMES[0], *NAMES[2:]], "one is removed")
     page.execute_script("return choose(listedKeys(viewer.methods), true)")
@@ -410,7 +410,7 @@ def test_other_sections_open_it(page):
 
 def test_images_of_a_rung(page):
     choose_in(page, "viewer", "Target", "on_screen")
-    WebDriverWait(page, 20).until(lambda p: len(p.find_elements(By.CSS_SELECTOR, "#panes figcaption")) == 2)
+    wait_until(page, lambda p: len(p.find_elements(By.CSS_SELECTOR, "#panes figcaption")) == 2, "two pictures")
     equal(captions(page), ["truth", "sssr · first"], "rung and technique")
 
 
@@ -420,7 +420,7 @@ def test_frames_of_a_sequence(page, shot):
     choose_in(page, "viewer", "Shot", shot)
 
     def expect(frame, action):
-        WebDriverWait(page, 20).until(lambda p: p.execute_script("return viewer.shown[0]?.image.frame") == frame, action)
+        wait_until(page, lambda p: p.execute_script("return viewer.shown[0]?.image.frame") == frame, action)
         values = page.execute_script("return viewer.shown.map(s => pixelRgb(s.image, 5)[0])")
         # Of frames that are only played five bits are kept, so that they are wrong by 2^-6; of the last one ten.
         check(all(abs(a / b - 1) <= (2**-6 if frame < 6 else 2**-11) for a, b in zip(values, (1 / frame, 0.5 / frame))), f"values after {action}: {values}")
@@ -437,13 +437,13 @@ def test_frames_of_a_sequence(page, shot):
     page.execute_script("const t = at('time'); t.value = 1; t.dispatchEvent(new Event('input'))")
     expect(4, "the slider")
     ActionChains(page).send_keys("k").perform()
-    WebDriverWait(page, 20).until(lambda p: p.execute_script("return viewer.frame") != 4, "playing")
+    wait_until(page, lambda p: p.execute_script("return viewer.frame") != 4, "playing")
     ActionChains(page).send_keys("k").perform()
-    WebDriverWait(page, 20).until(lambda p: p.find_element(By.ID, "play").get_attribute("aria-pressed") == "false", "stopping")
+    wait_until(page, lambda p: p.find_element(By.ID, "play").get_attribute("aria-pressed") == "false", "stopping")
     page.execute_script("arguments[0].click()", page.find_element(By.XPATH, f"//section[@id='temporal']//button[.='Play {shot}']"))
-    WebDriverWait(page, 20).until(lambda p: p.find_element(By.ID, "play").get_attribute("aria-pressed") == "true", "playing from its section")
+    wait_until(page, lambda p: p.find_element(By.ID, "play").get_attribute("aria-pressed") == "true", "playing from its section")
     ActionChains(page).send_keys("k").perform()
-    WebDriverWait(page, 20).until(lambda p: p.find_element(By.ID, "play").get_attribute("aria-pressed") == "false", "stopping again")
+    wait_until(page, lambda p: p.find_element(By.ID, "play").get_attribute("aria-pressed") == "false", "stopping again")
 
 
 def test_linked_images(page, folder):
@@ -453,7 +453,7 @@ def test_linked_images(page, folder):
     loaded = "return loadedImages.size"
     check(page.execute_script(loaded) <= 4, "only the pictures of the first screen are loaded before anybody looks at others")
     page.execute_script("at('viewer').scrollIntoView()")
-    WebDriverWait(page, 10).until(lambda p: captions(p) == NAMES)
+    wait_until(page, lambda p: captions(p) == NAMES, "all captions")
     check(4 <= page.execute_script(loaded) <= 7, "images that are shown, and those of the first screen")
     colors = [pixels(page, i) for i in range(4)]
     check(len(set(colors)) == 4, "linked images look different")

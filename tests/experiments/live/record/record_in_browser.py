@@ -13,7 +13,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "report"))
-from report_browser import WebDriverWait, open_browser
+from report_browser import open_browser, wait_until
 
 # On the CPU, whatever the machine has, so that the bounds below hold everywhere.
 SOFTWARE = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
@@ -102,9 +102,7 @@ def record(program, folder, name, *options):
 
 def open_page(browser, page):
     browser.get("file://" + page)
-    WebDriverWait(browser, 60).until(
-        lambda b: b.execute_script("return document.documentElement.dataset.ready ?? null") is not None
-    )
+    wait_until(browser, lambda b: b.execute_script("return document.documentElement.dataset.ready ?? null") is not None, "the page")
     problem = browser.execute_script("return document.getElementById('problem').textContent")
     check(not problem, f"the page says: {problem}")
     browser.execute_script("Object.assign(window, ssrlab)")  # what its modules export, by name

@@ -18,10 +18,9 @@ import tempfile
 import time
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "report"))
-from report_browser import WebDriverWait, open_browser
+from report_browser import PATIENCE, WebDriverWait, open_browser
 
 PROGRAM = sys.argv[1]
-SECONDS = 90  # for whatever the page waits for, on a busy machine
 
 INCLUDED = "// What the shader below includes.\nvec3 weighed(vec3 light) {\n    return light * WEIGHT;\n}\n"
 BROKEN = "// What the shader below includes.\nvec3 weighed(vec3 light) {\n    return light * undeclared_weight;\n}\n"
@@ -85,7 +84,7 @@ class Page:
     def until(self, what, script, *arguments):
         """What a script returns, once that is true."""
         try:
-            return WebDriverWait(self.browser, SECONDS, poll_frequency=0.15).until(
+            return WebDriverWait(self.browser, PATIENCE, poll_frequency=0.15).until(
                 lambda b: b.execute_script("return " + script, *arguments)
             )
         except Exception:
@@ -119,7 +118,7 @@ def check_who_is_answered(address):
     own = f"127.0.0.1:{port}"
 
     def status(path, method="GET", body=None, **headers):
-        connection = http.client.HTTPConnection("127.0.0.1", int(port), timeout=10)
+        connection = http.client.HTTPConnection("127.0.0.1", int(port), timeout=PATIENCE)
         connection.putrequest(method, path, skip_host=True)
         for name, value in {"Host": own, "Connection": "close", **headers}.items():
             connection.putheader(name.replace("_", "-"), value)
@@ -274,7 +273,7 @@ def main():
             check_kept_folder(page, out)
             start = time.monotonic()
             watch.send_signal(signal.SIGTERM)
-            check(watch.wait(timeout=20) == 0, f"it ended with {watch.returncode}")
+            check(watch.wait(timeout=PATIENCE) == 0, f"it ended with {watch.returncode}")
             check(time.monotonic() - start < 10, "its end took more than ten seconds")
         finally:
             if browser:
