@@ -44,6 +44,12 @@ export const list = value => Array.isArray(value) ? value : [];
 /// The value if it is present, else the first one.
 export const preferred = (values, value) => values.includes(value) ? value : values[0];
 
+/// The rows that have the value under a key, or else those that share the first row's.
+export function preferredRows(rows, key, value) {
+    const shown = preferred(unique(rows.map(row => row[key])), value);
+    return rows.filter(row => row[key] === shown);
+}
+
 /// Key to rows, in the order in which keys first come.
 export function grouped(rows, keyOf) {
     const groups = new Map();

@@ -7,7 +7,7 @@ import {drawnPart, leaveOut, pointLegend} from "./parts.js";
 import {ofShot, pointKey, report, shortShot} from "../study/data.js";
 import {better, framesText, headlineMetric, metricKey, otherMetric, rowText} from "../study/errors.js";
 import {chartedRows, pointText} from "../study/points.js";
-import {number, preferred, unique} from "../values.js";
+import {number, preferredRows, unique} from "../values.js";
 
 /// [from, below] of a mask `roughness_<from>_<below>`, or null.
 function roughnessClass(mask) {
@@ -26,10 +26,9 @@ export function showRoughness() {
 /// Charts of both errors of the headline side by side, then those of the bias.
 function roughnessParts(rows) {
     if (!rows.length) return [];
-    const specular = rows.filter(r => r.target === preferred(unique(rows.map(o => o.target)), "specular"));
+    const specular = preferredRows(rows, "target", "specular");
     const metric = headlineMetric(specular), other = otherMetric(metric, specular);
-    const bias =
-        rows.filter(r => r.metric === "bias" && r.target === preferred(unique(rows.map(o => o.target)), "incident"));
+    const bias = preferredRows(rows, "target", "incident").filter(r => r.metric === "bias");
     const errors = [metric, other].filter(Boolean).map(key => specular.filter(r => metricKey(r) === key));
     const names = unique(errors.map(own => own[0].metric)).join(" and ");
     return [

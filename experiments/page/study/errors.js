@@ -1,7 +1,7 @@
 // Rows of errors: their metrics, what is better, and what is compared first.
 
 import {manifestShot, ofShot, report} from "./data.js";
-import {interval, list, number, preferred, unique} from "../values.js";
+import {interval, list, number, preferred, preferredRows, unique} from "../values.js";
 
 /// What the page shows first: the error that a study compares by, and what an eye sees; manifests of other versions
 /// may lack it.
@@ -74,8 +74,7 @@ export function againstNone(row, rows) {
 export const headlineRows = (shot, metric, target = headline.target) => {
     const {mask} = headline;
     const of = ofShot(report.errors, shot).filter(r => r.metric === metric && r.value !== null);
-    const narrow = (rows, key, wanted) => rows.filter(r => r[key] === preferred(unique(rows.map(r => r[key])), wanted));
-    return narrow(narrow(of, "target", target), "mask", mask);
+    return preferredRows(preferredRows(of, "target", target), "mask", mask);
 };
 
 /// Names of the metrics that stand side by side: one or two.
