@@ -4,6 +4,7 @@
 #include "core/files.h"
 #include "core/list_text.h"
 #include "experiments/results/answers/answers.h"
+#include "experiments/results/cells/host_info.h"
 #include "experiments/results/cells/image_path.h"
 #include "experiments/study/folder_owner.h"
 #include "experiments/study/measuring/times/timing.h"
@@ -34,16 +35,46 @@ std::vector<Part> read_parts(const std::vector<fs::path>& folders) {
     return parts;
 }
 
+std::string text_of(const DeviceInfo& device) { return device.name + ", " + device.driver; }
+
+/// The one that made the cell, by name and driver.
+DeviceInfo device_of(const Cell& cell) {
+    const nlohmann::json& device = cell.provenance.at("device");
+    return {.name = device.at("name"), .driver = device.at("driver")};
+}
+
 /// The devices that made the cells of the parts, by name and driver.
 std::map<std::string, DeviceInfo> devices_of(const std::vector<Part>& parts) {
     std::map<std::string, DeviceInfo> devices;
     for (const Part& part : parts)
-        for (const auto& [name, cell] : part.cells) {
-            const nlohmann::json& made_by = cell.provenance.at("device");
-            const DeviceInfo device{.name = made_by.at("name"), .driver = made_by.at("driver")};
-            devices.emplace(device.name + ", " + device.driver, device);
-        }
+        for (const auto& [name, cell] : part.cells) devices.emplace(text_of(device_of(cell)), device_of(cell));
     return devices;
+}
+
+/// Why a finished cell is none of those that this program would make on a device. The first reason that its maker
+/// shows: what a name stands for cannot be read back from it. `code`: code_hash().
+std::string why_not_of_the_plan(const Cell& cell, const DeviceInfo& device, const std::string& code) {
+    if (const std::string made_on = text_of(device_of(cell)); made_on != text_of(device)) return "made on " + made_on;
+    const nlohmann::json program = cell.provenance.value("ssrlab", nlohmann::json::object());
+    if (program.value("code", "") != code) {
+        const std::string commit = program.value("commit", "");
+        return "made by another ssrlab" + (commit.empty() ? "" : " (commit " + commit.substr(0, 8) + ")") +
+               ", or with other settings";
+    }
+    return "made with other settings or scenes";
+}
+
+/// Says how many finished cells of the parts no plan named, and why.
+void say_what_does_not_count(const std::vector<Part>& parts, const DeviceInfo& device,
+                             const std::function<void(const std::string&)>& say) {
+    const std::string code = code_hash();
+    for (const Part& part : parts) {
+        std::map<std::string, size_t> reasons;
+        for (const auto& [name, cell] : part.cells) ++reasons[why_not_of_the_plan(cell, device, code)];
+        for (const auto& [reason, count] : reasons)
+            say("note: " + counted(count, "finished cell") + " of " + part.folder.string() +
+                (count == 1 ? " does" : " do") + " not count: " + reason);
+    }
 }
 
 /// Cells are named by the device that made them, which need not be one of this machine: the only one of the parts, or
@@ -146,10 +177,10 @@ size_t merge_study(const Config& config, const RunSettings& settings, const std:
             study.finished.push_back(std::move(found->cell));
         }
     }
+    if (!missing.empty()) say_what_does_not_count(parts, device, say);
     if (study.finished.empty())
         fail("none of the ", study.plan.cell_count(), " cells of this study is in ", folders.front().string(),
-             folders.size() > 1 ? " or the folders beside it" : "", "; were they made by this version of ssrlab, on ",
-             device.name, "?",
+             folders.size() > 1 ? " or the folders beside it" : "", ", made by this ssrlab on ", device.name, ".",
              devices.size() > 1 ? " They hold cells of several devices: --device NAME says whose are merged" : "");
     write_results(study, missing.empty(), {});
     say(counted(study.finished.size(), "cell") + " merged, " + std::to_string(missing.size()) + " missing");

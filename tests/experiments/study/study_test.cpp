@@ -215,6 +215,20 @@ TEST_F(StudyTest, PartsOfADeviceThatIsNotHereAreMerged) {
     EXPECT_EQ(merge(both, "0", "d"), 0u) << "an index is one of this machine's, not a digit of a name";
     EXPECT_EQ(device_of("d"), Device("0").info().name);
     EXPECT_THROW(merge(both, "elsewhere", "e"), Error);
+
+    // Finished cells that do not count are named with the reason, where cells are missing.
+    make_on_another_device(study, folder / "here", "Graphics 10");
+    fs::path of_a_point;
+    for (const auto& entry : fs::directory_iterator(folder / "here/cells"))
+        if (read_json(entry.path())["cell"]["shot"].is_null()) of_a_point = entry.path();
+    fs::remove(of_a_point);
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(merge(both, "Graphics 10", "f"), 1u);
+    const std::string said = testing::internal::GetCapturedStdout();
+    EXPECT_NE(said.find("note: 3 finished cells of " + (folder / "there").string() +
+                        " do not count: made on Graphics 9000, a driver"),
+              std::string::npos)
+        << said;
 }
 
 TEST_F(StudyTest, WhatWasMeasuredAgainstAnotherTruthIsNotUsed) {
