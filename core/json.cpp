@@ -67,6 +67,21 @@ private:
     size_t at_ = 0, line_ = 1, column_ = 1;
 };
 
+/// What is most likely wrong at `found`, where the library's `reason` says what it did not expect; "" if that is not
+/// clear. `before`: the text up to there.
+std::string_view likely_cause(std::string_view reason, std::string_view before, char found) {
+    const auto has = [&](std::string_view part) { return reason.find(part) != std::string_view::npos; };
+    const size_t last = before.find_last_not_of(" \t\r\n");
+    const bool is_closing = found == '}' || found == ']';
+    if (has("invalid literal") && found == '\'') return " (texts have double quotes)";
+    if (has("parsing object key - invalid literal")) return " (keys have double quotes)";
+    if (is_closing && last != std::string_view::npos && before[last] == ',')
+        return " (the comma before it is one too many)";
+    if ((has("; expected '}'") || has("; expected ']'")) && !is_closing && !has("end of input"))
+        return " (is a comma missing before it?)";
+    return "";
+}
+
 /// Builds a document from the parser's events: left to itself the library lets the last of two equal keys win, and
 /// nests as deep as the file says.
 class DocumentBuilder final : public nlohmann::json_sax<json> {
@@ -112,7 +127,8 @@ public:
                  " is beyond what float64 can hold");
         std::string reason = e.what();
         if (const size_t at = reason.rfind("syntax error"); at != std::string::npos) reason = reason.substr(at);
-        fail(name_, ":", line, ":", column, ": not valid JSON: ", shortened(reason));
+        fail(name_, ":", line, ":", column, ": not valid JSON: ", shortened(reason),
+             likely_cause(reason, text_.substr(0, end), end < text_.size() ? text_[end] : '\0'));
     }
 
 private:

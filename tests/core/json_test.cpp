@@ -28,6 +28,22 @@ TEST(Json, SyntaxErrorsNameLineAndColumn) {
     std::filesystem::remove(file);
 }
 
+TEST(Json, SyntaxErrorsNameALikelyCause) {
+    const auto of = [](const std::string& text) { return message([&] { parse_json(text, "file"); }); };
+    const char *missing = "(is a comma missing before it?)", *additional = "(the comma before it is one too many)";
+    const std::pair<const char*, const char*> causes[] = {{R"({"a": 1 "b": 2})", missing},
+                                                          {"[1 2]", missing},
+                                                          {R"([{"a": 1} {"b": 2}])", missing},
+                                                          {"[1, 2,]", additional},
+                                                          {"{\"a\": 1,\n}", additional},
+                                                          {"{'a': 1}", "(texts have double quotes)"},
+                                                          {R"({"a": 'b'})", "(texts have double quotes)"},
+                                                          {"{a: 1}", "(keys have double quotes)"}};
+    for (const auto& [text, cause] : causes) EXPECT_TRUE(of(text).ends_with(cause)) << of(text);
+    for (const char* text : {R"({"a": [1, 2})", R"({"a": })", R"({"a" 1})", R"({"a": 1)", R"({"a": ])", ""})
+        EXPECT_FALSE(of(text).ends_with(")")) << of(text);
+}
+
 TEST(Json, EveryKeyMustBeKnownAndInRange) {
     const auto json = nlohmann::json::parse(R"({"width": 20, "hieght": 3})");
     JsonObject object(json, "config.json");

@@ -84,14 +84,18 @@ json page_numbers(const fs::path& results, const WatchedPoint& point, const std:
         verdicts.push_back(verdict_on(tables, name, other.name(), other.label));
     }
     verdicts.push_back(verdict_on(tables, name, no_reflections, "no reflections"));
+    std::map<std::string, json> of_others;  // by shot
     json shots = json::array();
     for (const MetricSummary& e : tables.summary) {
-        if (name_of(e) != name || e.metric != primary.metric || e.mask != primary.mask || e.target != primary.target)
-            continue;
-        shots.push_back({{"shot", e.shot},
-                         {"error", row_json(e)},
-                         {"images", images_of(results, tables.manifest, e.shot, labels, images)}});
+        if (e.metric != primary.metric || e.mask != primary.mask || e.target != primary.target) continue;
+        if (name_of(e) == name)
+            shots.push_back({{"shot", e.shot},
+                             {"error", row_json(e)},
+                             {"images", images_of(results, tables.manifest, e.shot, labels, images)}});
+        else if (const auto known = labels.find(name_of(e)); known != labels.end())
+            of_others[e.shot].push_back({{"label", known->second}, {"error", row_json(e)}});
     }
+    for (json& shot : shots) shot["others"] = of_others[shot["shot"].get<std::string>()];
     return {{"shots", shots}, {"verdicts", verdicts}};
 }
 

@@ -3,7 +3,8 @@
 #include "experiments/live/watch/watch_study.h"
 
 /// The page's form of a results folder that numbers_study() filled: {"shots": [{"shot", "error": a row of summary.csv,
-/// "images": {"truth", "now", "none", label of a point: {target: PageImages::add()}}}], "verdicts": [{"label",
+/// "images": {"truth", "now", "none", label of a point: {target: PageImages::add()}}, "others": [{"label", "error"}] of
+/// what `point` is judged against}], "verdicts": [{"label",
 /// "verdict", "why", "views": [JudgedView]}]}.
 ///
 /// Verdicts are judge_effects()'s, of `point` against each of `against` and against no reflections. Where it cannot

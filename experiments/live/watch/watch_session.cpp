@@ -156,7 +156,7 @@ void WatchSession::keep() {
     is_to_be_kept_ = false;
     job_.reset();  // it writes where the numbers are copied from
     json numbers = result_;
-    for (json& shot : numbers["shots"]) shot.erase("images");
+    for (json& shot : numbers["shots"]) shot.erase("images"), shot.erase("others");
     versions_.keep(settings_.preset, values_, numbers);
     is_kept_done_ = false;
     begin(Clock::now());  // against this version from now on

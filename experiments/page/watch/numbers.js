@@ -3,7 +3,7 @@
 import {at, h} from "../elements/elements.js";
 import {fillTable} from "../elements/tables.js";
 import {causeTexts} from "../study/verdicts.js";
-import {interval, number, percent, twoDecimals} from "../values.js";
+import {interval, number, percent, twoDecimals, unique} from "../values.js";
 
 const writeTable = (id, names, rows) => fillTable(at(id), names.map((name, i) => ({name, number: i > 0})), rows);
 
@@ -49,8 +49,10 @@ export function writeNonFinite({result}) {
 }
 
 export function writeShots({result}) {
-    writeTable("shots", ["shot", "mse of reflective pixels", "seeds"],
-              (result?.shots ?? []).map(s => [s.shot, errorText(s), String(s.error.seeds)]));
+    const shots = result?.shots ?? [], labels = unique(shots.flatMap(s => (s.others ?? []).map(o => o.label)));
+    const errorOf = (shot, label) => (shot.others ?? []).filter(o => o.label === label).map(errorText)[0] ?? "–";
+    writeTable("shots", ["shot", "mse of reflective pixels, now", ...labels, "seeds"],
+              shots.map(s => [s.shot, errorText(s), ...labels.map(label => errorOf(s, label)), String(s.error.seeds)]));
 }
 
 /// What of a technique to look at, by the cause of an error.

@@ -35,10 +35,8 @@ TEST(ChildProcess, EndsOneThatHangs) {
         return run_program({"/bin/sh", "-c", script, file.string()}, &patience);
     };
     EXPECT_EQ(run("for i in 1 2 3 4 5 6 7 8 9 10 11 12; do sleep 0.1; echo $i >> \"$0\"; done; exit 5"), 5);
-    const auto start = std::chrono::steady_clock::now();
-    EXPECT_NE(error_message([&] { run("echo more >> \"$0\"; exec sleep 60"); }).find("made no progress for 1 s"),
+    EXPECT_NE(error_message([&] { run("echo more >> \"$0\"; exec sleep 3600"); }).find("made no progress for 1 s"),
               std::string::npos);
-    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
     fs::remove(file);
 }
 
