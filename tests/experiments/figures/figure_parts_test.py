@@ -79,7 +79,7 @@ def test_titles_stay_inside():
         axes.set_xlabel("roughness of a name that is longer than any panel of two is wide, even on a page of a paper")
         axes.set_ylabel("root mean squared error of what is seen, over the limit")
     height = figure.get_figheight()
-    style.keep_inside(figure)
+    style.lay_out(figure)
     check(outside(figure) == [], f"{outside(figure)} leave the picture")
     for of_panel in (lambda a: a.title, lambda a: a.xaxis.label):
         left, right = (of_panel(axes).get_window_extent() for axes in grid[:2])

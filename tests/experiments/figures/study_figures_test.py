@@ -204,7 +204,7 @@ def test_long_names(folder):
         for name, figure in figures_of_request(view, request_of(kind, results.headline_metric(), width=width, options=options.get(kind, {}))):
             if figure is None or kind == "motion":
                 continue
-            style.keep_inside(figure)
+            style.lay_out(figure)
             check(outside(figure) == [], f"{name}: {outside(figure)} leave the picture")
             narrowest = min(a.get_window_extent().width for a in figure.axes if a.has_data() and a.get_label() != "<colorbar>") / figure.dpi / style.CENTIMETRE
             check(narrowest > 2, f"{name}: a panel is {narrowest:.1f} cm wide")

@@ -66,7 +66,7 @@ def apply(font="sans", width=None):
             "lines.markersize": 4 * scale,
             "errorbar.capsize": 1.8 * scale,
             "legend.frameon": False,
-            "figure.dpi": 100,
+            "figure.dpi": 300,  # as saved: parts are placed as large as they are drawn
             "savefig.dpi": 300,
             "pdf.fonttype": 42,  # TrueType, embedded: publishers refuse matplotlib's own Type 3
             "svg.fonttype": "path",  # looks the same where the font is not installed
@@ -319,14 +319,14 @@ def _room(text, axes, panels, side):
     return 2 * min(middle - before, behind - middle)
 
 
-def keep_inside(figure):
-    """Breaks titles and labels of panels that would leave the picture or meet others: matplotlib's layout makes room for their height alone.
-    The figure grows by their lines."""
+def lay_out(figure):
+    """Places the parts of a figure, once for all of its formats: matplotlib itself would do so twice for each. Breaks titles and labels of
+    panels that would leave the picture or meet others, since matplotlib makes room for their height alone. The figure grows by their lines."""
     if figure.get_layout_engine() is None:
         return
     figure.draw_without_rendering()
     panels = [axes for axes in figure.axes if axes.axison]
-    added = {}
+    added, has_broken = {}, False
     for of_panel, side in ((lambda a: a.title, 0), (lambda a: a.xaxis.label, 0), (lambda a: a.yaxis.label, 1)):
         for axes in panels:
             text = of_panel(axes)
@@ -338,13 +338,17 @@ def keep_inside(figure):
                 row = round(axes.get_window_extent().y0)
                 added[row] = max(added.get(row, 0), broken.count("\n") - text.get_text().count("\n"))
             text.set_text(broken)
+            has_broken = True
     if any(added.values()):
         _grow(figure, below=sum(added.values()) * 1.2 * text_size() / 72)
+    if has_broken:
+        figure.draw_without_rendering()
+    figure.set_layout_engine(None)
 
 
 def save(figure, folder, name, formats=FORMATS):
     """Writes name.pdf, .svg and .png."""
-    keep_inside(figure)
+    lay_out(figure)
     name = file_name(name)
     metadata = {
         "pdf": {"CreationDate": None, "ModDate": None, "Producer": None, "Creator": "ssrlab"},
