@@ -4,6 +4,7 @@
 #include "core/error.h"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <cerrno>
@@ -27,11 +28,12 @@ public:
 }  // namespace
 
 RunningProgram::RunningProgram(const std::vector<std::string>& arguments, const std::filesystem::path& output,
-                               const std::filesystem::path& errors) {
+                               const std::filesystem::path& errors, Priority priority) {
     constexpr int anew = O_WRONLY | O_CREAT | O_TRUNC;
     const OpenFile in("/dev/null", O_RDONLY), out(output.c_str(), anew), err(errors.c_str(), anew);
     process_ = start_program(arguments, SIGKILL, [&] {
         setpgid(0, 0);
+        if (priority == Priority::background) setpriority(PRIO_PROCESS, 0, 19);
         dup2(in.descriptor, STDIN_FILENO), dup2(out.descriptor, STDOUT_FILENO), dup2(err.descriptor, STDERR_FILENO);
     });
     setpgid(process_, process_);  // whichever of both is first

@@ -46,7 +46,8 @@ WatchJob::WatchJob(JobKind kind, const WatchSettings& settings, const nlohmann::
       output_(path_inside(settings.out, name_of(kind) + ".out")),
       errors_(path_inside(settings.out, name_of(kind) + ".err")),
       patience_(patience_with(kind, settings.patience)),
-      program_(arguments_of(kind, settings, study, prunes), output_, errors_) {}
+      program_(arguments_of(kind, settings, study, prunes), output_, errors_,
+               kind == JobKind::truth ? Priority::background : Priority::normal) {}
 
 uintmax_t WatchJob::said() const {
     std::error_code error;

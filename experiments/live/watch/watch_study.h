@@ -27,7 +27,7 @@ inline constexpr const char *now = "now", *coarse = "coarse", *why = "why", *tim
                             *truth = "truth";
 }  // namespace watch_folder
 
-/// Samples of the truth until the full samples exist.
+/// Samples of the truth, and of its guide, until the full samples exist.
 inline constexpr unsigned coarse_samples = 16;
 
 /// A study, for `ssrlab run`, of the points and of no reflections in the first `scenes` scenes. `samples`: of the
