@@ -59,11 +59,13 @@ JodInterval jod_interval(const DifferenceFrom& differences, bool is_still) {
     // A rare bright path is seen in all bands at once, so that their changes have one sign: then the change of the
     // whole score says more than theirs. It is one draw, which alone would be too few.
     const SharedScatter scatter = scatter_of_terms(changes, double(changes.size()));
-    const double deviation = std::max(std::sqrt(scatter.variance), std::abs(of_a - of_b) / 2),
+    const double of_bands = std::sqrt(scatter.variance), deviation = std::max(of_bands, std::abs(of_a - of_b) / 2),
                  half_width = student_t_quantile(0.975, scatter.degrees) * deviation;
     JodInterval interval{.jod = {.low = jod_of_pooled(std::ranges::max(ends) + half_width),
                                  .high = jod_of_pooled(std::ranges::min(ends) - half_width)},
                          .draws = {}};
-    for (const double change : changes) interval.draws.push_back(jod_of_pooled(own - change) - jod_of_pooled(own));
+    const double scale = of_bands > 0 ? deviation / of_bands : 1;  // so that draws scatter as the interval says
+    for (const double change : changes)
+        interval.draws.push_back(jod_of_pooled(own - scale * change) - jod_of_pooled(own));
     return interval;
 }

@@ -19,7 +19,7 @@ struct JodInterval {
     Interval jod;  ///< 95 %
     /// For each band of frequencies, half the change of the JOD when half A replaces half B as the truth in this band
     /// alone. The noise of most pixels is independent from band to band, so these are draws of the noise in the JOD. A
-    /// rare bright path moves all bands alike, which `jod` allows for.
+    /// rare bright path moves all bands alike: where the whole change is larger, all draws are longer by one factor.
     std::vector<double> draws;
 };
 

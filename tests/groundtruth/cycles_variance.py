@@ -115,7 +115,7 @@ def render_ours(ssrlab, name, arguments, place):
     rendered = [reference(arguments.samples, seed) for seed in range(1, arguments.repeats + 1)]
     seconds = np.mean([t for _, t in rendered])
     further = (seconds - start) / (arguments.samples - 16) * arguments.samples
-    return np.stack([image for image, _ in rendered]).astype(float), seconds - load, further
+    return np.stack([image for image, _ in rendered]).astype(float), np.array([t - load for _, t in rendered]), further
 
 
 def render_cycles(blender, scene, seconds, arguments, place):
@@ -126,7 +126,7 @@ def render_cycles(blender, scene, seconds, arguments, place):
     run(blender, "-b", "--factory-startup", "--python-exit-code", 1, "-P", script, "--", place / "job.json")
     times = read_json(place / "times.json")
     images = [read_exr_rgb(place / f"{i}.exr") for i in range(arguments.repeats)]
-    return np.stack(images).astype(float), float(np.mean(times["seconds"])), times["samples"]
+    return np.stack(images).astype(float), np.array(times["seconds"]), times["samples"]
 
 
 def relative_variance(images, mean):
@@ -139,11 +139,13 @@ def trimmed_mean(values):
     return kept[: len(kept) - math.ceil(TRIMMED * len(kept))].mean()
 
 
-def log_ratio(theirs, ours, mean, average):
-    """ln of Cycles' variance over ours, and its 95 % interval by a jackknife over pairs of repeats: (ln, low, high)."""
+def log_ratio(theirs, ours, times, mean, average):
+    """ln of Cycles' variance x CPU time over ours, and its 95 % interval by a jackknife over pairs of repeats: (ln, low, high). `times`: of
+    each repeat, theirs and ours."""
 
     def of(kept):
-        return math.log(average(relative_variance(theirs[kept], mean)) / average(relative_variance(ours[kept], mean)))
+        products = [average(relative_variance(images[kept], mean)) * seconds[kept].mean() for images, seconds in zip((theirs, ours), times)]
+        return math.log(products[0] / products[1])
 
     count = len(ours)
     everything = np.arange(count)
@@ -158,8 +160,13 @@ def without_learning(ratio, our_seconds, our_further):
     return f"{ratio * our_seconds / our_further:.2f}" if our_further > 0.2 * our_seconds else "not known"
 
 
-def compared(name, ours, theirs, our_seconds, our_further, their_seconds):
+def spread(times):
+    return f"{times.mean():.2f} ({times.min():.2f} to {times.max():.2f})"
+
+
+def compared(name, ours, theirs, our_times, our_further, their_times):
     """Prints the agreement of both means and the ratios of both variances; the row of the table. Images: (repeats, height, width, 3)."""
+    our_seconds, their_seconds = our_times.mean(), their_times.mean()
     means = ours.mean(axis=0), theirs.mean(axis=0)
     joint = (means[0] + means[1]) / 2
     gray = [m.mean(axis=-1) for m in means]
@@ -170,8 +177,7 @@ def compared(name, ours, theirs, our_seconds, our_further, their_seconds):
     print(f"means: median difference {apart:.2%} of a pixel, {expected:.2%} expected by noise alone; total radiance, Cycles over ours: {total:.3f}")
     ratios = []
     for title, average in (("mean", np.mean), ("trimmed", trimmed_mean)):
-        by_time = math.log(their_seconds / our_seconds)
-        ratios.append([math.exp(v + by_time) for v in log_ratio(theirs, ours, joint, average)])
+        ratios.append([math.exp(v) for v in log_ratio(theirs, ours, (their_times, our_times), joint, average)])
         value, low, high = ratios[-1]
         values = [average(relative_variance(i, joint)) for i in (ours, theirs)]
         print(f"{title}: variance ours {values[0]:.3g}, Cycles {values[1]:.3g}; times CPU time, Cycles over ours: {value:.2f} [{low:.2f}, {high:.2f}], "
@@ -191,13 +197,13 @@ def measure(name, blender, arguments, place):
     folders = [place / name / kind for kind in ("ours", "cycles")]
     for folder in folders:
         folder.mkdir(parents=True, exist_ok=True)
-    ours, our_seconds, our_further = render_ours(arguments.ssrlab, name, arguments, folders[0])
-    theirs, their_seconds, samples = render_cycles(blender, scene, CYCLES_SHARE * our_seconds, arguments, folders[1])
+    ours, our_times, our_further = render_ours(arguments.ssrlab, name, arguments, folders[0])
+    theirs, their_times, samples = render_cycles(blender, scene, CYCLES_SHARE * our_times.mean(), arguments, folders[1])
     if ours.shape != theirs.shape or not np.isfinite(theirs).all():
         raise ResultsError(f"the images of {name} by Cycles are of another size, or not finite.")
-    print(f"\n{name}: ours {arguments.samples} samples in {our_seconds:.1f} CPU seconds, {our_further:.1f} of them beside guide and learning; "
-          f"Cycles {samples} samples in {their_seconds:.1f}")  # fmt: skip
-    return compared(name, ours, theirs, our_seconds, our_further, their_seconds)
+    print(f"\n{name}: ours {arguments.samples} samples in {spread(our_times)} CPU seconds, {our_further:.1f} of them beside guide and learning; "
+          f"Cycles {samples} samples in {spread(their_times)}")  # fmt: skip
+    return compared(name, ours, theirs, our_times, our_further, their_times)
 
 
 def main():

@@ -80,6 +80,21 @@ TEST(JodInterval, HoldsTheScoreOfAStillAgainstTheTruthWithoutNoise) {
     EXPECT_GE(covered, 0.91 * all);
 }
 
+/// A rare bright path changes all bands in one direction. Their changes alone would scatter half as much as the score.
+TEST(JodInterval, DrawsScatterAsTheWholeScoreDoes) {
+    const auto differences_of = [](double in_each_band) {
+        VisibleDifferences bands(6);  // the last, which has the lowest frequencies, sees nothing
+        for (size_t i = 0; i + 1 < bands.size(); ++i) bands[i].fill(in_each_band);
+        return std::vector{bands};
+    };
+    const DifferenceFrom differences{
+        .truth = differences_of(25), .half_a = differences_of(32), .half_b = differences_of(22)};
+    double squares = 0;
+    for (const double draw : jod_interval(differences, /*is_still=*/false).draws) squares += draw * draw;
+    const double change = (jod_of(differences.half_a, false) - jod_of(differences.half_b, false)) / 2;
+    EXPECT_NEAR(std::sqrt(squares), std::abs(change), 0.02 * std::abs(change)) << "but for the bend of the JOD's curve";
+}
+
 TEST(JodInterval, ATruthWithoutNoiseLeavesNone) {
     const HostImage truth = scene(),
                     test = mapped(truth, [](size_t i, float value) { return i % 600 < 90 ? 0.3f : value; });
