@@ -85,7 +85,7 @@ TEST(JodInterval, DrawsScatterAsTheWholeScoreDoes) {
     const auto differences_of = [](double in_each_band) {
         VisibleDifferences bands(6);  // the last, which has the lowest frequencies, sees nothing
         for (size_t i = 0; i + 1 < bands.size(); ++i) bands[i].fill(in_each_band);
-        return std::vector{bands};
+        return std::vector<VisibleDifferences>{bands};
     };
     const DifferenceFrom differences{
         .truth = differences_of(25), .half_a = differences_of(32), .half_b = differences_of(22)};
