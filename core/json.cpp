@@ -73,11 +73,12 @@ std::string_view likely_cause(std::string_view reason, std::string_view before, 
     const auto has = [&](std::string_view part) { return reason.find(part) != std::string_view::npos; };
     const size_t last = before.find_last_not_of(" \t\r\n");
     const bool is_closing = found == '}' || found == ']';
-    if (has("invalid literal") && found == '\'') return " (texts have double quotes)";
-    if (has("parsing object key - invalid literal")) return " (keys have double quotes)";
+    const bool is_no_token = has("invalid literal");
+    if (is_no_token && found == '\'') return " (JSON texts stand in double quotes)";
+    if (has("parsing object key - invalid literal") && found != '/') return " (JSON keys stand in double quotes)";
     if (is_closing && last != std::string_view::npos && before[last] == ',')
         return " (the comma before it is one too many)";
-    if ((has("; expected '}'") || has("; expected ']'")) && !is_closing && !has("end of input"))
+    if ((has("; expected '}'") || has("; expected ']'")) && !is_closing && !is_no_token && !has("end of input"))
         return " (is a comma missing before it?)";
     return "";
 }

@@ -64,7 +64,8 @@ JodInterval jod_interval(const DifferenceFrom& differences, bool is_still) {
     JodInterval interval{.jod = {.low = jod_of_pooled(std::ranges::max(ends) + half_width),
                                  .high = jod_of_pooled(std::ranges::min(ends) - half_width)},
                          .draws = {}};
-    const double scale = of_bands > 0 ? deviation / of_bands : 1;  // so that draws scatter as the interval says
+    // Draws get the standard deviation in Q of the interval. Scores near 10 are clipped.
+    const double scale = of_bands > 0 ? deviation / of_bands : 1;
     for (const double change : changes)
         interval.draws.push_back(jod_of_pooled(own - scale * change) - jod_of_pooled(own));
     return interval;

@@ -51,8 +51,8 @@ std::map<std::string, DeviceInfo> devices_of(const std::vector<Part>& parts) {
     return devices;
 }
 
-/// Why a finished cell is none of those that this program would make on a device. The first reason that its maker
-/// shows: what a name stands for cannot be read back from it. `code`: code_hash().
+/// Why a finished cell has no place in the plan for `device`. A cell's name is a hash, so only its provenance can tell:
+/// the first difference that is found there. `code`: code_hash().
 std::string why_not_of_the_plan(const Cell& cell, const DeviceInfo& device, const std::string& code) {
     if (const std::string made_on = text_of(device_of(cell)); made_on != text_of(device)) return "made on " + made_on;
     const nlohmann::json program = cell.provenance.value("ssrlab", nlohmann::json::object());
@@ -64,7 +64,7 @@ std::string why_not_of_the_plan(const Cell& cell, const DeviceInfo& device, cons
     return "made with other settings or scenes";
 }
 
-/// Says how many finished cells of the parts no plan named, and why.
+/// Says how many cells were left over in each part, and why.
 void say_what_does_not_count(const std::vector<Part>& parts, const DeviceInfo& device,
                              const std::function<void(const std::string&)>& say) {
     const std::string code = code_hash();
@@ -163,12 +163,17 @@ size_t merge_study(const Config& config, const RunSettings& settings, const std:
     std::vector<std::string> missing;
     for (const PlannedShot& shot : study.plan.shots) {
         std::optional<std::string> truth;  // of the shot's references, which come first: without them no cell counts
+        bool lacks_references = false;
         for (const PlannedCell& planned : shot.cells) {
             std::optional<FoundCell> found = find_cell(planned, parts, say);
             if (found && planned.kind == CellKind::references) truth = found->cell.truth;
             if (found && truth && found->cell.truth != truth)
                 say("note: " + planned.what + " in " + found->folder.string() +
                     " was measured against another truth than the shot's references are; it is not used");
+            if (found && !truth && !lacks_references) {
+                say("note: cells of " + planned.shot + " do not count: their references are missing");
+                lacks_references = true;
+            }
             if (!found || found->cell.truth != truth) {
                 missing.push_back(planned.what);
                 continue;
@@ -179,8 +184,8 @@ size_t merge_study(const Config& config, const RunSettings& settings, const std:
     }
     if (!missing.empty()) say_what_does_not_count(parts, device, say);
     if (study.finished.empty())
-        fail("none of the ", study.plan.cell_count(), " cells of this study is in ", folders.front().string(),
-             folders.size() > 1 ? " or the folders beside it" : "", ", made by this ssrlab on ", device.name, ".",
+        fail("none of the ", study.plan.cell_count(), " cells of this study can be taken from ",
+             folders.front().string(), folders.size() > 1 ? " or the folders beside it" : "", " for ", device.name, ".",
              devices.size() > 1 ? " They hold cells of several devices: --device NAME says whose are merged" : "");
     write_results(study, missing.empty(), {});
     say(counted(study.finished.size(), "cell") + " merged, " + std::to_string(missing.size()) + " missing");

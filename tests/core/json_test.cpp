@@ -36,11 +36,12 @@ TEST(Json, SyntaxErrorsNameALikelyCause) {
                                                           {R"([{"a": 1} {"b": 2}])", missing},
                                                           {"[1, 2,]", additional},
                                                           {"{\"a\": 1,\n}", additional},
-                                                          {"{'a': 1}", "(texts have double quotes)"},
-                                                          {R"({"a": 'b'})", "(texts have double quotes)"},
-                                                          {"{a: 1}", "(keys have double quotes)"}};
+                                                          {"{'a': 1}", "(JSON texts stand in double quotes)"},
+                                                          {R"({"a": 'b'})", "(JSON texts stand in double quotes)"},
+                                                          {"{a: 1}", "(JSON keys stand in double quotes)"}};
     for (const auto& [text, cause] : causes) EXPECT_TRUE(of(text).ends_with(cause)) << of(text);
-    for (const char* text : {R"({"a": [1, 2})", R"({"a": })", R"({"a" 1})", R"({"a": 1)", R"({"a": ])", ""})
+    for (const char* text : {R"({"a": [1, 2})", R"({"a": })", R"({"a" 1})", R"({"a": 1)", R"({"a": ])",
+                             R"({"a": 0x10})", R"({"a": 1.5f, "b": 2})", "{\"a\": 1, // c\n}", ""})
         EXPECT_FALSE(of(text).ends_with(")")) << of(text);
 }
 

@@ -140,8 +140,8 @@ def trimmed_mean(values):
 
 
 def log_ratio(theirs, ours, times, mean, average):
-    """ln of Cycles' variance x CPU time over ours, and its 95 % interval by a jackknife over pairs of repeats: (ln, low, high). `times`: of
-    each repeat, theirs and ours."""
+    """ln of Cycles' variance x CPU time over ours, and its 95 % interval by a jackknife over pairs of repeats: (ln, low, high). `times`: CPU
+    seconds of each repeat, of theirs and of ours, with the load already subtracted."""
 
     def of(kept):
         products = [average(relative_variance(images[kept], mean)) * seconds[kept].mean() for images, seconds in zip((theirs, ours), times)]

@@ -93,9 +93,11 @@ json page_numbers(const fs::path& results, const WatchedPoint& point, const std:
                              {"error", row_json(e)},
                              {"images", images_of(results, tables.manifest, e.shot, labels, images)}});
         else if (const auto known = labels.find(name_of(e)); known != labels.end())
-            of_others[e.shot].push_back({{"label", known->second}, {"error", row_json(e)}});
+            of_others.try_emplace(e.shot, json::array())
+                .first->second.push_back({{"label", known->second}, {"error", row_json(e)}});
     }
-    for (json& shot : shots) shot["others"] = of_others[shot["shot"].get<std::string>()];
+    for (json& shot : shots)
+        shot["others"] = of_others.try_emplace(shot["shot"].get<std::string>(), json::array()).first->second;
     return {{"shots", shots}, {"verdicts", verdicts}};
 }
 

@@ -4,15 +4,15 @@
 #include <string>
 #include <vector>
 
-enum class Priority {
-    normal,
-    background  ///< runs while nothing else wants the processors
-};
-
 /// A program that runs beside this one, without input. It and all that it started end with this object, and with the
 /// thread that made it.
 class RunningProgram {
 public:
+    enum class Priority {
+        normal,
+        background  ///< niceness 19: other programs get the processors first
+    };
+
     /// Starts a program; arguments[0] is its path. Its output goes to `output`, its errors to `errors`; both files are
     /// made anew. Fails with MachineError if a file cannot be made or the program cannot start.
     RunningProgram(const std::vector<std::string>& arguments, const std::filesystem::path& output,

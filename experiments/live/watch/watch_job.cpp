@@ -47,7 +47,7 @@ WatchJob::WatchJob(JobKind kind, const WatchSettings& settings, const nlohmann::
       errors_(path_inside(settings.out, name_of(kind) + ".err")),
       patience_(patience_with(kind, settings.patience)),
       program_(arguments_of(kind, settings, study, prunes), output_, errors_,
-               kind == JobKind::truth ? Priority::background : Priority::normal) {}
+               kind == JobKind::truth ? RunningProgram::Priority::background : RunningProgram::Priority::normal) {}
 
 uintmax_t WatchJob::said() const {
     std::error_code error;

@@ -24,7 +24,7 @@ using namespace std::chrono_literals;
 
 constexpr auto turn = 30ms;                // between looks at files, requests and jobs
 constexpr auto pause_before_why = 1000ms;  // who goes on typing has no use for it
-constexpr auto wait_for_truth = 3000ms;    // in the beginning: from the cache it is there by then
+constexpr auto wait_for_truth = 3000ms;    // in the beginning: on a quiet machine it comes from the cache by then
 
 double seconds_between(std::chrono::system_clock::time_point a, std::chrono::system_clock::time_point b) {
     return std::chrono::duration<double>(b - a).count();

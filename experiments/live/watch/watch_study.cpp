@@ -63,9 +63,9 @@ json numbers_study(const WatchSettings& settings, const std::vector<WatchedPoint
                    unsigned samples, bool is_whole) {
     json study = study_of(settings, points, scenes);
     study["reference"] = {{"samples", samples}};
-    // Of the metrics below, mse alone, which the guide does not weigh. 64 samples of a guide would take four times as
-    // long as the truth.
-    if (samples == coarse_samples) study["reference"]["guide_samples"] = coarse_samples;
+    // The coarse truth is for mse alone, which no guide weighs. The usual guide of 64 samples would take about four
+    // times as long as this truth.
+    if (samples == coarse_samples && !is_whole) study["reference"]["guide_samples"] = coarse_samples;
     study["timing"] = {{"frames", 0}};
     study["targets"] = {"specular"};
     if (is_whole) {

@@ -3,7 +3,7 @@
 import {at, h} from "../elements/elements.js";
 import {fillTable} from "../elements/tables.js";
 import {causeTexts} from "../study/verdicts.js";
-import {interval, number, percent, twoDecimals, unique} from "../values.js";
+import {interval, number, percent, twoDecimals} from "../values.js";
 
 const writeTable = (id, names, rows) => fillTable(at(id), names.map((name, i) => ({name, number: i > 0})), rows);
 
@@ -49,8 +49,8 @@ export function writeNonFinite({result}) {
 }
 
 export function writeShots({result}) {
-    const shots = result?.shots ?? [], labels = unique(shots.flatMap(s => (s.others ?? []).map(o => o.label)));
-    const errorOf = (shot, label) => (shot.others ?? []).filter(o => o.label === label).map(errorText)[0] ?? "–";
+    const shots = result?.shots ?? [], labels = (result?.verdicts ?? []).map(v => v.label);
+    const errorOf = (shot, label) => shot.others.filter(o => o.label === label).map(errorText)[0] ?? "–";
     writeTable("shots", ["shot", "mse of reflective pixels, now", ...labels, "seeds"],
               shots.map(s => [s.shot, errorText(s), ...labels.map(label => errorOf(s, label)), String(s.error.seeds)]));
 }

@@ -14,7 +14,7 @@ except ImportError:
         "these tests run in a browser: install python3-selenium, chromium and chromium-driver (tests/run.sh does)"
     )
 
-PATIENCE = 120  # seconds of a wait: each ends within one on a quiet machine, and a busy machine is no fault of a page
+PATIENCE = 120  # seconds that a wait may take; on a quiet machine most take less than one, and a busy one is no fault of a page
 CHROMIUM, DRIVER = "/usr/bin/chromium", "/usr/bin/chromedriver"
 FLAGS = [
     "--headless",
@@ -41,7 +41,9 @@ def open_browser(profile, flags=()):
         options.add_argument(flag)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
     try:
-        return webdriver.Chrome(service=webdriver.chrome.service.Service(DRIVER), options=options)
+        browser = webdriver.Chrome(service=webdriver.chrome.service.Service(DRIVER), options=options)
+        browser.set_script_timeout(PATIENCE)
+        return browser
     except WebDriverException as e:
         sys.exit(f"chromium does not start: {e.msg}")
 

@@ -27,7 +27,7 @@ TEST(RunningProgram, RunsBesideThisOneAndGoesWithItsObject) {
     EXPECT_EQ(read_text(folder / "err"), "wrong\n");
     EXPECT_EQ(code_of(*script("kill -9 $$")), 137);
     EXPECT_EQ(code_of(*script("cat")), 0) << "it has nothing to read";
-    RunningProgram polite({"/usr/bin/nice"}, folder / "out", folder / "err", Priority::background);
+    RunningProgram polite({"/usr/bin/nice"}, folder / "out", folder / "err", RunningProgram::Priority::background);
     EXPECT_EQ(code_of(polite), 0);
     EXPECT_EQ(read_text(folder / "out"), "19\n") << "the niceness";
 
