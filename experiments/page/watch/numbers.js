@@ -51,8 +51,8 @@ export function writeNonFinite({result}) {
 export function writeShots({result}) {
     const shots = result?.shots ?? [], labels = (result?.verdicts ?? []).map(v => v.label);
     const errorOf = (shot, label) => shot.others.filter(o => o.label === label).map(errorText)[0] ?? "–";
-    writeTable("shots", ["shot", "mse of reflective pixels, now", ...labels, "seeds"],
-              shots.map(s => [s.shot, errorText(s), ...labels.map(label => errorOf(s, label)), String(s.error.seeds)]));
+    writeTable("shots", ["shot", "mse of reflective pixels, now", "its seeds", ...labels],
+              shots.map(s => [s.shot, errorText(s), String(s.error.seeds), ...labels.map(label => errorOf(s, label))]));
 }
 
 /// What of a technique to look at, by the cause of an error.

@@ -6,7 +6,7 @@ import os
 import shutil
 import subprocess
 
-from report_browser import By, wait_until, check, equal, table_of, until_ready
+from report_browser import By, check, equal, table_of, until_ready, wait_until
 from report_crops import SHOT
 from report_viewer import captions
 

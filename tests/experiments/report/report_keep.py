@@ -2,7 +2,7 @@
 
 import xml.etree.ElementTree
 
-from report_browser import CATCH_SAVES, By, wait_until, check, choose, equal, pixels, until_ready
+from report_browser import CATCH_SAVES, By, check, choose, equal, pixels, until_ready, wait_until
 from report_crops import SHOT
 from report_viewer import NAMES, OTHER_SHOT, captions
 from selenium.webdriver.common.action_chains import ActionChains

@@ -8,7 +8,7 @@ import subprocess
 import sys
 import tempfile
 
-from report_browser import CATCH_SAVES, By, Select, wait_until, check, choose_in, equal, open_browser, rows_of, until_ready, values
+from report_browser import CATCH_SAVES, By, Select, check, choose_in, equal, open_browser, rows_of, until_ready, values, wait_until
 
 MOST_NODES = 50_000  # of a page of 400 shots: a browser lays out so many in a fraction of a second
 POINTS = 20

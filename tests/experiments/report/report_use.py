@@ -5,7 +5,7 @@ import json
 import os
 import re
 
-from report_browser import By, wait_until, check, choose_in, equal, rows_of, table_of, until_ready
+from report_browser import By, check, choose_in, equal, rows_of, table_of, until_ready, wait_until
 
 AXE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "vendor", "axe.min.js")
 BEST, BASELINE = ("mcguire_dda", "stride=1"), ("mcguire_dda", "stride=4")

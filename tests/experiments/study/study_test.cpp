@@ -148,6 +148,10 @@ TEST_F(StudyTest, PartsMakeTheWhole) {
     run_part("a", {"references"});
     run_part("b", {"renders", "shot=fence.*"});
     EXPECT_FALSE(fs::exists(folder / "b/results.csv")) << "tables are of all cells";
+    testing::internal::CaptureStdout();
+    EXPECT_THROW(merge({folder / "b"}, "merged"), Error);
+    const std::string said = testing::internal::GetCapturedStdout();
+    EXPECT_NE(said.find("do not count: their references are missing"), std::string::npos) << said;
     EXPECT_EQ(merge({folder / "a", folder / "b"}, "merged"), 2u) << "the other shot's points are missing";
     EXPECT_FALSE(read_json(folder / "merged/manifest.json")["is_complete"].get<bool>());
     run_part("c", {"renders", "technique=none"});
