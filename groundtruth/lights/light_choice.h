@@ -10,7 +10,9 @@ struct LightObservation {
     vec3 position;  ///< where the light arrives (m)
     vec3 normal;    ///< geometric, on the side where it arrives
     uint32_t group;
+    uint32_t light;      ///< of the group: see LightClusters::Choice
     float contribution;  ///< luminance that it added to the pixel, weights and visibility included
+    float relative = 0;  ///< contribution over the luminance of all light of the pixel
 };
 
 /// The probabilities with which a light sample chooses groups of lights, by the place where light arrives. They are

@@ -1,9 +1,11 @@
 #pragma once
 #include "groundtruth/lights/environment_table.h"
 #include "groundtruth/lights/light_choice.h"
-#include "groundtruth/sampling/alias_table.h"
+#include "groundtruth/lights/light_clusters.h"
 #include "groundtruth/sampling/lanes.h"
 #include "groundtruth/scene/material_table.h"
+
+#include <optional>
 
 /// Directions in which light may arrive at a point per lane, before visibility is known.
 struct LightLanes {
@@ -15,6 +17,7 @@ struct LightLanes {
         normal;  ///< of the point on the light, unless infinite; a punctual light has neither error nor normal
     Lanes<uint32_t> is_delta, is_infinite;
     Lanes<uint32_t> group;  ///< group number of LightChoice
+    Lanes<uint32_t> light;  ///< index in the group, see LightClusters::Choice; 0 for the environment
     // Rays that test visibility, filled in by aim_shadow_ray():
     LanesVec3 shadow_origin, shadow_direction;
     Lanes<float> shadow_far;  ///< in units of shadow_direction
@@ -29,9 +32,9 @@ struct PunctualArrival {
 /// `point`: m, world space. Range and cone follow KHR_lights_punctual.
 PunctualArrival arrival(const PunctualLight& light, glm::vec3 point);
 
-/// Chooses among emissive triangles, punctual lights and the environment: a group by LightChoice, and within it in
-/// proportion to power. Groups are neighbouring triangles, neighbouring lamps (each its own, if there are few) and the
-/// parts of the environment.
+/// Chooses among emissive triangles, punctual lights and the environment: a group by LightChoice, and a light of it in
+/// proportion to power, or by LightClusters where learning finds that this pays. Groups are neighbouring triangles,
+/// neighbouring lamps (each its own, if there are few) and the parts of the environment.
 class LightSampler {
 public:
     /// `sample_environment`: also sample a constant or gradient one, which BSDF sampling finds as well. `compensate`:
@@ -41,8 +44,8 @@ public:
 
     bool empty() const { return group_count() == 0; }
     uint32_t group_count() const { return uint32_t(groups_.size()) + environment_.part_count(); }
-    /// See LightChoice::learn().
-    void learn(std::span<const LightObservation> observations) { choice_.learn(observations, low_, high_); }
+    /// See LightChoice::learn(). Also decides which groups use LightClusters.
+    void learn(std::span<const LightObservation> observations);
     /// The cell of LightChoice for a point (m) with a unit geometric normal on the side where light arrives.
     uint32_t cell(glm::vec3 position, glm::vec3 normal) const { return choice_.cell(position, normal); }
     glm::vec3 low() const { return low_; }  ///< bounds of the scene (m)
@@ -56,34 +59,40 @@ public:
                 const Lanes<uint32_t>& x, const Lanes<uint32_t>& y, LightLanes& lights) const;
 
     /// Density (sr^-1) with which sample() finds a point of an emissive triangle along `direction` at `distance` (m)
-    /// from a point of `cell`.
-    float triangle_pdf(uint32_t cell, uint32_t instance, uint32_t triangle, glm::vec3 normal, glm::vec3 direction,
-                       float distance) const;
+    /// from `point` (m) of `cell`.
+    float triangle_pdf(uint32_t cell, glm::vec3 point, uint32_t instance, uint32_t triangle, glm::vec3 normal,
+                       glm::vec3 direction, float distance) const;
     /// The same (sr^-1) for a unit direction to the environment; 0 if the environment is not sampled.
     float environment_pdf(uint32_t cell, glm::vec3 direction) const;
 
 private:
+    static constexpr uint32_t no_light = ~0u, no_group = ~0u;
+
     struct Triangle {
         glm::vec3 position[3];
         glm::vec3 error;  ///< half extent of a box that holds the exact place of any of its points
         glm::vec3 front_normal;
         glm::vec3 radiance;  ///< constant emission
-        float area_pdf;      ///< probability of the choice within its group over the area (m^-2)
-        uint32_t instance, triangle, group;
+        float per_area;      ///< 1 / area (m^-2)
+        uint32_t instance, triangle;
+        uint32_t group = no_group, place = 0;  ///< its group, and its index there
         bool emission_varies, emits_behind;
     };
-    static constexpr uint32_t no_light = ~0u;
-
     /// Lights that are chosen together, as indices of triangles_, then lights_.
     struct Group {
         std::vector<uint32_t> lights;
-        AliasTable table;
+        AliasTable table;                       ///< by power
+        std::optional<LightClusters> clusters;  ///< instead of the table
+
+        LightClusters::Choice sample(glm::vec3 point, uint32_t bits) const;
+        float probability(uint32_t place, glm::vec3 point) const;  ///< with which sample() chooses lights[place]
     };
 
-    void add_triangles(const Scene& scene, uint32_t instance, std::vector<double>& powers);
-    void group_lights(std::span<const double> powers, float diagonal);
+    void add_triangles(const Scene& scene, uint32_t instance);
+    void group_lights(float diagonal);
     std::vector<double> shares() const;
-    void add_group(std::vector<uint32_t> lights, std::span<const double> powers);
+    void add_group(std::vector<uint32_t> lights);
+    void cluster_groups(std::span<const LightObservation> observations);
     void sample_environment(uint32_t group, uint32_t x, uint32_t y, float probability, int lane,
                             LightLanes& lights) const;
     void sample_punctual(const PunctualLight& light, glm::vec3 point, float probability, int lane,
@@ -95,7 +104,7 @@ private:
     uint32_t triangle_count_ = 0;
     std::vector<uint32_t> first_triangle_;  ///< of each instance, or no_light
     std::vector<PunctualLight> lights_;
-    std::vector<float> light_probabilities_;  ///< of lights_ within their groups
+    std::vector<LightExtent> extents_;  ///< of triangles_, then lights_
     EnvironmentTable environment_;
     const Environment* environment_source_ = nullptr;
     bool needs_more_ = false;    ///< there is more to sample than triangles of constant emission

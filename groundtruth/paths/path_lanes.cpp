@@ -1,5 +1,7 @@
 #include "groundtruth/paths/path_lanes.h"
 
+#include "groundtruth/paths/shadow_roulette.h"
+
 #include <bit>
 #include <cmath>
 #include <utility>
@@ -112,7 +114,7 @@ void PathLanes::meet(int lane, const RTCRayHit& ray) {
     const vec3 direction = direction_.get(lane);
     const auto take = [&](const ShadedPoint& surface) {
         if (surface.emitted != vec3(0.0f)) {
-            const float light_pdf = scene_.lights.triangle_pdf(light_cell_[lane], instance, triangle,
+            const float light_pdf = scene_.lights.triangle_pdf(light_cell_[lane], origin_.get(lane), instance, triangle,
                                                                surface.geometric_normal, direction, ray.ray.tfar);
             const float weight = scene_.mis.of_bsdf(pdf_[lane], light_pdf);
             radiance_.set(lane, radiance_.get(lane) + throughput_.get(lane) * surface.emitted * weight);
@@ -226,6 +228,7 @@ void PathLanes::resume_branches() {
 template <bool has_lights, PathGoal goal, bool has_dielectric_f0>
 void PathLanes::scatter() {
     const bool has_roulette = scene_.settings.russian_roulette;
+    const bool has_shadow_roulette = scene_.settings.shadow_roulette;
     const ReflectionModel model = scene_.settings.model;
     const uint32_t max_depth = scene_.settings.max_depth;
     const MisHeuristic mis = scene_.mis;
@@ -259,7 +262,10 @@ void PathLanes::scatter() {
                 reflects & !is_last & (light_pdf > 0) & (bsdf_pdf > 0) & (dot(to_light, geometric_normal) > 0);
             const vec3 direct = throughput * (f.diffuse + f.specular * specular_share) * lights_.radiance.get(lane) *
                                 (weight / light_pdf);
-            direct_.set(lane, keep_if(is_used, direct));
+            const float promised = luminance(weight_.get(lane) * direct) * per_estimate_[lane];
+            const float chance = shadow_ray_chance(promised, has_shadow_roulette & (per_estimate_[lane] > 0.0f));
+            const bool is_traced = sequence(lane).random(reversed_sample_[lane], pair_[lane] + 1) < chance;
+            direct_.set(lane, keep_if(is_used & is_traced, direct * (1.0f / chance)));
             aim_shadow_ray(position_.get(lane), error_.get(lane), geometric_normal, lane, lights_);
         }
 
@@ -305,7 +311,7 @@ void PathLanes::trace_shadow_rays(uint32_t reached) {
         std::vector<LightObservation>* const lights = estimate_[lane]->light_record;
         if (lights && depth_[lane] <= scene_.settings.max_depth) [[unlikely]]  // not the last vertex
             lights->push_back({position_.get(lane), geometric_normal_.get(lane), lights_.group[lane],
-                               arrives ? luminance(weight_.get(lane) * direct) : 0.0f});
+                               lights_.light[lane], arrives ? luminance(weight_.get(lane) * direct) : 0.0f});
     });
 }
 

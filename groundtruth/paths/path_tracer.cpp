@@ -4,6 +4,7 @@
 #include "core/split_sum.h"
 #include "groundtruth/paths/path_lanes.h"
 #include "groundtruth/paths/pixel_samples.h"
+#include "groundtruth/paths/shadow_roulette.h"
 #include "groundtruth/sampling/flush_denormals.h"
 
 #include <tbb/parallel_for.h>
@@ -108,6 +109,10 @@ void add_direct_light(const TracedScene& scene, const FirstVertex& vertex, const
     const mat3 world_from_local = vertex.world_from_local;
     const vec3 origin = hit.ray_origin, error = hit.position_error, geometric_normal = hit.geometric_normal;
     const MisHeuristic mis = scene.mis;
+    const bool wants_diffuse = vertex.wants_diffuse, wants_specular = vertex.wants_specular;
+    const float per_diffuse = vertex.per_estimate[0], per_specular = vertex.per_estimate[1];
+    const bool plays = scene.settings.shadow_roulette & (!wants_diffuse | (per_diffuse > 0.0f)) &
+                       (!wants_specular | (per_specular > 0.0f));
     LanesVec3 diffuse, specular, incident;
     FOR_EACH_LANE {
         const vec3 to_light = lights.direction.get(lane);
@@ -118,22 +123,27 @@ void add_direct_light(const TracedScene& scene, const FirstVertex& vertex, const
         const float diffuse_weight = (is_delta ? 1.0f : mis.of_light(pdf, f.diffuse_pdf)) / pdf;
         const float specular_weight = mis.of_light(pdf, f.specular_pdf) / pdf;
         const vec3 radiance = lights.radiance.get(lane);
-        diffuse.set(lane, keep_if(is_used, f.diffuse * radiance * diffuse_weight));
-        specular.set(lane, keep_if(is_used & !is_delta, f.specular * radiance * specular_weight));
-        incident.set(lane, keep_if(is_used & !is_delta, radiance * (f.specular_pdf * specular_weight)));
+        const bool adds_diffuse = is_used & wants_diffuse, adds_specular = is_used & !is_delta & wants_specular;
+        const vec3 to_diffuse = keep_if(adds_diffuse, f.diffuse * radiance * diffuse_weight);
+        const vec3 to_specular = keep_if(adds_specular, f.specular * radiance * specular_weight);
+        const vec3 to_incident = keep_if(adds_specular, radiance * (f.specular_pdf * specular_weight));
+        const float promised = max(luminance(to_diffuse) * per_diffuse, luminance(to_specular) * per_specular);
+        const float chance = shadow_ray_chance(promised, plays);
+        const bool is_traced = samples.sequence(lane).random(samples.reversed_sample[lane], pair_light) < chance;
+        diffuse.set(lane, keep_if(is_traced, to_diffuse * (1.0f / chance)));
+        specular.set(lane, keep_if(is_traced, to_specular * (1.0f / chance)));
+        incident.set(lane, keep_if(is_traced, to_incident * (1.0f / chance)));
         aim_shadow_ray(origin, error, geometric_normal, lane, lights);
     }
     for (int lane = 0; lane < samples.count; ++lane) {
         PixelEstimate& estimate = *samples.estimate[lane];
-        const vec3 parts[3] = {vertex.wants_diffuse ? diffuse.get(lane) : vec3(0.0f),
-                               vertex.wants_specular ? specular.get(lane) : vec3(0.0f),
-                               vertex.wants_specular ? incident.get(lane) : vec3(0.0f)};
+        const vec3 parts[3] = {diffuse.get(lane), specular.get(lane), incident.get(lane)};
         const vec3 sum = parts[0] + parts[1] + parts[2];
         estimate.non_finite += !is_finite(sum);
         const bool arrives = sum != vec3(0.0f) && is_finite(sum) && is_visible(scene, lights, lane, estimate);
         if (estimate.light_record) [[unlikely]]
             estimate.light_record->push_back({hit.ray_origin, hit.geometric_normal, lights.group[lane],
-                                              arrives ? luminance(parts[0] + parts[1]) : 0.0f});
+                                              lights.light[lane], arrives ? luminance(parts[0] + parts[1]) : 0.0f});
         if (!arrives) continue;
         estimate.diffuse += glm::dvec3(parts[0]);
         estimate.specular += glm::dvec3(parts[1]);
@@ -259,6 +269,11 @@ std::vector<Observation> PathTracer::learn(uint64_t seed, unsigned wanted_sample
             PixelEstimate estimate;
             estimate.*record = &seen[i];
             trace(x, y, first_hit(x, y), seed, 0, samples, estimate);
+            if constexpr (std::is_same_v<Observation, LightObservation>) {
+                const double light = luminance(vec3(estimate.diffuse + estimate.specular)) / samples;
+                for (LightObservation& light_seen : seen[i])
+                    light_seen.relative = light > 0 ? float(light_seen.contribution / light) : 0.0f;
+            }
         });
     });
     std::vector<Observation> all;

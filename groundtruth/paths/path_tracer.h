@@ -13,7 +13,8 @@ struct PathTracerSettings {
     unsigned max_depth = 64;  ///< most reflections per path; light that needs more is missing from the estimate
     LightStrategy strategy = LightStrategy::power;
     bool russian_roulette = true;
-    bool splitting = true;  ///< of paths that promise much, after expect()
+    bool splitting = true;        ///< of paths that promise much, after expect()
+    bool shadow_roulette = true;  ///< of light samples that promise little, after expect(): see shadow_ray_chance()
     ReflectionModel model = ReflectionModel::gltf;
     bool diffuse = true, specular = true;  ///< which parts of a pixel are estimated; `specular` includes `incident`
     bool learns_lights =
@@ -106,8 +107,9 @@ public:
     PathTracer& operator=(const PathTracer&) = delete;
 
     /// Makes Russian roulette end paths by the light that they are expected to bring to their pixel, not by throughput;
-    /// paths that promise much are split. `diffuse`, `specular`: estimates of each pixel (RGB), from other samples than
-    /// the traced ones. Means stay the same. Call it before trace().
+    /// paths that promise much are split, and shadow rays that promise little are left out by chance. `diffuse`,
+    /// `specular`: estimates of each pixel (RGB), from other samples than the traced ones. Means stay the same. Call it
+    /// before trace().
     void expect(const HostImage& diffuse, const HostImage& specular);
 
     /// The hit of the ray through the centre of pixel (x, y), y down.

@@ -319,6 +319,25 @@ TEST(estimator, roulette_by_what_is_expected_changes_no_mean) {
     EXPECT_LT(rays, 0.9 * double(usual_rays));  // it decides
 }
 
+TEST(estimator, roulette_of_shadow_rays_changes_no_mean) {
+    const TestScene room = make_room();
+    Render renders[2] = {{std::vector<PixelMoments>(std::size(pixels))},
+                         {std::vector<PixelMoments>(std::size(pixels))}};
+    uint64_t rays[2] = {};
+    for (const bool plays : {false, true}) {
+        PathTracer tracer(room.scene, room.pose(), room_camera(), extent,
+                          {.splitting = false, .shadow_roulette = plays, .ladder = true});
+        // Pixels of this room hold 0.02 to 1: most are expected to be brighter, so that most light samples play.
+        tracer.expect(HostImage(extent, 3, 0.5f), HostImage(extent, 3, 0.5f));
+        for (size_t i = 0; i < std::size(pixels); ++i) {
+            renders[plays].pixels[i] = render_pixel(tracer, pixels[i].x, pixels[i].y, 8192, plays);
+            rays[plays] += sums(tracer, pixels[i], 256).rays;
+        }
+    }
+    expect_same_means(renders[1], renders[0]);
+    EXPECT_LT(double(rays[1]), 0.8 * double(rays[0]));  // it decides
+}
+
 TEST(estimator, splitting_changes_no_mean) {
     const TestScene room = make_room();
     Render renders[2] = {{std::vector<PixelMoments>(std::size(pixels))},

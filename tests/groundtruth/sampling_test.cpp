@@ -1,5 +1,6 @@
 #include "core/shared/environment.h"
 #include "groundtruth/lights/environment_table.h"
+#include "groundtruth/lights/light_clusters.h"
 #include "groundtruth/paths/traced_scene.h"
 #include "groundtruth/sampling/alias_table.h"
 #include "groundtruth/sampling/sobol.h"
@@ -105,8 +106,8 @@ TEST(light_choice, draws_groups_with_the_probabilities_that_it_states) {
     std::vector<LightObservation> seen;  // group 1 is all that arrives at the floor, group 2 at the ceiling
     for (int i = 0; i < 300; ++i) {
         const uint32_t group = uint32_t(i % 3);
-        seen.push_back({vec3(0.1f), vec3(0, 1, 0), group, group == 1 ? 2.0f : 0.0f});
-        seen.push_back({vec3(0.1f), vec3(0, -1, 0), group, group == 2 ? 6.0f : 0.0f});
+        seen.push_back({vec3(0.1f), vec3(0, 1, 0), group, 0, group == 1 ? 2.0f : 0.0f});
+        seen.push_back({vec3(0.1f), vec3(0, -1, 0), group, 0, group == 2 ? 6.0f : 0.0f});
     }
     choice.learn(seen, vec3(-1), vec3(1));
     const uint32_t floor = choice.cell(vec3(0.1f), vec3(0.1f, 0.9f, 0.2f)),
@@ -133,6 +134,54 @@ TEST(light_choice, draws_groups_with_the_probabilities_that_it_states) {
         EXPECT_EQ(total, 1.0);
         EXPECT_EQ(choice.sample(cell, ~0u).group, 2u);
     }
+}
+
+TEST(light_clusters, draw_lights_with_the_probabilities_that_they_state) {
+    std::vector<LightExtent> lights;
+    for (int i = 0; i < 60; ++i) {
+        const float turn = 0.1f * float(i);
+        lights.push_back({.center = {std::cos(turn), 0.02f * float(i), std::sin(turn)},
+                          .normal = i % 3 ? vec3(0, i % 3 == 1 ? 1 : -1, 0) : vec3(0),
+                          .square_radius = 1e-4f,
+                          .power = 1.0 + i % 7});
+    }
+    const LightClusters clusters(lights);
+    const uint32_t samples = 1 << 18;
+    // Near, far, on a light, where squares overflow, and no number.
+    for (const vec3 point : {vec3(0.5f), vec3(9, -4, 2), lights[7].center, vec3(1e25f), vec3(NAN)}) {
+        std::vector<double> count(lights.size(), 0.0), rest(lights.size(), 0.0);
+        for (uint32_t i = 0; i < samples; ++i) {
+            const LightClusters::Choice choice = clusters.sample(point, i << 14);
+            ASSERT_EQ(choice.probability, clusters.probability(choice.light, point));
+            count[choice.light] += 1, rest[choice.light] += choice.rest * 0x1p-32;
+        }
+        double total = 0;
+        for (uint32_t light = 0; light < lights.size(); ++light) {
+            const double probability = clusters.probability(light, point);
+            total += probability;
+            EXPECT_GT(probability, 0);
+            // An even grid of numbers: a light has two parts of its cluster's table, each wrong by a step at most.
+            EXPECT_NEAR(count[light], probability * samples, 3);
+            EXPECT_NEAR(rest[light], 0.5 * count[light], 3);
+        }
+        EXPECT_NEAR(total, 1, 1e-5);
+    }
+    EXPECT_EQ(clusters.sample(vec3(0), ~0u).probability,
+              clusters.probability(clusters.sample(vec3(0), ~0u).light, vec3(0)));
+}
+
+TEST(light_clusters, follow_distance_and_facing) {
+    const auto lamp = [](vec3 at, vec3 normal) {
+        return LightExtent{.center = at, .normal = normal, .square_radius = 1e-12f, .power = 3};
+    };
+    // At three times the distance a ninth of the irradiance.
+    const LightClusters two(std::vector{lamp({0, 1, 0}, vec3(0)), lamp({0, -3, 0}, vec3(0))});
+    EXPECT_NEAR(two.probability(0, vec3(0)), 0.9, 1e-5);
+    // Under 60 degrees half of it; from behind what is kept for lights that a cluster hides.
+    const LightClusters facing(std::vector{lamp({0, 1, 0}, {0, -1, 0}), lamp({0, -1, 0}, {std::sqrt(0.75f), 0.5f, 0}),
+                                           lamp({1, 0, 0}, {1, 0, 0})});
+    EXPECT_NEAR(facing.probability(1, vec3(0)) / facing.probability(0, vec3(0)), 0.5, 1e-5);
+    EXPECT_NEAR(facing.probability(2, vec3(0)) / facing.probability(0, vec3(0)), 0.1, 1e-5);
 }
 
 TEST(environment_table, density_integrates_to_one_and_is_that_of_the_samples) {
@@ -177,35 +226,55 @@ TEST(light_sampler, densities_are_those_of_the_surfaces_that_rays_meet) {
     TestScene scene;
     scene.quad({-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, 1}, scene.add(lambert_material(0, 3)));
     scene.sphere({3, 1, 0}, 0.5f, 8, scene.add(lambert_material(0, 8)));
-    const TracedScene traced(scene.scene, scene.pose(), CameraView({}, {1, 1}), {});
+    TracedScene traced(scene.scene, scene.pose(), CameraView({}, {1, 1}), {});
     const uint32_t samples = 1 << 14;
     LanesVec3 point;
     Lanes<uint32_t> wanted, x, y;
     LightLanes lights;
-    double solid_angle = 0;
-    for (uint32_t first = 0; first < samples; first += lane_count) {
-        for (int lane = 0; lane < lane_count; ++lane) {
-            const glm::uvec2 bits = SobolSequence(8).bits(reverse_bits(first + uint32_t(lane)), 0);
-            x[lane] = bits.x, y[lane] = bits.y, wanted[lane] = 1;
-            point.set(lane, vec3(0));
+    std::vector<LightObservation> seen;
+    // By power; then as they are learnt from the light that arrives, with clusters of the ball's facets.
+    double solid_angles[2] = {}, variances[2] = {};
+    for (const bool is_learnt : {false, true}) {
+        double solid_angle = 0, squares = 0, light = 0;
+        for (uint32_t first = 0; first < samples; first += lane_count) {
+            for (int lane = 0; lane < lane_count; ++lane) {
+                const glm::uvec2 bits = SobolSequence(8).bits(reverse_bits(first + uint32_t(lane)), 0);
+                x[lane] = bits.x, y[lane] = bits.y, wanted[lane] = 1;
+                point.set(lane, vec3(0));
+            }
+            const uint32_t cell = traced.lights.cell(vec3(0), vec3(0, 1, 0));
+            Lanes<uint32_t> cells;
+            std::ranges::fill(cells.value, cell);
+            traced.lights.sample(wanted, point, cells, x, y, lights);
+            for (int lane = 0; lane < lane_count; ++lane) {
+                const vec3 direction = lights.direction.get(lane);
+                const float arriving =
+                    lights.pdf[lane] > 0 ? lights.radiance.get(lane).x * std::max(direction.y, 0.0f) / lights.pdf[lane]
+                                         : 0.0f;
+                light += double(arriving) / samples, squares += double(arriving) * double(arriving) / samples;
+                if (!is_learnt)
+                    seen.push_back(
+                        {vec3(0), vec3(0, 1, 0), lights.group[lane], lights.light[lane], arriving, arriving});
+                if (lights.pdf[lane] == 0) continue;  // the far side of the ball
+                RTCRayHit ray;
+                if (!intersect(traced.geometry.handle(), vec3(0), direction, ray))
+                    continue;  // past a facet seen edge-on
+                const vec3 normal =
+                    traced.geometry.point(ray.hit.instID[0], ray.hit.primID, ray.hit.u, ray.hit.v).front_normal;
+                const float pdf = traced.lights.triangle_pdf(cell, vec3(0), ray.hit.instID[0], ray.hit.primID, normal,
+                                                             direction, ray.ray.tfar);
+                // A ray along a shared edge may meet the neighbour, whose density is another.
+                if (std::abs(pdf - lights.pdf[lane]) < 1e-3f * pdf) solid_angle += 1.0 / pdf / samples;
+            }
         }
-        traced.lights.sample(wanted, point, {}, x, y, lights);
-        for (int lane = 0; lane < lane_count; ++lane) {
-            if (lights.pdf[lane] == 0) continue;  // the far side of the ball
-            RTCRayHit ray;
-            const vec3 direction = lights.direction.get(lane);
-            if (!intersect(traced.geometry.handle(), vec3(0), direction, ray)) continue;  // past a facet seen edge-on
-            const vec3 normal =
-                traced.geometry.point(ray.hit.instID[0], ray.hit.primID, ray.hit.u, ray.hit.v).front_normal;
-            const float pdf =
-                traced.lights.triangle_pdf(0, ray.hit.instID[0], ray.hit.primID, normal, direction, ray.ray.tfar);
-            // A ray along a shared edge may meet the neighbour, whose density is another.
-            if (std::abs(pdf - lights.pdf[lane]) < 1e-3f * pdf) solid_angle += 1.0 / pdf / samples;
-        }
+        solid_angles[is_learnt] = solid_angle;
+        variances[is_learnt] = squares - light * light;
+        traced.lights.learn(seen);
     }
     const glm::dvec3 origin(0);
     // The integral of 1 over directions: the solid angle of the rectangle and of the ball, a polyhedron in its sphere.
     const double rectangle = 4 * std::asin(1 * 1 / ((1 + 4.0) * 1)), ball = 2 * M_PI * (1 - std::sqrt(1 - 0.25 / 10));
-    EXPECT_NEAR(solid_angle, rectangle + ball, 0.01);
+    for (const double solid_angle : solid_angles) EXPECT_NEAR(solid_angle, rectangle + ball, 0.01);
+    EXPECT_LT(variances[1], 0.5 * variances[0]);  // it decides
     EXPECT_EQ(traced.lights.has_environment_table(), false);
 }
