@@ -115,27 +115,35 @@ glm::vec4 sample_texture(const Texture& texture, glm::vec2 uv) {
 
 TiledTextures::TiledTextures(const Scene& scene) : textures_(scene.textures.size()) {
     struct Block {
-        size_t offset;  ///< in the copy, words of 32 bits
+        size_t offset;  ///< of its first tile in the copy, words of 32 bits
+        unsigned tile_step;
         bool is_to_copy = true;
     };
     std::map<Texels, Block> blocks;  // texels that several textures show are one
     size_t count = 0;
-    const auto add = [&](const TextureSlot& slot) {
-        if (slot.texture < 0) return;
-        const Texture& texture = scene.textures[size_t(slot.texture)];
-        const glm::uvec2 tiles = (texture.extent + (tile_side - 1)) / tile_side;
-        textures_[size_t(slot.texture)] = {.extent = glm::ivec2(texture.extent),
-                                           .tiles_in_row = tiles.x,
-                                           .words = texture.channel_bytes,
-                                           .wrap_u = texture.wrap_u,
-                                           .wrap_v = texture.wrap_v,
-                                           .is_srgb = texture.is_srgb,
-                                           .is_nearest = texture.is_nearest};
-        if (blocks.emplace(texture.rgba, Block{count}).second)
-            count += size_t(tiles.x) * tiles.y * tile_side * tile_side * texture.channel_bytes;
-    };
-    for (const Material& material : scene.materials)
-        for (const TextureSlot* slot : texture_slots(material)) add(*slot);
+    for (const Material& material : scene.materials) {
+        std::map<std::array<unsigned, 3>, std::vector<Texels>>
+            alike;  // by tiles and words of the material's new blocks
+        for (const TextureSlot* slot : texture_slots(material)) {
+            if (slot->texture < 0) continue;
+            const Texture& texture = scene.textures[size_t(slot->texture)];
+            const glm::uvec2 tiles = (texture.extent + (tile_side - 1)) / tile_side;
+            textures_[size_t(slot->texture)] = {.extent = glm::ivec2(texture.extent),
+                                                .tiles_in_row = tiles.x,
+                                                .words = texture.channel_bytes,
+                                                .wrap_u = texture.wrap_u,
+                                                .wrap_v = texture.wrap_v,
+                                                .is_srgb = texture.is_srgb,
+                                                .is_nearest = texture.is_nearest};
+            if (blocks.emplace(texture.rgba, Block{}).second)
+                alike[{tiles.x, tiles.y, texture.channel_bytes}].push_back(texture.rgba);
+        }
+        for (const auto& [size, members] : alike) {
+            const unsigned tile = tile_side * tile_side * size[2], step = tile * unsigned(members.size());
+            for (size_t i = 0; i < members.size(); ++i) blocks[members[i]] = {count + i * tile, step};
+            count += size_t(size[0]) * size[1] * step;
+        }
+    }
     if (count == 0) return;
 
     const size_t bytes = (count * sizeof(uint32_t) + huge_page - 1) / huge_page * huge_page;
@@ -148,6 +156,7 @@ TiledTextures::TiledTextures(const Scene& scene) : textures_(scene.textures.size
         const auto block = blocks.find(scene.textures[i].rgba);
         uint32_t* const texels = texels_.get() + block->second.offset;
         tiled.texels = texels;
+        tiled.tile_step = block->second.tile_step;
         if (!std::exchange(block->second.is_to_copy, false)) continue;
         const uint8_t* const rows = block->first->data();
         const auto copy =
@@ -156,12 +165,11 @@ TiledTextures::TiledTextures(const Scene& scene) : textures_(scene.textures.size
                 constexpr int row_of_tile = int(tile_side);
                 tbb::parallel_for(0, tiled.extent.y, [&](int y) {
                     const uint8_t* const row = rows + texel * size_t(y) * size_t(tiled.extent.x);
-                    auto* const to = reinterpret_cast<uint8_t*>(texels);
                     int x = 0;
                     for (; x + row_of_tile <= tiled.extent.x; x += row_of_tile)
-                        std::memcpy(to + texel * tiled.index(x, y), row + texel * size_t(x), texel * row_of_tile);
+                        std::memcpy(texels + tiled.index(x, y), row + texel * size_t(x), texel * row_of_tile);
                     for (; x < tiled.extent.x; ++x)
-                        std::memcpy(to + texel * tiled.index(x, y), row + texel * size_t(x), texel);
+                        std::memcpy(texels + tiled.index(x, y), row + texel * size_t(x), texel);
                 });
             };
         if (tiled.words == 2)
@@ -176,7 +184,7 @@ glm::vec4 TiledTextures::sample(int texture, glm::vec2 uv) const {
     if (tiled.words == 2)
         return filtered(tiled, uv, [&](int x, int y) {
             WideCodes codes;
-            std::memcpy(&codes, tiled.texels + 2 * tiled.index(x, y), sizeof codes);
+            std::memcpy(&codes, tiled.texels + tiled.index(x, y), sizeof codes);
             return codes;
         });
     return filtered(tiled, uv, [&](int x, int y) { return tiled.texels[tiled.index(x, y)]; });
@@ -186,6 +194,6 @@ void TiledTextures::prefetch(int texture, glm::vec2 uv) const {
     const Tiled& tiled = textures_[size_t(texture)];
     const Footprint at = footprint(tiled, uv);
     // The tiles at two corners: those of all four but for one lookup of 16.
-    __builtin_prefetch(tiled.texels + tiled.index(at.first.x, at.first.y) * tiled.words);
-    __builtin_prefetch(tiled.texels + tiled.index(at.last.x, at.last.y) * tiled.words);
+    __builtin_prefetch(tiled.texels + tiled.index(at.first.x, at.first.y));
+    __builtin_prefetch(tiled.texels + tiled.index(at.last.x, at.last.y));
 }
