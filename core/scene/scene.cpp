@@ -14,14 +14,15 @@
 
 namespace {
 
-/// Bilinear between texel centres; u wraps, v clamps.
+/// Bilinear between texel centres; u (0 to 1) wraps, v clamps.
 glm::vec3 bilinear(const HostImage& image, glm::vec2 uv) {
     const int width = int(image.extent.x), height = int(image.extent.y);
     const glm::vec2 texel = uv * glm::vec2(image.extent) - 0.5f;
     const glm::vec2 base = glm::floor(texel);
     const glm::vec2 weight = texel - base;
     const auto fetch = [&](int x, int y) {
-        const float* rgb = image.pixel(unsigned((x + width) % width), unsigned(std::clamp(y, 0, height - 1)));
+        const int column = x < 0 ? width - 1 : x < width ? x : 0;
+        const float* rgb = image.pixel(unsigned(column), unsigned(std::clamp(y, 0, height - 1)));
         return glm::vec3(rgb[0], rgb[1], rgb[2]);
     };
     const int x = int(base.x), y = int(base.y);
@@ -142,7 +143,9 @@ glm::vec3 Environment::radiance(glm::vec3 direction) const {
         case Type::gradient:
             return glm::max(color + slope * glm::dot(direction, axis), glm::vec3(0.0f));
         case Type::image:
-            return bilinear(latlong, environment_uv(direction, rotation));
+            return image_radiance(environment_uv(direction, rotation));
     }
     return glm::vec3(0.0f);
 }
+
+glm::vec3 Environment::image_radiance(glm::vec2 uv) const { return bilinear(latlong, uv); }

@@ -137,6 +137,7 @@ struct Environment {
 
     bool is_black() const;                          ///< in every direction
     glm::vec3 radiance(glm::vec3 direction) const;  ///< direction: unit, world space
+    glm::vec3 image_radiance(glm::vec2 uv) const;   ///< image: radiance() of the direction of an environment_uv()
 };
 
 /// Where a camera is at a frame. Between keys position and target are linear in the frame number.

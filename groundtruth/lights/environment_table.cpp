@@ -59,7 +59,7 @@ std::vector<std::vector<uint32_t>> divide_sky(std::span<const double> power, uns
 
 }  // namespace
 
-EnvironmentTable::EnvironmentTable(const Environment& environment, bool compensate) : rotation_(environment.rotation) {
+EnvironmentTable::EnvironmentTable(const Environment& environment, bool compensate) : environment_(&environment) {
     const bool is_image = environment.type == Environment::Type::image;
     const glm::uvec2 extent = is_image ? environment.latlong.extent : glm::uvec2(blocks_across, blocks_across / 2);
     // A cell is a square of texels; the last one of a row or column may be smaller.
@@ -86,31 +86,65 @@ EnvironmentTable::EnvironmentTable(const Environment& environment, bool compensa
         for (size_t i = 0; i < sum.size(); ++i) sum[i] = std::max(0.0, sum[i] - mean_luminance_ * solid_angle[i]);
 
     density_.resize(sum.size(), {0, 0.0f});
-    for (std::vector<uint32_t>& cells : divide_sky(sum, width_, height_)) {
+    for (const std::vector<uint32_t>& cells : divide_sky(sum, width_, height_)) {
         std::vector<double> weights;
         for (const uint32_t cell : cells) weights.push_back(sum[cell]);
         const AliasTable table(weights);
-        for (size_t i = 0; i < cells.size(); ++i)
-            density_[cells[i]] = {part_count(), float(table.probability(i) / solid_angle[cells[i]])};
-        parts_.push_back({std::move(cells), table});
+        std::vector<Cell> of_part;
+        for (size_t i = 0; i < cells.size(); ++i) {
+            const auto pdf = float(table.probability(i) / solid_angle[cells[i]]);
+            density_[cells[i]] = {part_count(), pdf};
+            of_part.push_back({cells[i], pdf});
+        }
+        parts_.push_back({std::move(of_part), table});
     }
 }
 
-glm::vec3 EnvironmentTable::sample(uint32_t part, glm::uvec2 bits, float& pdf) const {
-    const auto [index, rest] = parts_[part].table.sample(bits.x);
-    const uint32_t cell = parts_[part].cells[index];
-    pdf = density_[cell].pdf;
-    const float x = float(rest) * 0x1p-32f, y = float(bits.y) * 0x1p-32f;
-    const float column = float(cell % width_), row = float(cell / width_);
+AliasTable::Choice EnvironmentTable::choose(uint32_t part, glm::uvec2 bits) const {
+    const AliasTable::Choice choice = parts_[part].table.sample(bits.x);
+    __builtin_prefetch(&parts_[part].cells[choice.index]);
+    return choice;
+}
+
+glm::vec2 EnvironmentTable::place(uint32_t part, AliasTable::Choice choice, glm::uvec2 bits, float& pdf) const {
+    const Cell cell = parts_[part].cells[choice.index];
+    pdf = cell.pdf;
+    const float x = float(choice.rest) * 0x1p-32f, y = float(bits.y) * 0x1p-32f;
+    const float column = float(cell.index % width_), row = float(cell.index / width_);
     const float u0 = column * cell_extent_.x, u1 = std::min(1.0f, u0 + cell_extent_.x);
     const float top = std::cos(pi * row * cell_extent_.y),
                 bottom = std::cos(pi * std::min(1.0f, (row + 1) * cell_extent_.y));
     const float v = std::acos(std::clamp(top + y * (bottom - top), -1.0f, 1.0f)) / pi;
-    return environment_direction({u0 + x * (u1 - u0), v}, rotation_);
+    const glm::vec2 uv(u0 + x * (u1 - u0), v);
+    prefetch_radiance(uv);
+    return uv;
 }
 
-EnvironmentTable::Density EnvironmentTable::density(glm::vec3 direction) const {
-    const glm::vec2 cell = environment_uv(direction, rotation_) / cell_extent_;
-    const unsigned x = std::min(unsigned(cell.x), width_ - 1), y = std::min(unsigned(cell.y), height_ - 1);
-    return density_[size_t(y) * width_ + x];
+glm::vec2 EnvironmentTable::place(glm::vec3 direction) const {
+    const glm::vec2 uv = environment_uv(direction, environment_->rotation);
+    __builtin_prefetch(&density_[cell(uv)]);
+    prefetch_radiance(uv);
+    return uv;
+}
+
+size_t EnvironmentTable::cell(glm::vec2 uv) const {
+    const glm::vec2 at = uv / cell_extent_;
+    const unsigned x = std::min(unsigned(at.x), width_ - 1), y = std::min(unsigned(at.y), height_ - 1);
+    return size_t(y) * width_ + x;
+}
+
+glm::vec3 EnvironmentTable::direction(glm::vec2 uv) const { return environment_direction(uv, environment_->rotation); }
+
+glm::vec3 EnvironmentTable::radiance(glm::vec2 uv, glm::vec3 direction) const {
+    return environment_->type == Environment::Type::image ? environment_->image_radiance(uv)
+                                                          : environment_->radiance(direction);
+}
+
+/// The texels of the upper two of a bilinear lookup's corners, and of the lower two.
+void EnvironmentTable::prefetch_radiance(glm::vec2 uv) const {
+    if (environment_->type != Environment::Type::image) return;
+    const HostImage& image = environment_->latlong;
+    const glm::ivec2 at(uv * glm::vec2(image.extent) - 0.5f), last(glm::ivec2(image.extent) - 1);
+    const auto x = unsigned(std::clamp(at.x, 0, last.x));
+    for (const int y : {at.y, at.y + 1}) __builtin_prefetch(image.pixel(x, unsigned(std::clamp(y, 0, last.y))));
 }

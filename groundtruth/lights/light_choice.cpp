@@ -30,13 +30,12 @@ void LightChoice::add_cell(std::span<const double> means) {
     ends_.back() = whole;
 }
 
-void LightChoice::learn(std::span<const LightObservation> observations, vec3 low, vec3 high) {
-    if (groups_ < 2 || !(dot(high - low, high - low) > 0)) return;
-    grid_ = LearningGrid(low, high);
+void LightChoice::learn(std::span<const LightObservation> observations, const LearningGrid& grid) {
+    if (groups_ < 2 || grid.size() == 0) return;
 
     // Cells are numbered as they are seen: the whole scene, the coarse ones, the fine ones.
-    std::vector<uint32_t> coarse(grid_.size(), 0), around{0};  // around: of each cell, the one that holds it
-    cells_.assign(grid_.size(), 0);
+    std::vector<uint32_t> coarse(grid.size(), 0), around{0};  // around: of each cell, the one that holds it
+    cells_.assign(grid.size(), 0);
     const auto number = [&](uint32_t& cell, uint32_t holder) {
         if (cell != 0) return;
         cell = uint32_t(around.size());
@@ -44,15 +43,15 @@ void LightChoice::learn(std::span<const LightObservation> observations, vec3 low
     };
     std::vector<size_t> places;
     for (const LightObservation& seen : observations) {
-        places.push_back(grid_.index(seen.position, seen.normal));
-        number(coarse[grid_.coarse_index(places.back())], 0);
+        places.push_back(grid.index(seen.position, seen.normal));
+        number(coarse[grid.coarse_index(places.back())], 0);
     }
-    for (const size_t place : places) number(cells_[place], coarse[grid_.coarse_index(place)]);
+    for (const size_t place : places) number(cells_[place], coarse[grid.coarse_index(place)]);
 
     std::vector<double> sum(around.size() * groups_, 0.0), count(sum.size(), 0.0), mean(sum.size(), 0.0);
     for (size_t i = 0; i < observations.size(); ++i) {
         const LightObservation& seen = observations[i];
-        for (const uint32_t cell : {0u, coarse[grid_.coarse_index(places[i])], cells_[places[i]]}) {
+        for (const uint32_t cell : {0u, coarse[grid.coarse_index(places[i])], cells_[places[i]]}) {
             sum[size_t(cell) * groups_ + seen.group] += double(seen.contribution) * shares_[seen.group];
             count[size_t(cell) * groups_ + seen.group] += 1;
         }
@@ -67,7 +66,7 @@ void LightChoice::learn(std::span<const LightObservation> observations, vec3 low
         add_cell(std::span(mean).subspan(cell * groups_, groups_));
     }
     for (size_t place = 0; place < cells_.size(); ++place)
-        if (cells_[place] == 0) cells_[place] = coarse[grid_.coarse_index(place)];
+        if (cells_[place] == 0) cells_[place] = coarse[grid.coarse_index(place)];
 }
 
 LightChoice::Choice LightChoice::sample(uint32_t cell, uint32_t bits) const {

@@ -26,13 +26,17 @@ public:
     /// Before learning: each group has its share everywhere. `shares`: one per group, > 0, with a sum of 1.
     explicit LightChoice(std::vector<double> shares = {1.0});
 
-    /// `low`, `high`: bounds of the scene (m). The same observations in the same order give the same choice to the bit.
-    void learn(std::span<const LightObservation> observations, vec3 low, vec3 high);
+    /// The same observations in the same order give the same choice to the bit.
+    void learn(std::span<const LightObservation> observations, const LearningGrid& grid);
 
-    /// The cell of a point (m) with a unit normal; 0 stands for the whole scene.
-    uint32_t cell(vec3 position, vec3 normal) const {
-        return cells_.empty() ? 0 : cells_[grid_.index(position, normal)];
+    /// The cell of an index of the grid; 0 stands for the whole scene.
+    uint32_t cell(size_t index) const { return cells_.empty() ? 0 : cells_[index]; }
+    // Prefetch what cell() will read, and what sample() and probability() will.
+    void prefetch(size_t index) const {
+        if (!cells_.empty()) __builtin_prefetch(&cells_[index]);
     }
+    void prefetch_cell(uint32_t cell) const { __builtin_prefetch(&ends_[size_t(cell) * groups_]); }
+
     float probability(uint32_t cell, uint32_t group) const {
         const uint32_t* ends = &ends_[size_t(cell) * groups_];
         return float(ends[group] - (group ? ends[group - 1] : 0)) * 0x1p-24f;
@@ -49,7 +53,6 @@ private:
 
     std::vector<double> shares_;
     uint32_t groups_;
-    LearningGrid grid_;
-    std::vector<uint32_t> cells_;  ///< of grid_; empty: nothing is learnt
+    std::vector<uint32_t> cells_;  ///< of the grid; empty: nothing is learnt
     std::vector<uint32_t> ends_;  ///< of each cell: sums of the groups' probabilities up to each (2^-24); the last is 1
 };

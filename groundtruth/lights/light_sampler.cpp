@@ -78,10 +78,9 @@ LightSampler::LightSampler(const Scene& scene, const ScenePose& pose, const Embr
 
     triangle_count_ = uint32_t(triangles_.size());
 
-    const auto bounds = scene_bounds(scene, pose);
-    low_ = bounds[0];
-    high_ = bounds[1];
-    const float diagonal = glm::length(high_ - low_);
+    const auto [low, high] = scene_bounds(scene, pose);
+    grid_ = LearningGrid(low, high);
+    const float diagonal = glm::length(high - low);
     const double radius = 0.5 * double(diagonal);
     for (const PunctualLight& light : pose.lights) {
         if (light.intensity == glm::vec3(0.0f)) continue;
@@ -96,10 +95,8 @@ LightSampler::LightSampler(const Scene& scene, const ScenePose& pose, const Embr
     }
     group_lights(diagonal);
 
-    if (sample_environment && !scene.environment.is_black()) {
+    if (sample_environment && !scene.environment.is_black())
         environment_ = EnvironmentTable(scene.environment, compensate);
-        environment_source_ = &scene.environment;
-    }
     if (!empty()) choice_ = LightChoice(shares());
     needs_more_ = !lights_.empty() || has_environment_table();
     for (const Triangle& light : triangles_) needs_more_ |= light.emission_varies;
@@ -203,7 +200,7 @@ void LightSampler::add_triangles(const Scene& scene, uint32_t instance_index) {
 
 void LightSampler::learn(std::span<const LightObservation> observations) {
     cluster_groups(observations);
-    choice_.learn(observations, low_, high_);
+    choice_.learn(observations, grid_);
 }
 
 /// Clusters are used where they lower the variance enough to pay for their time. The observed samples c were drawn by
@@ -277,6 +274,7 @@ void LightSampler::sample(const Lanes<uint32_t>& is_wanted, const LanesVec3& poi
         lights.is_delta[lane] = 0;
         lights.is_infinite[lane] = 0;
     }
+    uint32_t to_environment = 0;  // bit per lane
     for (int lane = 0; lane < lane_count && needs_more_; ++lane) {
         if (!is_wanted[lane]) continue;
         const uint32_t index = choice[lane];
@@ -287,20 +285,33 @@ void LightSampler::sample(const Lanes<uint32_t>& is_wanted, const LanesVec3& poi
             continue;
         }
         if (index == in_environment)
-            sample_environment(lights.group[lane], rest[lane], y[lane], probability[lane], lane, lights);
+            to_environment |= 1u << lane;
         else
             sample_punctual(lights_[index - triangle_count_], point.get(lane), probability[lane], lane, lights);
     }
+    if (to_environment) sample_environment(to_environment, rest, y, probability, lights);
 }
 
-void LightSampler::sample_environment(uint32_t group, uint32_t x, uint32_t y, float probability, int lane,
-                                      LightLanes& lights) const {
-    float pdf;
-    const glm::vec3 direction = environment_.sample(group - uint32_t(groups_.size()), {x, y}, pdf);
-    lights.pdf[lane] = pdf * probability;
-    lights.direction.set(lane, direction);
-    lights.radiance.set(lane, environment_source_->radiance(direction));
-    lights.is_infinite[lane] = 1;
+/// `lanes`: a bit each.
+void LightSampler::sample_environment(uint32_t lanes, const Lanes<uint32_t>& x, const Lanes<uint32_t>& y,
+                                      const Lanes<float>& probability, LightLanes& lights) const {
+    AliasTable::Choice choice[lane_count];
+    glm::vec2 place[lane_count];
+    const auto part = [&](int lane) { return lights.group[lane] - uint32_t(groups_.size()); };
+    const auto bits = [&](int lane) { return glm::uvec2(x[lane], y[lane]); };
+    for_each_bit(lanes, [&](int lane) { environment_.prefetch(part(lane), bits(lane)); });
+    for_each_bit(lanes, [&](int lane) { choice[lane] = environment_.choose(part(lane), bits(lane)); });
+    for_each_bit(lanes, [&](int lane) {
+        float pdf;
+        place[lane] = environment_.place(part(lane), choice[lane], bits(lane), pdf);
+        lights.pdf[lane] = pdf * probability[lane];
+        lights.is_infinite[lane] = 1;
+    });
+    for_each_bit(lanes, [&](int lane) {
+        const glm::vec3 direction = environment_.direction(place[lane]);
+        lights.direction.set(lane, direction);
+        lights.radiance.set(lane, environment_.radiance(place[lane], direction));
+    });
 }
 
 void LightSampler::sample_punctual(const PunctualLight& light, glm::vec3 point, float probability, int lane,
@@ -328,8 +339,7 @@ float LightSampler::triangle_pdf(uint32_t cell, glm::vec3 point, uint32_t instan
     return light.per_area * probability * distance * distance / cosine;
 }
 
-float LightSampler::environment_pdf(uint32_t cell, glm::vec3 direction) const {
-    if (!has_environment_table()) return 0.0f;
-    const EnvironmentTable::Density density = environment_.density(direction);
+float LightSampler::environment_pdf(uint32_t cell, glm::vec2 place) const {
+    const EnvironmentTable::Density density = environment_.density(place);
     return density.pdf * choice_.probability(cell, uint32_t(groups_.size()) + density.part);
 }

@@ -46,10 +46,9 @@ public:
     uint32_t group_count() const { return uint32_t(groups_.size()) + environment_.part_count(); }
     /// See LightChoice::learn(). Also decides which groups use LightClusters.
     void learn(std::span<const LightObservation> observations);
-    /// The cell of LightChoice for a point (m) with a unit geometric normal on the side where light arrives.
-    uint32_t cell(glm::vec3 position, glm::vec3 normal) const { return choice_.cell(position, normal); }
-    glm::vec3 low() const { return low_; }  ///< bounds of the scene (m)
-    glm::vec3 high() const { return high_; }
+    /// The cells of all that is learnt of the scene.
+    const LearningGrid& grid() const { return grid_; }
+    const LightChoice& choice() const { return choice_; }
     const std::vector<PunctualLight>& punctual_lights() const { return lights_; }  ///< those that shine
     bool has_environment_table() const { return environment_.part_count() > 0; }
 
@@ -62,8 +61,10 @@ public:
     /// from `point` (m) of `cell`.
     float triangle_pdf(uint32_t cell, glm::vec3 point, uint32_t instance, uint32_t triangle, glm::vec3 normal,
                        glm::vec3 direction, float distance) const;
-    /// The same (sr^-1) for a unit direction to the environment; 0 if the environment is not sampled.
-    float environment_pdf(uint32_t cell, glm::vec3 direction) const;
+    /// The same (sr^-1) for a direction of environment(), of which a place is given.
+    float environment_pdf(uint32_t cell, glm::vec2 place) const;
+    /// Only where has_environment_table().
+    const EnvironmentTable& environment() const { return environment_; }
 
 private:
     static constexpr uint32_t no_light = ~0u, no_group = ~0u;
@@ -93,8 +94,8 @@ private:
     std::vector<double> shares() const;
     void add_group(std::vector<uint32_t> lights);
     void cluster_groups(std::span<const LightObservation> observations);
-    void sample_environment(uint32_t group, uint32_t x, uint32_t y, float probability, int lane,
-                            LightLanes& lights) const;
+    void sample_environment(uint32_t lanes, const Lanes<uint32_t>& x, const Lanes<uint32_t>& y,
+                            const Lanes<float>& probability, LightLanes& lights) const;
     void sample_punctual(const PunctualLight& light, glm::vec3 point, float probability, int lane,
                          LightLanes& lights) const;
 
@@ -106,9 +107,8 @@ private:
     std::vector<PunctualLight> lights_;
     std::vector<LightExtent> extents_;  ///< of triangles_, then lights_
     EnvironmentTable environment_;
-    const Environment* environment_source_ = nullptr;
     bool needs_more_ = false;    ///< there is more to sample than triangles of constant emission
     std::vector<Group> groups_;  ///< LightChoice counts these, then the parts of environment_
     LightChoice choice_;
-    glm::vec3 low_{0.0f}, high_{0.0f};  ///< bounds of the scene (m)
+    LearningGrid grid_;
 };

@@ -12,22 +12,17 @@ struct Sum {
 
 }  // namespace
 
-void ExpectedRadiance::learn(std::span<const RadianceObservation> observations, vec3 low, vec3 high) {
-    if (observations.empty() || !(dot(high - low, high - low) > 0)) return;
-    grid_ = LearningGrid(low, high);
+void ExpectedRadiance::learn(std::span<const RadianceObservation> observations, const LearningGrid& grid) {
+    if (observations.empty() || grid.size() == 0) return;
     Sum all;
-    std::vector<Sum> coarse(grid_.size()), fine(grid_.size());
+    std::vector<Sum> coarse(grid.size()), fine(grid.size());
     for (const RadianceObservation& seen : observations) {
-        const size_t cell = grid_.index(seen.position, seen.normal);
-        for (Sum* sum : {&all, &coarse[grid_.coarse_index(cell)], &fine[cell]})
+        const size_t cell = grid.index(seen.position, seen.normal);
+        for (Sum* sum : {&all, &coarse[grid.coarse_index(cell)], &fine[cell]})
             sum->sum += double(seen.radiance), sum->count += 1;
     }
     const double mean = all.sum / all.count;
-    radiance_.resize(grid_.size());
+    radiance_.resize(grid.size());
     for (size_t cell = 0; cell < radiance_.size(); ++cell)
-        radiance_[cell] = float(fine[cell].mean(coarse[grid_.coarse_index(cell)].mean(mean)));
-}
-
-float ExpectedRadiance::at(vec3 position, vec3 normal) const {
-    return radiance_.empty() ? 0.0f : radiance_[grid_.index(position, normal)];
+        radiance_[cell] = float(fine[cell].mean(coarse[grid.coarse_index(cell)].mean(mean)));
 }

@@ -18,13 +18,16 @@ struct RadianceObservation {
 /// both, so no mean depends on it.
 class ExpectedRadiance {
 public:
-    /// `low`, `high`: bounds of the scene (m). The same observations in the same order give the same bits.
-    void learn(std::span<const RadianceObservation> observations, vec3 low, vec3 high);
+    /// The same observations in the same order give the same bits.
+    void learn(std::span<const RadianceObservation> observations, const LearningGrid& grid);
 
-    /// The expected radiance; 0 everywhere until something is learnt.
-    float at(vec3 position, vec3 normal) const;
+    /// The expected radiance at an index of the grid; 0 everywhere until something is learnt.
+    float at(size_t index) const { return radiance_.empty() ? 0.0f : radiance_[index]; }
+    /// Prefetches what at() will read.
+    void prefetch(size_t index) const {
+        if (!radiance_.empty()) __builtin_prefetch(&radiance_[index]);
+    }
 
 private:
-    LearningGrid grid_;
-    std::vector<float> radiance_;  ///< of grid_; empty: nothing is learnt
+    std::vector<float> radiance_;  ///< of the grid; empty: nothing is learnt
 };

@@ -24,11 +24,6 @@ constexpr uint32_t branch_stream = 1u << 20;
 
 constexpr uint32_t all_lanes = (1ull << lane_count) - 1;
 
-template <class Work>
-void for_each_bit(uint32_t bits, const Work& work) {
-    for (; bits != 0; bits &= bits - 1) work(std::countr_zero(bits));
-}
-
 uint32_t bits_of(const Lanes<uint32_t>& flags) {
     uint32_t bits = 0;
     for (int lane = 0; lane < lane_count; ++lane) bits |= flags[lane] << lane;
@@ -91,21 +86,35 @@ void PathLanes::trace_rays() {
             scene_.materials.prefetch_texels(hit.instID[0], hit.primID, hit.u, hit.v);
         });
     }
-    if (scene_.has_environment || goal_ == PathGoal::lit_color)
-        for_each_bit(on_their_way & ~hits, [&](int lane) { leave(lane); });
+    if (scene_.has_environment || goal_ == PathGoal::lit_color) leave(on_their_way & ~hits);
     continues_ = {};
     for_each_bit(resumed_, [&](int lane) { continues_[lane] = 1; });
     for_each_bit(hits, [&](int lane) { meet(lane, ray[lane]); });
+    for_each_bit(hits, [&](int lane) {
+        const size_t index = scene_.lights.grid().index(position_.get(lane), geometric_normal_.get(lane));
+        learnt_index_[lane] = uint32_t(index);
+        scene_.expected.prefetch(index);
+        scene_.lights.choice().prefetch(index);
+    });
 }
 
-/// A path that meets nothing sees the environment.
-void PathLanes::leave(int lane) {
-    const vec3 direction = direction_.get(lane);
-    if (goal_ == PathGoal::lit_color && depth_[lane] == 1)
-        is_on_screen_[lane] = is_on_screen(scene_, direction, *estimate_[lane]);
-    const float weight = scene_.mis.of_bsdf(pdf_[lane], scene_.lights.environment_pdf(light_cell_[lane], direction));
-    radiance_.set(lane,
-                  radiance_.get(lane) + throughput_.get(lane) * scene_.scene.environment.radiance(direction) * weight);
+/// Paths that meet nothing see the environment. `lanes`: a bit each.
+void PathLanes::leave(uint32_t lanes) {
+    const LightSampler& lights = scene_.lights;
+    const bool has_table = lights.has_environment_table();
+    vec2 place[lane_count];
+    if (has_table)
+        for_each_bit(lanes, [&](int lane) { place[lane] = lights.environment().place(direction_.get(lane)); });
+    for_each_bit(lanes, [&](int lane) {
+        const vec3 direction = direction_.get(lane);
+        if (goal_ == PathGoal::lit_color && depth_[lane] == 1)
+            is_on_screen_[lane] = is_on_screen(scene_, direction, *estimate_[lane]);
+        const float light_pdf = has_table ? lights.environment_pdf(light_cell_[lane], place[lane]) : 0.0f;
+        const vec3 radiance = has_table ? lights.environment().radiance(place[lane], direction)
+                                        : scene_.scene.environment.radiance(direction);
+        const float weight = scene_.mis.of_bsdf(pdf_[lane], light_pdf);
+        radiance_.set(lane, radiance_.get(lane) + throughput_.get(lane) * radiance * weight);
+    });
 }
 
 /// Takes in the surface at the end of a ray, and its emission.
@@ -143,17 +152,18 @@ void PathLanes::sample_lights() {
         x[lane] = bits.x;
         y[lane] = bits.y;
     }
-    for (int lane = 0; lane < lane_count; ++lane)
-        if (continues_[lane]) light_cell_[lane] = scene_.lights.cell(position_.get(lane), geometric_normal_.get(lane));
     scene_.lights.sample(continues_, position_, light_cell_, x, y, lights_);
 }
 
 void PathLanes::look_ahead() {
     const bool splits = scene_.settings.splitting && goal_ == PathGoal::reflection;
+    const LightChoice& choice = scene_.lights.choice();
+    for_each_bit(bits_of(continues_), [&](int lane) {
+        light_cell_[lane] = choice.cell(learnt_index_[lane]);
+        choice.prefetch_cell(light_cell_[lane]);
+    });
     for_each_bit(bits_of(continues_) & ~resumed_, [&](int lane) {
-        promise_[lane] = per_estimate_[lane] > 0 ? per_estimate_[lane] * scene_.expected.at(position_.get(lane),
-                                                                                            geometric_normal_.get(lane))
-                                                 : 0.0f;
+        promise_[lane] = per_estimate_[lane] > 0 ? per_estimate_[lane] * scene_.expected.at(learnt_index_[lane]) : 0.0f;
         part_[lane] = 1.0f;
         if (!splits || depth_[lane] >= scene_.settings.max_depth) return;
         // The direction is not known yet: about what the surface reflects stands for it.
@@ -190,6 +200,7 @@ void PathLanes::split(int lane, unsigned parts) {
             .pair = branch_stream | hash_bits(pair_[lane] * most_parts + part),
             .reversed_sample = reversed_sample_[lane],
             .is_specular = is_specular_[lane],
+            .learnt_index = learnt_index_[lane],
         });
 }
 
@@ -222,6 +233,7 @@ void PathLanes::resume_branches() {
         pair_[lane] = branch.pair;
         reversed_sample_[lane] = branch.reversed_sample;
         is_specular_[lane] = branch.is_specular;
+        learnt_index_[lane] = branch.learnt_index;
     }
 }
 

@@ -15,7 +15,7 @@ struct PathStart {
     glm::vec3 origin, direction;
     glm::vec3 weight;          ///< f mu_i / pdf of its lobe
     float pdf;                 ///< sr^-1, of its lobe
-    uint32_t light_cell;       ///< of the first hit: see LightSampler::cell()
+    uint32_t light_cell;       ///< of the first hit: see LightChoice::cell()
     uint32_t reversed_sample;  ///< the index of the sample, bits reversed
     bool is_specular;          ///< it leaves along the specular lobe, else the diffuse one
     /// 1 / expected luminance of this lobe in the pixel: roulette ends paths that promise little of it. 0: roulette by
@@ -41,7 +41,7 @@ public:
 private:
     void advance();
     void trace_rays();
-    void leave(int lane);
+    void leave(uint32_t lanes);
     void meet(int lane, const RTCRayHit& ray);
     void sample_lights();
     template <bool has_dielectric_f0>
@@ -63,7 +63,7 @@ private:
         SobolSequence sequence;
         vec3 direction, throughput, weight, position, error, geometric_normal, normal, base_color, dielectric_f0;
         float metalness, roughness, specular, per_estimate, promise, part;
-        uint32_t depth, pair, reversed_sample, is_specular;
+        uint32_t depth, pair, reversed_sample, is_specular, learnt_index;
     };
 
     struct Visit {
@@ -92,6 +92,7 @@ private:
     Lanes<uint32_t> continues_;  ///< 1 if there is one, and later if the path goes on from it, else 0
     LanesVec3 position_, error_, geometric_normal_, normal_, base_color_, dielectric_f0_;
     Lanes<float> metalness_, roughness_, specular_;
+    Lanes<uint32_t> learnt_index_;  ///< of LightSampler::grid()
     LightLanes lights_;
     LanesVec3 direct_;  ///< what the light sample adds, if it is visible
     Lanes<float>

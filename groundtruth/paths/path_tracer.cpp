@@ -23,7 +23,7 @@ struct FirstVertex {
     mat3 world_from_local{};
     Lobes lobes{};
     bool wants_diffuse = false, wants_specular = false;
-    uint32_t light_cell = 0;               ///< see LightSampler::cell()
+    uint32_t light_cell = 0;               ///< see LightChoice::cell()
     float per_estimate[2] = {0.0f, 0.0f};  ///< see PathStart; diffuse, specular
 };
 
@@ -46,7 +46,7 @@ bool prepare(const TracedScene& scene, FirstVertex& vertex) {
     if (o.z <= 0) return false;
     vertex.lobes = make_lobes(hit.base_color, hit.metalness, hit.roughness, hit.specular, o, scene.settings.model);
     if (scene.materials.any_dielectric_f0()) vertex.lobes = lobes_of_own_f0(hit, o, scene.settings.model);
-    vertex.light_cell = scene.lights.cell(hit.ray_origin, hit.geometric_normal);
+    vertex.light_cell = scene.lights.choice().cell(scene.lights.grid().index(hit.ray_origin, hit.geometric_normal));
     vertex.wants_diffuse = scene.settings.diffuse && vertex.lobes.has_diffuse;
     vertex.wants_specular = scene.settings.specular && vertex.lobes.has_specular;
     return true;
@@ -290,7 +290,7 @@ void PathTracer::learn_light_choice() {
 void PathTracer::expect(const HostImage& diffuse, const HostImage& specular) {
     TracedScene& scene = state_->scene;
     scene.expected.learn(learn(radiance_seed, learning_samples_of_few, &PixelEstimate::radiance_record),
-                         scene.lights.low(), scene.lights.high());
+                         scene.lights.grid());
     const HostImage* images[] = {&diffuse, &specular};
     for (const bool is_specular : {false, true}) {
         HostImage& per_estimate = state_->per_estimate[is_specular];

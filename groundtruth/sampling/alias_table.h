@@ -23,6 +23,8 @@ public:
         if (fraction < entry.threshold) return {slot, uint32_t(fraction * entry.scale_below)};
         return {entry.alias, uint32_t((fraction - entry.threshold) * entry.scale_above)};
     }
+    /// Prefetches what sample() will read.
+    void prefetch(uint32_t bits) const { __builtin_prefetch(&entries_[uint64_t(bits) * size_ >> 32]); }
     bool empty() const { return size_ == 0; }
     size_t size() const { return size_; }
     double probability(size_t index) const { return probabilities_[index]; }

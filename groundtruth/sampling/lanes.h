@@ -1,6 +1,7 @@
 #pragma once
 #include "core/shared/language.h"
 
+#include <bit>
 #include <cstdint>
 
 /// Paths advance side by side, one per lane. The rays of all lanes are traced one after the other, so that the
@@ -23,6 +24,12 @@ struct LanesVec3 {
     vec3 get(int lane) const { return {x[lane], y[lane], z[lane]}; }
     void set(int lane, vec3 v) { x[lane] = v.x, y[lane] = v.y, z[lane] = v.z; }
 };
+
+/// Calls work(lane) for each lane whose bit is set.
+template <class Work>
+void for_each_bit(uint32_t bits, const Work& work) {
+    for (; bits != 0; bits &= bits - 1) work(std::countr_zero(bits));
+}
 
 /// v or zero, without a branch, for any v.
 inline vec3 keep_if(bool condition, vec3 v) {

@@ -10,14 +10,18 @@
 /// the normal. Coarser cells around them serve where little was observed.
 struct LearningGrid {
     LearningGrid() = default;
-    /// `low`, `high`: bounds of the scene (m), not in one point.
-    LearningGrid(vec3 low, vec3 high) : low_(low), per_metre_(cubes / std::sqrt(dot(high - low, high - low))) {
+    /// `low`, `high`: bounds of the scene (m). A scene in one point has no cells.
+    LearningGrid(vec3 low, vec3 high) : low_(low) {
+        if (!(dot(high - low, high - low) > 0)) return;
+        per_metre_ = cubes / std::sqrt(dot(high - low, high - low));
         for (int i = 0; i < 3; ++i) extent_[i] = uint32_t((high[i] - low[i]) * per_metre_) + 1;
     }
 
+    /// The number of cells; 0: nothing can be learnt.
     size_t size() const { return size_t(extent_[0]) * extent_[1] * extent_[2] * 6; }
 
-    /// The cell of a point (m) with a unit normal; the nearest one for points outside.
+    /// The cell of a point (m) with a unit normal, on the side where light arrives; the nearest one for points outside.
+    /// At most 0 to 5 where there are none.
     size_t index(vec3 position, vec3 normal) const {
         size_t cube = 0;
         int axis = 0;

@@ -109,10 +109,11 @@ TEST(light_choice, draws_groups_with_the_probabilities_that_it_states) {
         seen.push_back({vec3(0.1f), vec3(0, 1, 0), group, 0, group == 1 ? 2.0f : 0.0f});
         seen.push_back({vec3(0.1f), vec3(0, -1, 0), group, 0, group == 2 ? 6.0f : 0.0f});
     }
-    choice.learn(seen, vec3(-1), vec3(1));
-    const uint32_t floor = choice.cell(vec3(0.1f), vec3(0.1f, 0.9f, 0.2f)),
-                   ceiling = choice.cell(vec3(0.1f), vec3(0, -1, 0));
-    const uint32_t unseen = choice.cell(vec3(0.9f), vec3(1, 0, 0));
+    const LearningGrid grid(vec3(-1), vec3(1));
+    choice.learn(seen, grid);
+    const auto cell = [&](vec3 at, vec3 normal) { return choice.cell(grid.index(at, normal)); };
+    const uint32_t floor = cell(vec3(0.1f), vec3(0.1f, 0.9f, 0.2f)), ceiling = cell(vec3(0.1f), vec3(0, -1, 0));
+    const uint32_t unseen = cell(vec3(0.9f), vec3(1, 0, 0));
     EXPECT_GT(choice.probability(floor, 1), 0.8f);
     EXPECT_GT(choice.probability(ceiling, 2), 0.8f);
     EXPECT_EQ(unseen, 0u);  // the whole scene, where group 2 brings three times as much as group 1
@@ -200,7 +201,7 @@ TEST(environment_table, density_integrates_to_one_and_is_that_of_the_samples) {
                     environment_direction({(column + 0.5f) / columns, (row + 0.5f) / rows}, sky.rotation);
                 const double solid_angle =
                     2 * M_PI / columns * (std::cos(M_PI * row / rows) - std::cos(M_PI * (row + 1) / rows));
-                const EnvironmentTable::Density density = table.density(d);
+                const EnvironmentTable::Density density = table.density(table.place(d));
                 integral[density.part] += density.pdf * solid_angle;
                 if (density.pdf > 0) light += sky.radiance(d).x * solid_angle;
             }
@@ -209,13 +210,17 @@ TEST(environment_table, density_integrates_to_one_and_is_that_of_the_samples) {
         for (uint32_t i = 0; i < samples; ++i) {
             float pdf;
             const uint32_t part = i % table.part_count();
-            const glm::vec3 d = table.sample(part, SobolSequence(3).bits(reverse_bits(i / table.part_count()), 0), pdf);
+            const glm::uvec2 bits = SobolSequence(3).bits(reverse_bits(i / table.part_count()), 0);
+            const glm::vec2 place = table.place(part, table.choose(part, bits), bits, pdf);
+            const glm::vec3 d = table.direction(place);
             ASSERT_GT(pdf, 0);
             ASSERT_NEAR(glm::length(d), 1, 1e-5);
             if (i % 64 == 0) {
-                EXPECT_EQ(table.density(d).part, part) << i;  // but at the very edge of a cell
-                EXPECT_NEAR(table.density(d).pdf, pdf, 0.2 * pdf) << i;
+                EXPECT_EQ(table.density(table.place(d)).part, part) << i;  // but at the very edge of a cell
+                EXPECT_NEAR(table.density(table.place(d)).pdf, pdf, 0.2 * pdf) << i;
             }
+            EXPECT_NEAR(table.radiance(place, d).x, sky.radiance(d).x, 1e-3f * (1 + sky.radiance(d).x))
+                << i;  // rounding
             sampled_light += sky.radiance(d).x / pdf / samples * table.part_count();
         }
         EXPECT_NEAR(sampled_light, light, 5e-3 * light);
@@ -242,7 +247,7 @@ TEST(light_sampler, densities_are_those_of_the_surfaces_that_rays_meet) {
                 x[lane] = bits.x, y[lane] = bits.y, wanted[lane] = 1;
                 point.set(lane, vec3(0));
             }
-            const uint32_t cell = traced.lights.cell(vec3(0), vec3(0, 1, 0));
+            const uint32_t cell = traced.lights.choice().cell(traced.lights.grid().index(vec3(0), vec3(0, 1, 0)));
             Lanes<uint32_t> cells;
             std::ranges::fill(cells.value, cell);
             traced.lights.sample(wanted, point, cells, x, y, lights);
