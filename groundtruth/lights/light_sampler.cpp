@@ -198,8 +198,8 @@ void LightSampler::add_triangles(const Scene& scene, uint32_t instance_index) {
     }
 }
 
-void LightSampler::learn(std::span<const LightObservation> observations) {
-    cluster_groups(observations);
+void LightSampler::learn(std::span<const LightObservation> observations, bool may_cluster) {
+    if (may_cluster) cluster_groups(observations);
     choice_.learn(observations, grid_);
 }
 

@@ -44,8 +44,8 @@ public:
 
     bool empty() const { return group_count() == 0; }
     uint32_t group_count() const { return uint32_t(groups_.size()) + environment_.part_count(); }
-    /// See LightChoice::learn(). Also decides which groups use LightClusters.
-    void learn(std::span<const LightObservation> observations);
+    /// See LightChoice::learn(). `may_cluster`: also decides which groups use LightClusters. Call it once.
+    void learn(std::span<const LightObservation> observations, bool may_cluster);
     /// The cells of all that is learnt of the scene.
     const LearningGrid& grid() const { return grid_; }
     const LightChoice& choice() const { return choice_; }

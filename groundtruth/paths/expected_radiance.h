@@ -21,6 +21,7 @@ public:
     /// The same observations in the same order give the same bits.
     void learn(std::span<const RadianceObservation> observations, const LearningGrid& grid);
 
+    bool is_learnt() const { return !radiance_.empty(); }
     /// The expected radiance at an index of the grid; 0 everywhere until something is learnt.
     float at(size_t index) const { return radiance_.empty() ? 0.0f : radiance_[index]; }
     /// Prefetches what at() will read.

@@ -284,13 +284,14 @@ std::vector<Observation> PathTracer::learn(uint64_t seed, unsigned wanted_sample
 void PathTracer::learn_light_choice() {
     LightSampler& lights = state_->scene.lights;
     const unsigned samples = lights.group_count() > few_groups ? learning_samples_of_more : learning_samples_of_few;
-    lights.learn(learn(light_seed, samples, &PixelEstimate::light_record));
+    lights.learn(learn(light_seed, samples, &PixelEstimate::light_record), state_->scene.settings.light_clusters);
 }
 
 void PathTracer::expect(const HostImage& diffuse, const HostImage& specular) {
     TracedScene& scene = state_->scene;
-    scene.expected.learn(learn(radiance_seed, learning_samples_of_few, &PixelEstimate::radiance_record),
-                         scene.lights.grid());
+    if (!scene.expected.is_learnt())
+        scene.expected.learn(learn(radiance_seed, learning_samples_of_few, &PixelEstimate::radiance_record),
+                             scene.lights.grid());
     const HostImage* images[] = {&diffuse, &specular};
     for (const bool is_specular : {false, true}) {
         HostImage& per_estimate = state_->per_estimate[is_specular];

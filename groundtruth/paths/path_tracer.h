@@ -19,6 +19,7 @@ struct PathTracerSettings {
     bool diffuse = true, specular = true;  ///< which parts of a pixel are estimated; `specular` includes `incident`
     bool learns_lights =
         true;  ///< learns which lights reach which places (LightChoice); else groups of lights share the samples
+    bool light_clusters = true;  ///< with learns_lights: lights of a group by LightClusters where this is found to pay
     bool ladder = false;    ///< also estimate the lower rungs of the truth ladder, see PixelEstimate: twice the rays
     bool keep_all = false;  ///< also trace and evaluate what left_out() names: the same image, slower
 };
@@ -108,8 +109,8 @@ public:
 
     /// Makes Russian roulette end paths by the light that they are expected to bring to their pixel, not by throughput;
     /// paths that promise much are split, and shadow rays that promise little are left out by chance. `diffuse`,
-    /// `specular`: estimates of each pixel (RGB), from other samples than the traced ones. Means stay the same. Call it
-    /// before trace().
+    /// `specular`: estimates of each pixel (RGB), from other samples than those that are traced afterwards. Means stay
+    /// the same. No other member may run at the same time.
     void expect(const HostImage& diffuse, const HostImage& specular);
 
     /// The hit of the ray through the centre of pixel (x, y), y down.

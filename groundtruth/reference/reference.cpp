@@ -166,7 +166,8 @@ Reference render_reference(const Scene& scene, const ScenePose& pose, const Came
     const PixelTracer tracer{
         .first_hit = [&](unsigned x, unsigned y) { return path_tracer.first_hit(x, y); },
         .trace = [&](unsigned x, unsigned y, const FirstHit& hit, unsigned first, unsigned count,
-                     std::span<SampleBatch> batches) { path_tracer.trace(x, y, hit, first, count, batches); }};
+                     std::span<SampleBatch> batches) { path_tracer.trace(x, y, hit, first, count, batches); },
+        .expect = [&](const HostImage& diffuse, const HostImage& specular) { path_tracer.expect(diffuse, specular); }};
     const bool needs_guide_variance =
         (settings.target_relative_error > 0 || settings.adaptive_share > 0) && state.guide_variance.values.empty();
     // Of the lit colour alone few samples are asked, and a guide would take more than roulette by it saves.
@@ -176,7 +177,7 @@ Reference render_reference(const Scene& scene, const ScenePose& pose, const Came
             state.reference.guide = std::move(guide.means);
             if (needs_guide_variance) state.guide_variance = std::move(guide.specular_variance);
         }
-        path_tracer.expect(state.reference.guide.diffuse, state.reference.guide.specular);
+        tracer.expect(state.reference.guide.diffuse, state.reference.guide.specular);
     }
 
     RenderClock clock{.run = run, .seconds_before = state.reference.seconds, .rays_before = state.reference.rays};

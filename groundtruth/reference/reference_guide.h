@@ -7,8 +7,8 @@ struct RenderedGuide {
 };
 
 /// The guide of one frame: means over `samples` (a multiple of batch_count) per pixel, from a separate set of samples.
-/// It is independent of the reference's seed and settings, except max_depth, which `tracer` has. Reports to
-/// `run.progress`.
+/// It is independent of the reference's seed and settings, except max_depth, which `tracer` has. Calls `tracer.expect`
+/// with the first samples, so that the paths of the others end by what they promise. Reports to `run.progress`.
 ///
 /// By default it has a quarter of the reference's samples. The relmse of reflective pixels with a guide's weights is
 /// 1.003 to 1.057 times that with the truth's weights for 64 samples. It is 1.003 to 1.287 times for 32 samples, and

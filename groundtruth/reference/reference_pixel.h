@@ -5,13 +5,15 @@
 #include <functional>
 #include <span>
 
-/// What a pass needs of the path tracer. Tests replace it by integrands with known moments. Both are called from any
-/// thread; `trace` is PathTracer::trace() of several batches.
+/// What a pass needs of the path tracer. Tests replace it by integrands with known moments. `first_hit` and `trace` are
+/// called from any thread; `trace` is PathTracer::trace() of several batches. `expect`, if given, is
+/// PathTracer::expect().
 struct PixelTracer {
     std::function<FirstHit(unsigned x, unsigned y)> first_hit;
     std::function<void(unsigned x, unsigned y, const FirstHit& hit, unsigned first_sample, unsigned count,
                        std::span<SampleBatch> batches)>
         trace;
+    std::function<void(const HostImage& diffuse, const HostImage& specular)> expect = {};
 };
 
 inline constexpr unsigned batch_count = 16;  ///< per pass; the even ones make half A, the odd ones half B

@@ -274,7 +274,7 @@ TEST(light_sampler, densities_are_those_of_the_surfaces_that_rays_meet) {
         }
         solid_angles[is_learnt] = solid_angle;
         variances[is_learnt] = squares - light * light;
-        traced.lights.learn(seen);
+        if (!is_learnt) traced.lights.learn(seen, true);
     }
     const glm::dvec3 origin(0);
     // The integral of 1 over directions: the solid angle of the rectangle and of the ball, a polyhedron in its sphere.

@@ -1,6 +1,6 @@
 // What the path tracer gains by what it learns, and what a reference costs: variance of the specular light times rays,
 // and times processor time, with each thing that is learnt over neither (`learning`), and the rays of a reference whose
-// median pixel has an error of 3 % (`rays_to_3_percent`). `truth_benchmark --table` prints the first as a table of
+// median pixel has an error of 3 % (`rays_to_3_percent`). `truth_benchmark --table` prints the first as two tables of
 // groundtruth/measurements.md, and `--adaptive-table` what samples for the noisiest pixels gain. Scenes are found as by
 // `ssrlab`; what is nowhere is left out with a note.
 #include "core/error.h"
@@ -31,12 +31,18 @@ constexpr unsigned batches = 8, samples = 16, guide_samples = 64, few_guide_samp
 constexpr double floor_share = 0.1;
 
 struct Learnt {
-    const char* name;
-    bool lights, roulette, splitting = false, has_few_guide_samples = false;
+    const char *name, *title;
+    bool lights, clusters = false, roulette = false, splitting = false, shadow_rays = false,
+                 has_few_guide_samples = false;
 };
-constexpr Learnt learnt[] = {{"neither", false, false}, {"lights", true, false},
-                             {"roulette", false, true}, {"both", true, true},
-                             {"all", true, true, true}, {"all_few_guide_samples", true, true, true, true}};
+constexpr Learnt neither{"neither", "neither", false};
+constexpr Learnt learnt[] = {{"roulette", "roulette alone", false, false, true},
+                             {"lights", "lights", true},
+                             {"clusters", "and clusters", true, true},
+                             {"both", "and roulette", true, true, true},
+                             {"splitting", "and splitting", true, true, true, true},
+                             {"all", "and shadow rays", true, true, true, true, true},
+                             {"all_few_guide_samples", "all, guide of 16 samples", true, true, true, true, true, true}};
 
 struct Spent {
     double variance = 0, rays = 0, cpu_seconds = 0;  ///< the first: mean over pixels, relative to their radiance
@@ -67,7 +73,11 @@ public:
 
     /// By seeds, whose paths are others.
     std::vector<Spent> spent(const Learnt& what) const {
-        PathTracer tracer(scene_, pose_, camera_, extent, {.splitting = what.splitting, .learns_lights = what.lights});
+        PathTracer tracer(scene_, pose_, camera_, extent,
+                          {.splitting = what.splitting,
+                           .shadow_roulette = what.shadow_rays,
+                           .learns_lights = what.lights,
+                           .light_clusters = what.clusters});
         const Guide& guide = what.has_few_guide_samples ? few_samples_guide_ : guide_;
         if (what.roulette) tracer.expect(guide.diffuse, guide.specular);
         std::vector<Spent> of_seeds(seeds);
@@ -165,7 +175,7 @@ void measure_learning(benchmark::State& state, const std::string& scene, const L
     const std::optional<View> view = view_of(scene);
     if (!view) return state.SkipWithError("the scene is not on this machine");
     for (auto _ : state) {
-        const std::vector<Spent> with = view->spent(what), without = view->spent(learnt[0]);
+        const std::vector<Spent> with = view->spent(what), without = view->spent(neither);
         const Ratio rays = ratio_of(with, without, by_rays), cpu = ratio_of(with, without, by_cpu);
         state.counters["rays"] = rays.value, state.counters["rays_low"] = rays.low,
         state.counters["rays_high"] = rays.high;
@@ -265,24 +275,35 @@ int print_adaptive_table() {
     return 0;
 }
 
+/// Both products of every scene: a table of the rays while it is measured, then one of the times.
 int print_table() {
     const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-    std::printf(
-        "| Scene | lights, rays | time | roulette, rays | time | both, rays | time | and splitting, rays | time | "
-        "all, guide of 16 samples, rays | time |\n"
-        "|---|---|---|---|---|---|---|---|---|---|---|\n");
+    const auto print_head = [] {
+        std::printf("| Scene |");
+        for (const Learnt& what : learnt) std::printf(" %s |", what.title);
+        std::printf("\n|---|");
+        for (size_t i = 0; i < std::size(learnt); ++i) std::printf("---|");
+        std::printf("\n");
+    };
+    std::string times;
+    print_head();
     for (const char* name : scene_names) {
         const std::optional<View> view = view_of(name);
         if (!view) continue;
         std::printf("| `%s` |", name);
-        const std::vector<Spent> without = view->spent(learnt[0]);
-        for (size_t i = 1; i < std::size(learnt); ++i) {
-            const std::vector<Spent> with = view->spent(learnt[i]);
-            std::printf(" %s | %s |", text_of(ratio_of(with, without, by_rays)).c_str(),
-                        text_of(ratio_of(with, without, by_cpu)).c_str());
+        times += std::string("| `") + name + "` |";
+        const std::vector<Spent> without = view->spent(neither);
+        for (const Learnt& what : learnt) {
+            const std::vector<Spent> with = view->spent(what);
+            std::printf(" %s |", text_of(ratio_of(with, without, by_rays)).c_str());
+            times += " " + text_of(ratio_of(with, without, by_cpu)) + " |";
+            std::fflush(stdout);
         }
-        std::printf("\n"), std::fflush(stdout);
+        std::printf("\n"), times += "\n";
     }
+    std::printf("\n");
+    print_head();
+    std::printf("%s", times.c_str());
     return 0;
 }
 
@@ -292,9 +313,9 @@ int main(int argc, char** argv) {
     if (argc == 2 && std::strcmp(argv[1], "--table") == 0) return print_table();
     if (argc == 2 && std::strcmp(argv[1], "--adaptive-table") == 0) return print_adaptive_table();
     for (const char* scene : scene_names)
-        for (size_t i = 1; i < std::size(learnt); ++i)
-            benchmark::RegisterBenchmark((std::string("learning/") + scene + "/" + learnt[i].name).c_str(),
-                                         measure_learning, std::string(scene), learnt[i])
+        for (const Learnt& what : learnt)
+            benchmark::RegisterBenchmark((std::string("learning/") + scene + "/" + what.name).c_str(), measure_learning,
+                                         std::string(scene), what)
                 ->Iterations(1)
                 ->Unit(benchmark::kSecond);
     for (const char* scene : rooms)
