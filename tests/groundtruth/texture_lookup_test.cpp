@@ -9,7 +9,7 @@
 #include <random>
 
 /// Of 8 and of 16 bits: sizes that fill their tiles and that do not, all ways to wrap and to filter, texels that two
-/// textures show, and coordinates far outside.
+/// textures show, materials of one texture and of several, and coordinates far outside.
 TEST(TiledTextures, HoldTheTexelsOfTheScene) {
     std::mt19937 random(1);
     Scene scene;
@@ -40,6 +40,18 @@ TEST(TiledTextures, HoldTheTexelsOfTheScene) {
         Material material;
         const auto channels = texture_slots(material);
         channels[size_t(i) % channels.size()]->texture = i;
+        scene.materials.push_back(material);
+    }
+    // Materials of several textures of one size, whose tiles lie side by side; the last also reads one of the others.
+    for (const unsigned channel_bytes : {1u, 2u, 1u}) {
+        const auto first = int(scene.textures.size());
+        for (int i = 0; i < 3; ++i)
+            scene.textures.push_back(
+                {.extent = {9, 17}, .rgba = texels_of({9, 17}, channel_bytes), .channel_bytes = channel_bytes});
+        Material material;
+        const auto channels = texture_slots(material);
+        for (int i = 0; i < 3; ++i) channels[size_t(i)]->texture = first + i;
+        channels[3]->texture = first - 1;
         scene.materials.push_back(material);
     }
     const TiledTextures tiled(scene);
