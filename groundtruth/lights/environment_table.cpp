@@ -80,10 +80,9 @@ EnvironmentTable::EnvironmentTable(const Environment& environment, bool compensa
             solid_angle[cell] += texel_angle;
         }
     }
-    const double total = std::accumulate(sum.begin(), sum.end(), 0.0);
-    mean_luminance_ = is_image ? total / (4 * M_PI) : luminance(environment.color);
+    const double mean = std::accumulate(sum.begin(), sum.end(), 0.0) / (4 * M_PI);
     if (compensate)
-        for (size_t i = 0; i < sum.size(); ++i) sum[i] = std::max(0.0, sum[i] - mean_luminance_ * solid_angle[i]);
+        for (size_t i = 0; i < sum.size(); ++i) sum[i] = std::max(0.0, sum[i] - mean * solid_angle[i]);
 
     density_.resize(sum.size(), {0, 0.0f});
     for (const std::vector<uint32_t>& cells : divide_sky(sum, width_, height_)) {

@@ -18,7 +18,6 @@ public:
     EnvironmentTable(const Environment& environment, bool compensate);
 
     uint32_t part_count() const { return uint32_t(parts_.size()); }  ///< 0: nothing to draw
-    double mean_luminance() const { return mean_luminance_; }        ///< over the sphere
 
     // The steps to draw a direction of a part, from uniform `bits`:
     void prefetch(uint32_t part, glm::uvec2 bits) const { parts_[part].table.prefetch(bits.x); }
@@ -54,5 +53,4 @@ private:
     glm::vec2 cell_extent_{0.0f};      ///< in uv
     std::vector<Part> parts_;
     std::vector<Density> density_;  ///< of each cell
-    double mean_luminance_ = 0;
 };

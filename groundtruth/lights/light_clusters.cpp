@@ -7,7 +7,7 @@
 
 namespace {
 
-/// Facing of a cluster that faces away: its lights may face the point.
+/// Facing of a cluster that faces away, since single lights of it may face the point: every light keeps a chance.
 constexpr float least_facing = 0.1f;
 
 /// Sums of the values up to each, by fours whose sums do not wait for each other. Returns the sum of all.

@@ -15,8 +15,8 @@ struct LightExtent {
 
 /// Chooses one light of a group for the point where its light arrives. The lights form at most 16 clusters. A cluster
 /// is chosen by its power, how it faces the point, and the square of its distance; a light of it by power. (Conty
-/// Estevez and Kulla 2018, "Importance Sampling of Many Lights with Adaptive Tree Splitting", have the weight, and a
-/// tree. A group is small beside the scene, so that one level does as well, and is a vector loop.)
+/// Estevez and Kulla 2018, "Importance Sampling of Many Lights with Adaptive Tree Splitting", have such a weight, and a
+/// tree. One level is a vector loop.)
 class LightClusters {
 public:
     explicit LightClusters(std::span<const LightExtent> lights);  ///< at least one

@@ -23,9 +23,10 @@ constexpr float least_extent = 1.0f / 48;
 constexpr float facing_scale = 0.05f;
 
 /// Clusters are used where they lower the variance by more than this, per light sample and relative to the squared
-/// light of the pixel. Measured over ten scenes: those that gain save 0.04 or more in all groups together, others
-/// 0.001.
+/// light of the pixel. Of nine scenes, four save 0.04 to 0.5 in all groups together, and the others 0.0011 at most,
+/// where the variance of the pixels does not change.
 constexpr double worthwhile_saving = 1e-3;
+
 /// Lamps have no extent. Nearer than this share of the scene's diagonal, their distance counts as this much.
 constexpr float lamp_radius = 1e-3f;
 

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <type_traits>
 
 namespace {
 
@@ -269,7 +270,7 @@ std::vector<Observation> PathTracer::learn(uint64_t seed, unsigned wanted_sample
             PixelEstimate estimate;
             estimate.*record = &seen[i];
             trace(x, y, first_hit(x, y), seed, 0, samples, estimate);
-            if constexpr (std::is_same_v<Observation, LightObservation>) {
+            if constexpr (std::is_same_v<Observation, LightObservation>) {  // what decides on clusters
                 const double light = luminance(vec3(estimate.diffuse + estimate.specular)) / samples;
                 for (LightObservation& light_seen : seen[i])
                     light_seen.relative = light > 0 ? float(light_seen.contribution / light) : 0.0f;

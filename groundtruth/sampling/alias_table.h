@@ -26,7 +26,6 @@ public:
     /// Prefetches what sample() will read.
     void prefetch(uint32_t bits) const { __builtin_prefetch(&entries_[uint64_t(bits) * size_ >> 32]); }
     bool empty() const { return size_ == 0; }
-    size_t size() const { return size_; }
     double probability(size_t index) const { return probabilities_[index]; }
 
 private:

@@ -21,7 +21,7 @@ struct LearningGrid {
     size_t size() const { return size_t(extent_[0]) * extent_[1] * extent_[2] * 6; }
 
     /// The cell of a point (m) with a unit normal, on the side where light arrives; the nearest one for points outside.
-    /// At most 0 to 5 where there are none.
+    /// Any number if there are no cells.
     size_t index(vec3 position, vec3 normal) const {
         size_t cube = 0;
         int axis = 0;
