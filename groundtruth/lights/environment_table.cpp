@@ -3,6 +3,7 @@
 #include "core/shared/environment.h"
 #include "groundtruth/lights/light_groups.h"
 #include "groundtruth/sampling/lobes.h"
+#include "groundtruth/sampling/prefetch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -101,7 +102,7 @@ EnvironmentTable::EnvironmentTable(const Environment& environment, bool compensa
 
 AliasTable::Choice EnvironmentTable::choose(uint32_t part, glm::uvec2 bits) const {
     const AliasTable::Choice choice = parts_[part].table.sample(bits.x);
-    __builtin_prefetch(&parts_[part].cells[choice.index]);
+    prefetch_line(&parts_[part].cells[choice.index]);
     return choice;
 }
 
@@ -121,7 +122,7 @@ glm::vec2 EnvironmentTable::place(uint32_t part, AliasTable::Choice choice, glm:
 
 glm::vec2 EnvironmentTable::place(glm::vec3 direction) const {
     const glm::vec2 uv = environment_uv(direction, environment_->rotation);
-    __builtin_prefetch(&density_[cell(uv)]);
+    prefetch_line(&density_[cell(uv)]);
     prefetch_radiance(uv);
     return uv;
 }
@@ -145,5 +146,5 @@ void EnvironmentTable::prefetch_radiance(glm::vec2 uv) const {
     const HostImage& image = environment_->latlong;
     const glm::ivec2 at(uv * glm::vec2(image.extent) - 0.5f), last(glm::ivec2(image.extent) - 1);
     const auto x = unsigned(std::clamp(at.x, 0, last.x));
-    for (const int y : {at.y, at.y + 1}) __builtin_prefetch(image.pixel(x, unsigned(std::clamp(y, 0, last.y))));
+    for (const int y : {at.y, at.y + 1}) prefetch_line(image.pixel(x, unsigned(std::clamp(y, 0, last.y))));
 }

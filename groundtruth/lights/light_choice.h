@@ -1,5 +1,6 @@
 #pragma once
 #include "groundtruth/sampling/learning_grid.h"
+#include "groundtruth/sampling/prefetch.h"
 
 #include <cstdint>
 #include <span>
@@ -33,9 +34,9 @@ public:
     uint32_t cell(size_t index) const { return cells_.empty() ? 0 : cells_[index]; }
     // Prefetch what cell() will read, and what sample() and probability() will.
     void prefetch(size_t index) const {
-        if (!cells_.empty()) __builtin_prefetch(&cells_[index]);
+        if (!cells_.empty()) prefetch_line(&cells_[index]);
     }
-    void prefetch_cell(uint32_t cell) const { __builtin_prefetch(&ends_[size_t(cell) * groups_]); }
+    void prefetch_cell(uint32_t cell) const { prefetch_line(&ends_[size_t(cell) * groups_]); }
 
     float probability(uint32_t cell, uint32_t group) const {
         const uint32_t* ends = &ends_[size_t(cell) * groups_];

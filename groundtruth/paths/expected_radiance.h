@@ -1,5 +1,6 @@
 #pragma once
 #include "groundtruth/sampling/learning_grid.h"
+#include "groundtruth/sampling/prefetch.h"
 
 #include <span>
 #include <vector>
@@ -26,7 +27,7 @@ public:
     float at(size_t index) const { return radiance_.empty() ? 0.0f : radiance_[index]; }
     /// Prefetches what at() will read.
     void prefetch(size_t index) const {
-        if (!radiance_.empty()) __builtin_prefetch(&radiance_[index]);
+        if (!radiance_.empty()) prefetch_line(&radiance_[index]);
     }
 
 private:

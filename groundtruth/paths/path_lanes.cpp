@@ -39,6 +39,34 @@ vec3 to_camera(const CameraView& camera, vec3 position, vec3 normal) {
     return towards * (1.0f / sqrt(dot(towards, towards)));
 }
 
+/// Prefetches what the shading of hits will read, while the rays after them are traced. A triangle's record leads to
+/// its corners, and these to texels: each hit goes a step further with each hit that follows.
+class PrefetchedHits {
+public:
+    explicit PrefetchedHits(const TracedScene& scene) : scene_(scene), any_varies_(scene.materials.any_varies()) {}
+
+    void add(const RTCHit& hit) {  // which stays where it is
+        hits_[count_++] = &hit;
+        step(count_ - 1);
+    }
+    void finish() { step(count_), step(count_ + 1); }
+
+private:
+    void step(int newest) const {
+        if (const RTCHit* hit = at(newest)) scene_.geometry.prefetch(hit->instID[0], hit->primID);
+        if (!any_varies_) return;
+        if (const RTCHit* hit = at(newest - 1)) scene_.materials.prefetch_corners(hit->instID[0], hit->primID);
+        if (const RTCHit* hit = at(newest - 2))
+            scene_.materials.prefetch_texels(hit->instID[0], hit->primID, hit->u, hit->v);
+    }
+    const RTCHit* at(int i) const { return i >= 0 && i < count_ ? hits_[i] : nullptr; }
+
+    const TracedScene& scene_;
+    const RTCHit* hits_[lane_count];
+    int count_ = 0;
+    bool any_varies_;
+};
+
 }  // namespace
 
 void PathLanes::start(const PathStart& path) {
@@ -71,26 +99,20 @@ void PathLanes::trace_rays() {
     RTCRayHit ray[lane_count];
     uint32_t hits = 0;
     const uint32_t on_their_way = busy_ & ~resumed_;
+    PrefetchedHits prefetched(scene_);
     for_each_bit(on_their_way, [&](int lane) {
         const vec3 origin = origin_.get(lane), direction = direction_.get(lane);
         ++estimate_[lane]->rays;
         if (!intersect(scene_.geometry.handle(), origin, direction, ray[lane])) return;
         hits |= 1u << lane;
-        scene_.geometry.prefetch(ray[lane].hit.instID[0], ray[lane].hit.primID);
+        prefetched.add(ray[lane].hit);
     });
-    if (scene_.materials.any_varies()) {
-        for_each_bit(
-            hits, [&](int lane) { scene_.materials.prefetch_corners(ray[lane].hit.instID[0], ray[lane].hit.primID); });
-        for_each_bit(hits, [&](int lane) {
-            const RTCHit& hit = ray[lane].hit;
-            scene_.materials.prefetch_texels(hit.instID[0], hit.primID, hit.u, hit.v);
-        });
-    }
+    prefetched.finish();
     if (scene_.has_environment || goal_ == PathGoal::lit_color) leave(on_their_way & ~hits);
     continues_ = {};
     for_each_bit(resumed_, [&](int lane) { continues_[lane] = 1; });
-    for_each_bit(hits, [&](int lane) { meet(lane, ray[lane]); });
     for_each_bit(hits, [&](int lane) {
+        meet(lane, ray[lane]);
         const size_t index = scene_.lights.grid().index(position_.get(lane), geometric_normal_.get(lane));
         learnt_index_[lane] = uint32_t(index);
         scene_.expected.prefetch(index);

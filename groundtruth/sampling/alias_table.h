@@ -1,4 +1,6 @@
 #pragma once
+#include "groundtruth/sampling/prefetch.h"
+
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -24,7 +26,7 @@ public:
         return {entry.alias, uint32_t((fraction - entry.threshold) * entry.scale_above)};
     }
     /// Prefetches what sample() will read.
-    void prefetch(uint32_t bits) const { __builtin_prefetch(&entries_[uint64_t(bits) * size_ >> 32]); }
+    void prefetch(uint32_t bits) const { prefetch_line(&entries_[uint64_t(bits) * size_ >> 32]); }
     bool empty() const { return size_ == 0; }
     double probability(size_t index) const { return probabilities_[index]; }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/scene/scene.h"
+#include "groundtruth/sampling/prefetch.h"
 
 #include <embree3/rtcore.h>
 #include <cmath>
@@ -59,8 +60,8 @@ public:
     SurfacePoint point(uint32_t instance, uint32_t triangle, float u, float v) const;
     void prefetch(uint32_t instance, uint32_t triangle) const {
         const char* record = reinterpret_cast<const char*>(&instances_[instance].triangles[triangle]);
-        __builtin_prefetch(record);
-        __builtin_prefetch(record + 64);
+        prefetch_line(record);
+        prefetch_line(record + 64);
     }
 
 private:

@@ -1,6 +1,7 @@
 #include "groundtruth/scene/material_table.h"
 
 #include "core/scene/texture_slots.h"
+#include "groundtruth/sampling/prefetch.h"
 #include "groundtruth/scene/alpha_mask.h"
 
 namespace {
@@ -54,8 +55,8 @@ void MaterialTable::prefetch_corners(uint32_t instance_index, uint32_t triangle)
     if (!constants_[instance.material].varies) return;
     for (const uint32_t corner : instance.triangles[triangle].corner) {
         const char* vertex = reinterpret_cast<const char*>(&instance.vertices[corner]);
-        __builtin_prefetch(vertex);
-        __builtin_prefetch(vertex + sizeof(Vertex) - 1);
+        prefetch_line(vertex);
+        prefetch_line(vertex + sizeof(Vertex) - 1);
     }
 }
 

@@ -3,6 +3,7 @@
 #include "core/scene/texture_slots.h"
 
 #include "core/png.h"
+#include "groundtruth/sampling/prefetch.h"
 
 #include <sys/mman.h>
 #include <tbb/parallel_for.h>
@@ -113,6 +114,8 @@ glm::vec4 sample_texture(const Texture& texture, glm::vec2 uv) {
     return filtered(texture, uv, [&](int x, int y) { return codes_at<Codes>(texture, x, y); });
 }
 
+void TiledTextures::Unmap::operator()(uint32_t* texels) const { munmap(texels, bytes); }
+
 TiledTextures::TiledTextures(const Scene& scene) : textures_(scene.textures.size()) {
     struct Block {
         size_t offset;  ///< of its first tile in the copy, words of 32 bits
@@ -146,10 +149,12 @@ TiledTextures::TiledTextures(const Scene& scene) : textures_(scene.textures.size
     }
     if (count == 0) return;
 
+    // Of new memory: what a heap has used before keeps its small pages.
     const size_t bytes = (count * sizeof(uint32_t) + huge_page - 1) / huge_page * huge_page;
-    texels_.reset(static_cast<uint32_t*>(std::aligned_alloc(huge_page, bytes)));
-    if (!texels_) throw std::bad_alloc();
-    madvise(texels_.get(), bytes, MADV_HUGEPAGE);  // without it they are only slower
+    void* const mapped = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (mapped == MAP_FAILED) throw std::bad_alloc();
+    texels_ = {static_cast<uint32_t*>(mapped), {bytes}};
+    madvise(mapped, bytes, MADV_HUGEPAGE);  // without it they are only slower
     for (size_t i = 0; i < textures_.size(); ++i) {
         Tiled& tiled = textures_[i];
         if (tiled.tiles_in_row == 0) continue;  // not read
@@ -194,6 +199,6 @@ void TiledTextures::prefetch(int texture, glm::vec2 uv) const {
     const Tiled& tiled = textures_[size_t(texture)];
     const Footprint at = footprint(tiled, uv);
     // The tiles at two corners: those of all four but for one lookup of 16.
-    __builtin_prefetch(tiled.texels + tiled.index(at.first.x, at.first.y));
-    __builtin_prefetch(tiled.texels + tiled.index(at.last.x, at.last.y));
+    prefetch_line(tiled.texels + tiled.index(at.first.x, at.first.y));
+    prefetch_line(tiled.texels + tiled.index(at.last.x, at.last.y));
 }

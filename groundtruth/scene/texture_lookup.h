@@ -1,7 +1,8 @@
 #pragma once
 #include "core/scene/scene.h"
 
-#include <cstdlib>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -44,9 +45,10 @@ private:
             return tile * tile_step + (row % tile_side * tile_side + column % tile_side) * words;
         }
     };
-    struct Free {
-        void operator()(uint32_t* texels) const { std::free(texels); }
+    struct Unmap {
+        size_t bytes;
+        void operator()(uint32_t* texels) const;
     };
     std::vector<Tiled> textures_;
-    std::unique_ptr<uint32_t[], Free> texels_;
+    std::unique_ptr<uint32_t[], Unmap> texels_;
 };
