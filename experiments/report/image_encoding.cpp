@@ -1,6 +1,7 @@
 #include "experiments/report/image_encoding.h"
 
 #include "core/error.h"
+#include "experiments/report/median_edge.h"
 #include "experiments/results/files/verdict_map.h"
 
 #include <half.h>
@@ -11,15 +12,6 @@
 #include <map>
 
 namespace {
-
-/// Of a plane with `width` values per row: from the values to the left, above, and above the left.
-int predicted(const std::vector<int16_t>& plane, size_t width, size_t i) {
-    const bool has_left = i % width != 0, has_above = i >= width;
-    if (!has_left || !has_above) return has_left ? plane[i - 1] : has_above ? plane[i - width] : 0;
-    const int left = plane[i - 1], above = plane[i - width], corner = plane[i - width - 1];
-    const auto [low, high] = std::minmax(left, above);
-    return corner >= high ? low : corner <= low ? high : left + above - corner;
-}
 
 /// Integers in the order of the half floats that the bits stand for; no two are equal.
 int16_t ordered(uint16_t bits) { return int16_t(bits < 0x8000 ? bits : 0x7fff - bits); }
@@ -49,7 +41,7 @@ std::vector<unsigned char> encode_halves(const HostImage& rgb, size_t& clamped, 
     std::vector<unsigned char> bytes(2 * count);
     for (size_t p = 0; p < 3; ++p)
         for (size_t i = 0; i < pixels; ++i) {
-            const int16_t left = int16_t(planes[p][i] - predicted(planes[p], rgb.extent.x, i));
+            const int16_t left = int16_t(planes[p][i] - median_edge(planes[p], rgb.extent.x, i));
             const uint16_t code = uint16_t(left << 1 ^ left >> 15);
             bytes[p * pixels + i] = code & 255;
             bytes[count + p * pixels + i] = code >> 8;

@@ -1,24 +1,10 @@
 #include "experiments/live/record/texel_stream.h"
 
 #include "experiments/report/image_encoding.h"
+#include "experiments/report/median_edge.h"
 
-#include <algorithm>
 #include <bit>
 #include <cstdint>
-
-namespace {
-
-/// From the values to the left, above, and above the left; sums are modulo 2^32.
-int32_t predicted(const std::vector<int32_t>& plane, size_t width, size_t i) {
-    const bool has_left = i % width != 0, has_above = i >= width;
-    if (!has_left || !has_above) return has_left ? plane[i - 1] : has_above ? plane[i - width] : 0;
-    const int32_t left = plane[i - 1], above = plane[i - width], corner = plane[i - width - 1];
-    const auto [low, high] = std::minmax(left, above);
-    if (corner >= high) return low;
-    return corner <= low ? high : int32_t(uint32_t(left) + uint32_t(above) - uint32_t(corner));
-}
-
-}  // namespace
 
 TexelStream encode_floats(const HostImage& image) {
     const size_t pixels = image.pixel_count(), channels = image.channels;
@@ -34,7 +20,7 @@ TexelStream encode_floats(const HostImage& image) {
             plane[i] = bits < 0 ? bits ^ (INT32_MAX >> shift) : bits;
         }
         for (size_t i = 0; i < pixels; ++i) {
-            const uint32_t rest = uint32_t(plane[i]) - uint32_t(predicted(plane, image.extent.x, i));
+            const uint32_t rest = uint32_t(plane[i]) - uint32_t(median_edge(plane, image.extent.x, i));
             const uint32_t code = rest << 1 ^ uint32_t(int32_t(rest) >> 31);
             for (size_t byte = 0; byte < 4; ++byte)
                 stream.bytes[(c * 4 + byte) * pixels + i] = uint8_t(code >> 8 * byte);
