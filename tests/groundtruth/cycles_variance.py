@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Variance at equal CPU time of ssrlab's path tracer and of Cycles, of the same scenes. Needs Blender 3.4 and takes 25 minutes, so it is no part
+"""Variance at equal CPU time of ssrlab's path tracer and of Cycles, of the same scenes. Needs Blender 3.4 and takes 15 minutes, so it is no part
 of the suite. Prints how far the means are apart, and the rows of the table in groundtruth/measurements.md.
 
 usage: cycles_variance.py SSRLAB [SCENE ...] [--size W H] [--samples N] [--repeats N] [--keep FOLDER]
