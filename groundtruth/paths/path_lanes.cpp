@@ -1,5 +1,6 @@
 #include "groundtruth/paths/path_lanes.h"
 
+#include "groundtruth/paths/prefetched_hits.h"
 #include "groundtruth/paths/shadow_roulette.h"
 
 #include <bit>
@@ -38,34 +39,6 @@ vec3 to_camera(const CameraView& camera, vec3 position, vec3 normal) {
     const vec3 towards = to_eye - (2.0f * depth_behind) * normal;
     return towards * (1.0f / sqrt(dot(towards, towards)));
 }
-
-/// Prefetches what the shading of hits will read, while the rays after them are traced. A triangle's record leads to
-/// its corners, and these to texels: each hit goes a step further with each hit that follows.
-class PrefetchedHits {
-public:
-    explicit PrefetchedHits(const TracedScene& scene) : scene_(scene), any_varies_(scene.materials.any_varies()) {}
-
-    void add(const RTCHit& hit) {  // which stays where it is
-        hits_[count_++] = &hit;
-        step(count_ - 1);
-    }
-    void finish() { step(count_), step(count_ + 1); }
-
-private:
-    void step(int newest) const {
-        if (const RTCHit* hit = at(newest)) scene_.geometry.prefetch(hit->instID[0], hit->primID);
-        if (!any_varies_) return;
-        if (const RTCHit* hit = at(newest - 1)) scene_.materials.prefetch_corners(hit->instID[0], hit->primID);
-        if (const RTCHit* hit = at(newest - 2))
-            scene_.materials.prefetch_texels(hit->instID[0], hit->primID, hit->u, hit->v);
-    }
-    const RTCHit* at(int i) const { return i >= 0 && i < count_ ? hits_[i] : nullptr; }
-
-    const TracedScene& scene_;
-    const RTCHit* hits_[lane_count];
-    int count_ = 0;
-    bool any_varies_;
-};
 
 }  // namespace
 

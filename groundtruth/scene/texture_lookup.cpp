@@ -1,8 +1,7 @@
 #include "groundtruth/scene/texture_lookup.h"
 
-#include "core/scene/texture_slots.h"
-
 #include "core/png.h"
+#include "core/scene/texture_slots.h"
 #include "groundtruth/sampling/prefetch.h"
 
 #include <sys/mman.h>

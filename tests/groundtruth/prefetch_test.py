@@ -1,5 +1,5 @@
-"""What the path tracer prefetches is prefetched by its machine code. A compiler may leave out calls of functions that only prefetch, which
-took up to a fifth of the path tracer's time, with the same image."""
+"""What the path tracer prefetches is prefetched by its machine code. A compiler may leave out calls of functions that only prefetch. The
+image stays the same, so no other test sees that."""
 
 import re
 import subprocess
