@@ -130,9 +130,13 @@ void add_reference(Commands& line) {
                std::to_string(ReferenceSettings::default_samples) + ", or no limit with --seconds or --target")
         ->check(CLI::Range(16, 1 << 24));
     option(command, "--adaptive-share", reference.settings.adaptive_share,
-           "Further samples, as a share of --samples on average over the image, for the pixels whose noise decides the "
-           "interval of mse, for example 0.25; not with --seconds or --target")
+           "Further directions of each sample, on average over the image, for the pixels whose noise decides the "
+           "interval of mse, for example 0.25; not with --target")
         ->check(real_in(0, ReferenceSettings::most_adaptive_share, "a number from 0 to 8"));
+    command
+        .add_flag("--adaptive-image", reference.settings.adaptive_image,
+                  "The share is for the noise of the image relative to its brightness, in place of that of mse")
+        ->needs("--adaptive-share");
     option(command, "--lit-samples", reference.settings.lit_samples,
            "Largest number of these samples that also trace diffuse light. The others trace specular light only. "
            "Default: all")
@@ -147,8 +151,7 @@ void add_reference(Commands& line) {
     option(command, "--target", reference.settings.target_relative_error,
            "Relative standard error of the specular light at a pixel at which the render stops, for example 0.03")
         ->check(real_in(1e-4, 1, "a number from 0.0001 to 1"));
-    for (const char* other : {"--seconds", "--target"})
-        command.get_option("--adaptive-share")->excludes(command.get_option(other));
+    command.get_option("--adaptive-share")->excludes(command.get_option("--target"));
     option(command, "--max-depth", reference.settings.max_depth,
            "Largest number of reflections of a path; the camera ray does not count")
         ->check(CLI::Range(1, 1024))

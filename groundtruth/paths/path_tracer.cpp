@@ -26,6 +26,7 @@ struct FirstVertex {
     bool wants_diffuse = false, wants_specular = false;
     uint32_t light_cell = 0;               ///< see LightChoice::cell()
     float per_estimate[2] = {0.0f, 0.0f};  ///< see PathStart; diffuse, specular
+    float share = 1.0f;                    ///< of one direction in its sample
 };
 
 // Of scenes whose dielectrics reflect other than 0.04. Not inlined, so that the code of all others keeps its rounding.
@@ -146,8 +147,8 @@ void add_direct_light(const TracedScene& scene, const FirstVertex& vertex, const
             estimate.light_record->push_back({hit.ray_origin, hit.geometric_normal, lights.group[lane],
                                               lights.light[lane], arrives ? luminance(parts[0] + parts[1]) : 0.0f});
         if (!arrives) continue;
-        estimate.diffuse += glm::dvec3(parts[0]);
-        estimate.specular += glm::dvec3(parts[1]);
+        estimate.diffuse += glm::dvec3(parts[0] * vertex.share);
+        estimate.specular += glm::dvec3(parts[1] * vertex.share);
         estimate.incident += glm::dvec3(parts[2]);
         if (scene.settings.ladder) add_emission(scene, lights, lane, parts[2], estimate);
     }
@@ -155,7 +156,7 @@ void add_direct_light(const TracedScene& scene, const FirstVertex& vertex, const
 
 /// Starts their paths of one lobe.
 void start_paths(const FirstVertex& vertex, const SampleLanes& samples, bool is_specular, PathLanes& paths) {
-    const float per_estimate = vertex.per_estimate[is_specular];
+    const float share = vertex.share, per_estimate = vertex.per_estimate[is_specular] / share;
     const FirstHit& hit = vertex.hit;
     LanesVec3 origin, direction, weight;
     Lanes<float> pdf, local_height;
@@ -170,7 +171,7 @@ void start_paths(const FirstVertex& vertex, const SampleLanes& samples, bool is_
         pdf[lane] = lobe_pdf;
         local_height[lane] = dot(towards, hit.geometric_normal);
         direction.set(lane, towards);
-        weight.set(lane, choose(is_specular, f.specular, f.diffuse) * (1.0f / lobe_pdf));
+        weight.set(lane, choose(is_specular, f.specular, f.diffuse) * (share / lobe_pdf));
         origin.set(lane, offset_origin(hit.ray_origin, hit.position_error, hit.geometric_normal, towards));
     }
     for (int lane = 0; lane < samples.count; ++lane) {
@@ -370,27 +371,41 @@ void PathTracer::trace(unsigned x, unsigned y, const FirstHit& hit, uint64_t see
 }
 
 void PathTracer::trace(unsigned x, unsigned y, const FirstHit& hit, unsigned first_sample, unsigned count,
-                       std::span<SampleBatch> batches) const {
+                       std::span<SampleBatch> batches, Directions directions) const {
     const FlushDenormals flush;
     for (SampleBatch& batch : batches) batch.estimate.samples += count;
     const TracedScene& scene = state_->scene;
     FirstVertex vertex{.hit = hit};
     if (!prepare(scene, vertex)) return;
-    vertex.wants_diffuse = vertex.wants_diffuse && batches.front().estimate.has_diffuse;
+    vertex.wants_diffuse = vertex.wants_diffuse && directions.diffuse > 0;
+    vertex.wants_specular = vertex.wants_specular && directions.specular > 0;
     for (const int lobe : {0, 1})
         if (const HostImage& image = state_->per_estimate[lobe]; !image.values.empty())
             vertex.per_estimate[lobe] = *image.pixel(x, y);
 
-    const PixelSamples samples(x, y, first_sample, count, batches);
+    const auto samples_of = [&](unsigned each) {
+        return PixelSamples(x, y, first_sample * each, count * each, batches);
+    };
     PathLanes paths(scene, PathGoal::reflection);
-    samples.for_each_lanes([&](const SampleLanes& lanes) {
-        if (!scene.lights.empty()) add_direct_light(scene, vertex, lanes);
-        if (vertex.wants_specular) start_paths(vertex, lanes, true, paths);
-        if (vertex.wants_diffuse) start_paths(vertex, lanes, false, paths);
-    });
+    const auto add = [&](FirstVertex part, unsigned each) {
+        part.share = 1.0f / float(each);
+        samples_of(each).for_each_lanes([&](const SampleLanes& lanes) {
+            if (!scene.lights.empty()) add_direct_light(scene, part, lanes);
+            if (part.wants_specular) start_paths(part, lanes, true, paths);
+            if (part.wants_diffuse) start_paths(part, lanes, false, paths);
+        });
+    };
+    if (directions.diffuse == directions.specular) {
+        add(vertex, directions.diffuse);
+    } else {
+        FirstVertex diffuse = vertex, specular = vertex;
+        diffuse.wants_specular = specular.wants_diffuse = false;
+        if (vertex.wants_specular) add(specular, directions.specular);
+        if (vertex.wants_diffuse) add(diffuse, directions.diffuse);
+    }
     paths.finish();
-    if (scene.settings.ladder && vertex.wants_specular) add_lit_colors(scene, vertex, samples);
+    if (scene.settings.ladder && vertex.wants_specular) add_lit_colors(scene, vertex, samples_of(directions.specular));
     if (scene.settings.keep_all && scene.settings.specular &&
         !vertex.wants_specular)  // the price of not leaving them out
-        trace_specular(scene, vertex, samples, PathGoal::reflection);
+        trace_specular(scene, vertex, samples_of(directions.specular), PathGoal::reflection);
 }

@@ -65,15 +65,20 @@ struct PixelEstimate {
     /// / samples: throughput, with the first reflection, that paths had left after max_depth reflections
     glm::dvec3 cut{0.0};
     uint64_t samples = 0;
-    uint64_t lobe_samples = 0;  ///< samples of the visible-normal lobe that were above the horizon
+    uint64_t lobe_samples = 0;  ///< directions of the visible-normal lobe that were above the horizon
     /// Samples with a NaN or an infinity: their parts were added as zero, so an image is valid only if 0.
     uint64_t non_finite = 0;
-    uint64_t rays = 0;        ///< traced, of both kinds
-    uint64_t paths = 0;       ///< rays that left the first hit along a lobe
-    bool has_diffuse = true;  ///< false: samples are of specular light only, and `diffuse` does not change
+    uint64_t rays = 0;   ///< traced, of both kinds
+    uint64_t paths = 0;  ///< rays that left the first hit along a lobe
     // If given, records of each light sample, and of each path beyond each vertex.
     std::vector<LightObservation>* light_record = nullptr;
     std::vector<RadianceObservation>* radiance_record = nullptr;
+};
+
+/// How many light samples and paths of each lobe are one sample of a pixel: 0, or a power of two. An output is the mean
+/// over all of its lobe; with 0 it does not change. Outputs share their light samples where both numbers are the same.
+struct Directions {
+    unsigned diffuse = 1, specular = 1;
 };
 
 /// Samples of a pixel with their own scramble, and their sums.
@@ -120,10 +125,10 @@ public:
     /// y, seed of the batch) selects. Different seeds give independent scrambles; the error falls fastest when count is
     /// a power of two that divides first_sample. Unlit hits and the background have nothing to estimate: only `samples`
     /// grows. Paths of all batches are in flight together, so one call with several batches takes less time. Each batch
-    /// gets the same samples as alone, but sums may be added in another order. `batches`: at least one, all with the
-    /// diffuse light or all without.
+    /// gets the same samples as alone, but sums may be added in another order. (first_sample + count) times the
+    /// directions of either lobe is at most 2^32.
     void trace(unsigned x, unsigned y, const FirstHit& hit, unsigned first_sample, unsigned count,
-               std::span<SampleBatch> batches) const;
+               std::span<SampleBatch> batches, Directions directions = {}) const;
     /// The same for one batch.
     void trace(unsigned x, unsigned y, const FirstHit& hit, uint64_t seed, unsigned first_sample, unsigned count,
                PixelEstimate& estimate) const;

@@ -5,6 +5,7 @@
 #include "core/files.h"
 #include "groundtruth/code_version.h"
 #include "groundtruth/paths/path_tracer.h"
+#include "groundtruth/reference/adaptive_directions.h"
 #include "groundtruth/reference/platform.h"
 #include "groundtruth/reference/reference_guide.h"
 #include "groundtruth/reference/reference_stopping.h"
@@ -62,9 +63,8 @@ void check(glm::uvec2 extent, const ReferenceSettings& settings) {
     if (!(settings.adaptive_share >= 0 && settings.adaptive_share <= ReferenceSettings::most_adaptive_share))
         fail("adaptive_share of a reference is ", settings.adaptive_share, ", but must be within 0 and ",
              ReferenceSettings::most_adaptive_share);
-    if (settings.adaptive_share > 0 &&
-        (settings.lit_only || settings.max_seconds > 0 || settings.target_relative_error > 0))
-        fail("a reference with an adaptive_share has no time limit and no target, and is not of the lit colour alone");
+    if (settings.adaptive_share > 0 && (settings.lit_only || settings.target_relative_error > 0))
+        fail("a reference with an adaptive_share has no target, and is not of the lit colour alone");
     if (settings.max_samples > max_sample_limit)
         fail("max_samples of a reference is ", settings.max_samples, ", but can be ", max_sample_limit, " at most");
     if (settings.lit_only && (settings.ladder || settings.target_relative_error > 0))
@@ -112,8 +112,10 @@ std::string reference_request(const Scene& scene, const ScenePose& pose, const C
     for (const unsigned value :
          {extent.x, extent.y, settings.max_depth, settings.seed, unsigned(settings.ladder), unsigned(settings.lit_only),
           unsigned(settings.keep_all), unsigned(lit_sample_limit(settings)),
+          unsigned(settings.adaptive_share > 0 && settings.adaptive_image),
           settings.lit_only ? 0u : unsigned(rounded_samples(settings.guide_samples))})
         hash.add(value);
+    hash.add(settings.adaptive_share);
     return hash.hex();
 }
 
@@ -128,7 +130,6 @@ std::string reference_stream(const Scene& scene, const ScenePose& pose, const Ca
 
 std::string reference_key(const std::string& stream, const ReferenceSettings& settings) {
     std::string key = stream + "-n" + shortest_digits(sample_limit(settings));
-    if (settings.adaptive_share > 0) key += "-a" + shortest_digits(settings.adaptive_share);
     if (settings.target_relative_error > 0) key += "-e" + shortest_digits(settings.target_relative_error);
     if (settings.max_seconds > 0) key += "-t" + shortest_digits(settings.max_seconds);
     return key;
@@ -143,7 +144,6 @@ std::optional<ReferenceSettings> settings_of_key(const std::string& stream, cons
         at = std::from_chars(at + 2, end, value).ptr;
     };
     read("-n", settings.max_samples);
-    read("-a", settings.adaptive_share);
     read("-e", settings.target_relative_error);
     read("-t", settings.max_seconds);
     return at == end && reference_key(stream, settings) == key ? std::optional(settings) : std::nullopt;
@@ -166,14 +166,18 @@ Reference render_reference(const Scene& scene, const ScenePose& pose, const Came
     const PixelTracer tracer{
         .first_hit = [&](unsigned x, unsigned y) { return path_tracer.first_hit(x, y); },
         .trace = [&](unsigned x, unsigned y, const FirstHit& hit, unsigned first, unsigned count,
-                     std::span<SampleBatch> batches) { path_tracer.trace(x, y, hit, first, count, batches); },
+                     std::span<SampleBatch> batches,
+                     Directions directions) { path_tracer.trace(x, y, hit, first, count, batches, directions); },
         .expect = [&](const HostImage& diffuse, const HostImage& specular) { path_tracer.expect(diffuse, specular); }};
-    const bool needs_guide_variance =
-        (settings.target_relative_error > 0 || settings.adaptive_share > 0) && state.guide_variance.values.empty();
+    const bool needs_guide_variance = settings.target_relative_error > 0 && state.guide_variance.values.empty();
+    const bool needs_directions = settings.adaptive_share > 0 && state.reference.directions.values.empty();
     // Of the lit colour alone few samples are asked, and a guide would take more than roulette by it saves.
     if (!settings.lit_only) {
-        if (state.reference.guide.specular.values.empty() || needs_guide_variance) {
+        if (state.reference.guide.specular.values.empty() || needs_guide_variance || needs_directions) {
             RenderedGuide guide = render_guide(tracer, extent, unsigned(rounded_samples(settings.guide_samples)), run);
+            if (needs_directions)
+                state.reference.directions =
+                    adaptive_directions(guide, settings.adaptive_share, settings.adaptive_image);
             state.reference.guide = std::move(guide.means);
             if (needs_guide_variance) state.guide_variance = std::move(guide.specular_variance);
         }

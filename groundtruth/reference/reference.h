@@ -69,7 +69,8 @@ struct Reference {
     /// same everywhere, as between mirrors.
     HostImage cut_share;
     HostImage sample_count;  ///< one channel; `diffuse` has at most ReferenceSettings::lit_samples
-    HostImage lobe_samples;  ///< two channels: how many samples of half A and of half B are above the horizon
+    HostImage lobe_samples;  ///< two channels: specular directions of half A and of half B above the horizon
+    HostImage directions;    ///< two channels: Directions of each sample; empty without an adaptive share
     HostImage depth;         ///< one channel: distance along -z (m), 0 where nothing was hit
     HostImage geometric_normal, normal;  ///< XYZ, world space, as in the G-buffer
     HostImage material_id;               ///< one channel: material index + 1, 0: background
@@ -86,7 +87,7 @@ struct Reference {
     /// nothing.
     float reached_share = 1.0f;
     /// Samples per pixel of each pass, "256+256+512". With a target: the samples that all pixels got, then the most
-    /// that a pixel had after each pass, "256, to 1024, to 4096"; the same for the last pass with an adaptive share.
+    /// that a pixel had after each pass, "256, to 1024, to 4096".
     std::string passes;
     std::string stream;       ///< hash of all that decides the samples and their values
     std::string hash;         ///< the key of the cache: stream and stop rule
@@ -113,10 +114,10 @@ struct ReferenceSettings {
     /// Per pixel of `diffuse`, at most, rounded up as max_samples. Techniques read `diffuse`, but are judged by the
     /// specular light: further samples trace that alone. 0: as many as for the specular light.
     unsigned lit_samples = 0;
-    /// Further samples, as a share of `max_samples` on average over the image, for the pixels that decide the noise of
-    /// an MSE (adaptive_samples.h), at most most_adaptive_share. Not with a time limit or a target, nor of the lit
-    /// colour alone.
+    /// Further directions of each sample, on average over the image, for the pixels that decide the noise of an MSE
+    /// (adaptive_directions.h), at most most_adaptive_share. Not with a target, nor of the lit colour alone.
     float adaptive_share = 0;
+    bool adaptive_image = false;  ///< the share is for the noise of the image relative to its brightness, of both lobes
     /// Wall clock, over all continued runs, without the guide's; 0: unlimited. At least one pass of 16 is made.
     double max_seconds = 0;
     float target_relative_error =
@@ -160,8 +161,8 @@ struct ReferenceRun {
 Reference render_reference(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,
                            const ReferenceSettings& settings, const ReferenceRun& run = {});
 
-/// Hash of the image that a reference shows: scene content, pose, camera, extent, seed, depth, parts. Fails with Error
-/// if scene.content_hash is empty.
+/// Hash of the image that a reference shows and of its samples: scene content, pose, camera, extent, seed, depth,
+/// parts, shares. Fails with Error if scene.content_hash is empty.
 std::string reference_request(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,
                               const ReferenceSettings& settings);
 
@@ -170,7 +171,7 @@ std::string reference_request(const Scene& scene, const ScenePose& pose, const C
 std::string reference_stream(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,
                              const ReferenceSettings& settings);
 
-/// `stream` and the stop rule: "<32 hex digits>-n1024", "...-n128-a0.25", "...-n65536-e0.03-t600".
+/// `stream` and the stop rule: "<32 hex digits>-n1024", "...-n65536-e0.03-t600".
 std::string reference_key(const std::string& stream, const ReferenceSettings& settings);
 
 /// The limits in a key, if the key belongs to `stream`. Settings that decide no stop have their defaults.

@@ -59,9 +59,17 @@ std::vector<NamedImage> named_images(Reference& reference, const ReferenceSettin
     return images;
 }
 
-/// What a reference holds, whatever it was asked for.
-ReferenceSettings parts_of(const Reference& reference) {
-    return {.lit_only = reference.is_lit_only(), .ladder = !reference.ladder.is_empty()};
+/// Of references with an adaptive share.
+NamedImage directions_layer(Reference& reference) {
+    return {"directions", "XY", &reference.directions, PixelType::uint32};
+}
+
+/// All that a reference holds, whatever it was asked for.
+std::vector<NamedImage> layers_of(Reference& reference) {
+    std::vector<NamedImage> images =
+        named_images(reference, {.lit_only = reference.is_lit_only(), .ladder = !reference.ladder.is_empty()});
+    if (!reference.directions.values.empty()) images.push_back(directions_layer(reference));
+    return images;
 }
 
 std::vector<NamedImage> named_images(ReferenceState& state) {
@@ -83,6 +91,7 @@ std::map<std::string, std::string> attributes(const Reference& reference, const 
         {"ssrlab.reached_share", shortest_digits(reference.reached_share)},
         {"ssrlab.max_samples", shortest_digits(settings.max_samples)},
         {"ssrlab.adaptive_share", shortest_digits(settings.adaptive_share)},
+        {"ssrlab.adaptive_image", shortest_digits(unsigned(settings.adaptive_image))},
         {"ssrlab.max_seconds", shortest_digits(settings.max_seconds)},
         {"ssrlab.target_relative_error", shortest_digits(settings.target_relative_error)},
         {"ssrlab.max_depth", shortest_digits(settings.max_depth)},
@@ -181,11 +190,11 @@ void write_reference(const std::filesystem::path& file, Reference& reference, co
         header["ssrlab.audit." + output + ".mean_z_squared"] = shortest_digits(halves.mean_z_squared);
         header["ssrlab.audit." + output + ".correlation"] = shortest_digits(halves.correlation);
     }
-    write(file, named_images(reference, parts_of(reference)), std::move(header));
+    write(file, layers_of(reference), std::move(header));
 }
 
 void write_reference_state(const std::filesystem::path& file, ReferenceState& state) {
-    std::vector<NamedImage> images = named_images(state.reference, parts_of(state.reference));
+    std::vector<NamedImage> images = layers_of(state.reference);
     for (const NamedImage& image : named_images(state))
         if (!image.image->values.empty()) images.push_back(image);
     write(file, std::move(images), attributes(state.reference, state.settings, state.level));
@@ -206,6 +215,8 @@ ReferenceState read_reference_state(const std::filesystem::path& file) {
     header.read("max_samples", state.settings.max_samples);
     if (layers.attributes.contains("ssrlab.adaptive_share"))
         header.read("adaptive_share", state.settings.adaptive_share);
+    state.settings.adaptive_image =
+        layers.attributes.contains("ssrlab.adaptive_image") && header.flag("adaptive_image");
     header.read("max_seconds", state.settings.max_seconds);
     header.read("target_relative_error", state.settings.target_relative_error);
     header.read("max_depth", state.settings.max_depth);
@@ -218,7 +229,9 @@ ReferenceState read_reference_state(const std::filesystem::path& file) {
     header.read("level", state.level);
 
     for (const NamedImage& image : named_images(reference, state.settings)) take_layer(file, layers, image);
-    for (const NamedImage& image : named_images(state))
+    std::vector<NamedImage> others = named_images(state);
+    others.push_back(directions_layer(reference));
+    for (const NamedImage& image : others)
         if (layers.find(image.name)) take_layer(file, layers, image);
     reference.extent = reference.sample_count.extent;
     return state;

@@ -49,5 +49,8 @@ RenderedGuide render_guide(const PixelTracer& tracer, glm::uvec2 extent, unsigne
         add_to_all(first, samples - first);
     }
     return {{std::move(guide.specular.mean), std::move(guide.incident.mean), std::move(guide.diffuse.mean)},
-            std::move(guide.specular.variance)};
+            std::move(guide.specular.variance),
+            std::move(guide.diffuse.variance),
+            std::move(guide.image.mean),
+            std::move(guide.material_id)};
 }

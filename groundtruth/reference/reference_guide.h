@@ -3,7 +3,9 @@
 
 struct RenderedGuide {
     ReferenceGuide means;
-    HostImage specular_variance;  ///< RGB, of means.specular
+    HostImage specular_variance, diffuse_variance;  ///< RGB, of the means
+    HostImage image;                                ///< RGB: all light
+    HostImage material_id;                          ///< one channel, as Reference::material_id
 };
 
 /// The guide of one frame: means over `samples` (a multiple of batch_count) per pixel, from a separate set of samples.

@@ -1,6 +1,7 @@
 #include "groundtruth/reference/reference_passes.h"
 
 #include "core/elapsed.h"
+#include "groundtruth/reference/adaptive_directions.h"
 #include "groundtruth/reference/reference_stopping.h"
 #include "groundtruth/sampling/flush_denormals.h"
 
@@ -16,13 +17,31 @@ namespace {
 constexpr double largest_overrun = 1.05;  ///< of a time limit
 constexpr unsigned tile_size = 8;         ///< pixels; neighbours meet the same nodes of the BVH
 
+/// What samples take, in samples of a mean pixel: about as many as they have directions.
+class SampleCosts {
+public:
+    explicit SampleCosts(const HostImage& directions) : directions_(directions) {
+        if (directions.values.empty()) return;
+        const double sum = std::accumulate(directions.values.begin(), directions.values.end(), 0.0);
+        mean_ = sum / double(directions.pixel_count());
+    }
+    double of(size_t pixel) const {
+        const Directions directions = directions_of(directions_, pixel);
+        return (directions.diffuse + directions.specular) / mean_;
+    }
+
+private:
+    const HostImage& directions_;
+    double mean_ = 2;
+};
+
 struct Tile {
     unsigned x, y;
-    double samples;  ///< to be done
+    double samples;  ///< to be done, of a mean pixel
 };
 
 /// The tiles with work left; those with most first, so that no thread is left alone with one at the end.
-std::vector<Tile> unfinished_tiles(const ReferenceState& state) {
+std::vector<Tile> unfinished_tiles(const ReferenceState& state, const SampleCosts& costs) {
     const glm::uvec2 extent = state.reference.extent;
     const std::vector<float>& count = state.reference.sample_count.values;
     std::vector<Tile> tiles;
@@ -32,7 +51,7 @@ std::vector<Tile> unfinished_tiles(const ReferenceState& state) {
             for (unsigned j = y; j < std::min(y + tile_size, extent.y); ++j)
                 for (unsigned i = x; i < std::min(x + tile_size, extent.x); ++i) {
                     const size_t pixel = size_t(j) * extent.x + i;
-                    tile.samples += double(state.sample_goal.values[pixel]) - count[pixel];
+                    tile.samples += (double(state.sample_goal.values[pixel]) - count[pixel]) * costs.of(pixel);
                 }
             if (tile.samples > 0) tiles.push_back(tile);
         }
@@ -43,15 +62,17 @@ std::vector<Tile> unfinished_tiles(const ReferenceState& state) {
 /// What all threads of a pass share.
 struct PassCounts {
     double samples_before;  ///< of all pixels
+    const SampleCosts& costs;
     RenderClock::Instant start = std::chrono::steady_clock::now();
-    std::atomic<uint64_t> rays = 0, non_finite = 0, samples = 0;
+    std::atomic<uint64_t> rays = 0, non_finite = 0;
+    std::atomic<double> samples = 0;  ///< of a mean pixel
     std::atomic<bool> pause = false, is_late = false;
     std::mutex looks_at_clock;
 };
 
 void report(const PassCounts& counts, const RenderClock& clock, const Reference& reference) {
     const double rays = reference.rays + double(counts.rays) - clock.rays_before;
-    const double done = counts.samples_before + double(counts.samples);
+    const double done = counts.samples_before + counts.samples;
     const double made = done - counts.samples_before;
     double left = (clock.all_samples - done) / std::max(made, 1.0) * seconds_since(counts.start);
     double fraction = done / clock.all_samples;
@@ -87,12 +108,13 @@ void render_tile(ReferenceState& state, const PixelTracer& tracer, const Tile& t
             const PixelCost cost = add_samples(reference, tracer, x, y,
                                                {.seed = state.settings.seed,
                                                 .batch_samples = samples / batch_count,
+                                                .directions = directions_of(reference.directions, pixel),
                                                 .most_lit = lit_sample_limit(state.settings)});
             if (!state.rays_per_sample.values.empty())
                 state.rays_per_sample.values[pixel] = float(double(cost.rays) / samples);
             counts.rays += cost.rays;
             counts.non_finite += cost.non_finite;
-            counts.samples += samples;
+            counts.samples += samples * counts.costs.of(pixel);
             look_at_clock(counts, clock, reference);
         }
 }
@@ -148,10 +170,11 @@ ReferenceState empty_state(glm::uvec2 extent, const ReferenceSettings& settings)
 }
 
 void render_pass(ReferenceState& state, const PixelTracer& tracer, RenderClock& clock) {
+    const SampleCosts costs(state.reference.directions);
     for (;;) {
-        const std::vector<Tile> tiles = unfinished_tiles(state);
+        const std::vector<Tile> tiles = unfinished_tiles(state, costs);
         if (tiles.empty()) return;
-        PassCounts counts{.samples_before = total_samples(state.reference)};
+        PassCounts counts{.samples_before = total_samples(state.reference), .costs = costs};
         std::atomic<size_t> next = 0;
         const auto work = [&](int) {
             const FlushDenormals flush;

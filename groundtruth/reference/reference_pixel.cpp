@@ -126,9 +126,10 @@ void merge_specular_alone(Reference& reference, size_t pixel, const PassMeans& p
             .set_rgb(pixel, (diffuse.*half).rgb(pixel) + (specular.*half).rgb(pixel) + reference.highlights.rgb(pixel));
 }
 
-/// `batch_samples` in each batch, all with the diffuse light or all without.
+/// `batch_samples` in each batch, all with the same directions.
 PixelCost add_alike(Reference& reference, const PixelTracer& tracer, glm::uvec2 at, const SampleRequest& request,
-                    unsigned batch_samples, bool has_diffuse) {
+                    unsigned batch_samples, Directions directions) {
+    const bool has_diffuse = directions.diffuse > 0;
     const auto [x, y] = std::pair(at.x, at.y);
     const size_t pixel = size_t(y) * reference.extent.x + x;
     const FirstHit hit = tracer.first_hit(x, y);
@@ -141,9 +142,8 @@ PixelCost add_alike(Reference& reference, const PixelTracer& tracer, glm::uvec2 
     double on_screen_samples = 0;
     glm::dvec3 cut(0.0);
     std::array<SampleBatch, batch_count> batches;
-    for (unsigned b = 0; b < batch_count; ++b)
-        batches[b] = {.seed = mix(pass_seed + b), .estimate = {.has_diffuse = has_diffuse}};
-    if (hit.is_hit && !hit.is_unlit) tracer.trace(x, y, hit, 0, batch_samples, batches);
+    for (unsigned b = 0; b < batch_count; ++b) batches[b] = {.seed = mix(pass_seed + b), .estimate = {}};
+    if (hit.is_hit && !hit.is_unlit) tracer.trace(x, y, hit, 0, batch_samples, batches, directions);
     for (unsigned b = 0; b < batch_count; ++b) {
         const PixelEstimate& estimate = batches[b].estimate;
         diffuse.sums[b] = estimate.diffuse + glm::dvec3(hit.emitted) * double(batch_samples);
@@ -209,11 +209,12 @@ PixelCost add_samples(Reference& reference, const PixelTracer& tracer, unsigned 
     const auto held = uint64_t(reference.sample_count.values[size_t(y) * reference.extent.x + x]);
     const uint64_t lit = request.most_lit > 0 ? std::max(request.most_lit, held) - held : ~uint64_t(0);
     const unsigned with_diffuse = unsigned(std::min<uint64_t>(request.batch_samples, lit / batch_count));
+    const Directions of_both = request.directions, of_specular{.diffuse = 0, .specular = of_both.specular};
     PixelCost cost;
-    for (const bool has_diffuse : {true, false}) {
-        const unsigned samples = has_diffuse ? with_diffuse : request.batch_samples - with_diffuse;
+    for (const auto& [samples, directions] :
+         {std::pair(with_diffuse, of_both), {request.batch_samples - with_diffuse, of_specular}}) {
         if (samples == 0) continue;
-        const PixelCost added = add_alike(reference, tracer, {x, y}, request, samples, has_diffuse);
+        const PixelCost added = add_alike(reference, tracer, {x, y}, request, samples, directions);
         cost.rays += added.rays, cost.non_finite += added.non_finite;
     }
     return cost;

@@ -11,7 +11,7 @@
 struct PixelTracer {
     std::function<FirstHit(unsigned x, unsigned y)> first_hit;
     std::function<void(unsigned x, unsigned y, const FirstHit& hit, unsigned first_sample, unsigned count,
-                       std::span<SampleBatch> batches)>
+                       std::span<SampleBatch> batches, Directions directions)>
         trace;
     std::function<void(const HostImage& diffuse, const HostImage& specular)> expect = {};
 };
@@ -30,6 +30,7 @@ struct SampleRequest {
     uint64_t seed = 0;
     SampleSet set = SampleSet::reference;
     unsigned batch_samples = 1;  ///< in each of batch_count batches
+    Directions directions;
     uint64_t most_lit = 0;  ///< samples of `diffuse` that the pixel may have, a multiple of batch_count; 0: no limit
 };
 

@@ -1,6 +1,5 @@
 #include "groundtruth/reference/reference_stopping.h"
 
-#include "groundtruth/reference/adaptive_samples.h"
 #include "groundtruth/reference/reference_error.h"
 #include "groundtruth/reference/sample_allocation.h"
 
@@ -51,10 +50,9 @@ Limits uniform_limit(const ReferenceSettings& settings) {
     return {std::min(uniform_samples, samples), settings.max_seconds * uniform_share_of_time};
 }
 
-/// Samples of all pixels at the end of a render without a target, if each has a surface.
+/// Samples of all pixels at the end of a render without a target.
 double expected_samples(const ReferenceState& state) {
-    return double(uniform_limit(state.settings).samples) * (1.0 + double(state.settings.adaptive_share)) *
-           double(state.reference.sample_count.pixel_count());
+    return double(uniform_limit(state.settings).samples) * double(state.reference.sample_count.pixel_count());
 }
 
 /// False if nothing is left to do.
@@ -173,40 +171,21 @@ bool plan_target_pass(ReferenceState& state, RenderClock& clock, Limits limit) {
     return true;
 }
 
-/// The last pass of a render with an adaptive share. False if it has been made, or no pixel gets samples.
-bool plan_extra_pass(ReferenceState& state, RenderClock& clock) {
-    Reference& reference = state.reference;
-    const auto uniform = float(state.level);
-    if (std::ranges::max(reference.sample_count.values) > uniform) return false;
-    HostImage goal =
-        adaptive_samples(state.guide_variance, reference.material_id, state.level, state.settings.adaptive_share);
-    for (float& samples : goal.values) samples += uniform;
-    const float most = std::ranges::max(goal.values);
-    if (most == uniform) return false;
-    clock.all_samples = std::accumulate(goal.values.begin(), goal.values.end(), 0.0);
-    state.sample_goal = std::move(goal);
-    reference.passes += ", to " + std::to_string(uint64_t(most));
-    return true;
-}
-
 /// For a pass that was stopped midway: its plan's estimates for the clock, as far as the state has them.
 void resume_plan(const ReferenceState& state, RenderClock& clock) {
     const Limits uniform = uniform_limit(state.settings);
     const bool has_target = !state.earlier.values.empty();
     clock.cuts_pass = has_target;
     clock.time_limit = has_target ? state.settings.max_seconds : uniform.seconds;
-    const bool is_uniform = std::ranges::max(state.sample_goal.values) <= float(state.level);
-    clock.all_samples = is_uniform && !has_target
-                            ? expected_samples(state)
-                            : std::accumulate(state.sample_goal.values.begin(), state.sample_goal.values.end(), 0.0);
+    clock.all_samples = has_target
+                            ? std::accumulate(state.sample_goal.values.begin(), state.sample_goal.values.end(), 0.0)
+                            : expected_samples(state);
 }
 
 bool plan_pass(ReferenceState& state, RenderClock& clock) {
     const Limits limit{sample_limit(state.settings), state.settings.max_seconds},
         uniform = uniform_limit(state.settings);
-    if (state.settings.target_relative_error == 0)
-        return plan_uniform_pass(state, clock, uniform) ||
-               (state.settings.adaptive_share > 0 && plan_extra_pass(state, clock));
+    if (state.settings.target_relative_error == 0) return plan_uniform_pass(state, clock, uniform);
     if (limit.seconds > 0 && state.rays_per_sample.values.empty()) {
         const double samples = std::max(total_samples(state.reference), 1.0);
         state.rays_per_sample = HostImage(state.reference.extent, 1, float(state.reference.rays / samples));
@@ -234,8 +213,7 @@ uint64_t lit_sample_limit(const ReferenceSettings& settings) {
 
 bool can_be_extended(const ReferenceSettings& finished, const ReferenceSettings& wanted) {
     const uint64_t held = sample_limit(finished), limit = sample_limit(wanted);
-    if ((finished.max_seconds > 0) != (wanted.max_seconds > 0) || held > limit || finished.adaptive_share > 0)
-        return false;
+    if ((finished.max_seconds > 0) != (wanted.max_seconds > 0) || held > limit) return false;
     const float its_target = finished.target_relative_error, target = wanted.target_relative_error;
     if (wanted.max_seconds == 0) return its_target == 0 && target == 0 && (held == limit || held >= first_untimed_pass);
     return finished.max_seconds <= wanted.max_seconds && (its_target == 0 || (target > 0 && target <= its_target));

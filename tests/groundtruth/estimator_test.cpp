@@ -494,6 +494,57 @@ TEST(estimator, batches_traced_together_are_those_traced_alone) {
         }
 }
 
+/// n samples of k directions are the samples of k n indices, weighed by 1 / k. That is a power of two, so that nothing
+/// is rounded but sums; and roulette, by what is expected here, decides as it does without.
+TEST(estimator, directions_of_a_sample_are_those_of_as_many_samples) {
+    const TestScene room = make_room();
+    PathTracer tracer(room.scene, room.pose(), room_camera(), extent, {.ladder = true});
+    tracer.expect(HostImage(extent, 3, 0.2f), HostImage(extent, 3, 0.2f));
+    for (const unsigned k : {2u, 16u})
+        for (const glm::uvec2 pixel : pixels) {
+            const FirstHit hit = tracer.first_hit(pixel.x, pixel.y);
+            SampleBatch one{.seed = 9, .estimate = {}}, many = one;
+            tracer.trace(pixel.x, pixel.y, hit, 32, 48, {&one, 1}, {k, k});
+            tracer.trace(pixel.x, pixel.y, hit, 32 * k, 48 * k, {&many, 1});
+            EXPECT_EQ(one.estimate.samples * k, many.estimate.samples);
+            EXPECT_EQ(one.estimate.lobe_samples, many.estimate.lobe_samples);
+            EXPECT_EQ(one.estimate.on_screen_samples, many.estimate.on_screen_samples);
+            EXPECT_EQ(one.estimate.rays, many.estimate.rays);
+            for (const auto& [output, share] : {std::pair(&PixelEstimate::diffuse, 1.0 / k),
+                                                {&PixelEstimate::specular, 1.0 / k},
+                                                {&PixelEstimate::cut, 1.0 / k},
+                                                {&PixelEstimate::incident, 1.0},
+                                                {&PixelEstimate::camera_radiance, 1.0},
+                                                {&PixelEstimate::on_screen, 1.0}})
+                for (int channel = 0; channel < 3; ++channel)
+                    EXPECT_NEAR((one.estimate.*output)[channel], share * (many.estimate.*output)[channel],
+                                1e-12 * share * (many.estimate.*output)[channel]);
+        }
+}
+
+TEST(estimator, directions_of_a_lobe_change_no_mean_and_no_other_output) {
+    const TestScene room = make_room();
+    PathTracer tracer(room.scene, room.pose(), room_camera(), extent, {.ladder = true});
+    tracer.expect(HostImage(extent, 3, 0.2f), HostImage(extent, 3, 0.2f));
+    Render one{std::vector<PixelMoments>(std::size(pixels))}, more_diffuse = one, more_specular = one;
+    for (size_t i = 0; i < std::size(pixels); ++i) {
+        const auto [x, y] = std::pair(pixels[i].x, pixels[i].y);
+        one.pixels[i] = render_pixel(tracer, x, y, 4096, 1);
+        more_diffuse.pixels[i] = render_pixel(tracer, x, y, 1024, 2, {8, 4});
+        more_specular.pixels[i] = render_pixel(tracer, x, y, 1024, 3, {4, 8});
+        const FirstHit hit = tracer.first_hit(x, y);
+        SampleBatch of_both{.seed = 9, .estimate = {}}, alone = of_both;
+        tracer.trace(x, y, hit, 0, 64, {&of_both, 1}, {8, 1});
+        tracer.trace(x, y, hit, 0, 64, {&alone, 1}, {0, 1});
+        EXPECT_EQ(alone.estimate.diffuse, glm::dvec3(0.0));
+        for (int channel = 0; channel < 3; ++channel)
+            EXPECT_NEAR(of_both.estimate.specular[channel], alone.estimate.specular[channel],
+                        1e-12 * alone.estimate.specular[channel]);
+    }
+    expect_same_means(more_diffuse, one);
+    expect_same_means(more_specular, one);
+}
+
 TEST(estimator, number_of_threads_changes_no_bit) {
     const TestScene room = make_room();
     const PathTracer tracer(room.scene, room.pose(), room_camera(), extent, {});

@@ -11,14 +11,14 @@ TEST(ReferencePixels, StateTheVarianceOfAnImageWhosePartsShareSamples) {
     const PixelTracer tracer{.first_hit = [](unsigned, unsigned) { return FirstHit{.is_hit = true}; },
                              .trace =
                                  [](unsigned x, unsigned y, const FirstHit&, unsigned first, unsigned count,
-                                    std::span<SampleBatch> batches) {
+                                    std::span<SampleBatch> batches, Directions directions) {
                                      for (auto& [seed, estimate] : batches) {
                                          std::mt19937_64 random(seed + (uint64_t(y) << 32 | x));
                                          std::uniform_real_distribution<double> uniform;
                                          random.discard(first);
                                          for (unsigned i = 0; i < count; ++i) {
                                              const double u = uniform(random);
-                                             if (estimate.has_diffuse) estimate.diffuse += u;
+                                             if (directions.diffuse > 0) estimate.diffuse += u;
                                              estimate.specular += u;
                                          }
                                      }

@@ -106,55 +106,56 @@ TEST_F(References, StoppedByTheirErrorAreUnbiased) {
     EXPECT_GT(stopped.reached_share, 0.8f);
 }
 
-TEST_F(References, WithAnAdaptiveShareHaveTheBitsOfTheirKey) {
-    const ReferenceSettings settings{.max_samples = 256, .lit_samples = 64, .adaptive_share = 0.5f, .seed = 1};
-    const Reference whole = render(settings);
-    EXPECT_GT(std::ranges::max(whole.sample_count.values), 256.0f);
-    EXPECT_EQ(std::ranges::min(whole.sample_count.values), 256.0f);
-    EXPECT_EQ(reference_key("s", settings), "s-n256-a0.5");
-    EXPECT_EQ(settings_of_key("s", "s-n256-a0.5")->adaptive_share, 0.5f);
-    const auto expect_same = [&](const Reference& other, const char* what) {
-        EXPECT_EQ(other.specular.mean.values, whole.specular.mean.values) << what;
-        EXPECT_EQ(other.image.variance.values, whole.image.variance.values) << what;
-        EXPECT_EQ(other.sample_count.values, whole.sample_count.values) << what;
-    };
-    Reference one;
-    tbb::task_arena(1).execute([&] { one = render(settings); });
-    expect_same(one, "one thread");
+TEST_F(References, WithAnAdaptiveShareAreTheSameHoweverTheyAreRendered) {
+    ReferenceSettings settings{.max_samples = 1024, .lit_samples = 64, .adaptive_share = 0.5f, .seed = 1};
+    const Reference plain = render({.max_samples = 1024, .lit_samples = 64, .seed = 2});
+    for (const bool for_image : {false, true}) {
+        SCOPED_TRACE(for_image);
+        settings.adaptive_image = for_image;
+        const Reference whole = render(settings);
+        EXPECT_GT(std::ranges::max(whole.directions.values), 1.0f);
+        EXPECT_EQ(std::ranges::min(whole.directions.values), 1.0f);
+        expect_same_mean(whole.image, plain.image);
+        expect_same_mean(whole.incident, plain.incident);
+        EXPECT_LT(for_image ? mean_of(whole.diffuse.variance) : mean_of(whole.specular.variance),
+                  for_image ? mean_of(plain.diffuse.variance) : mean_of(plain.specular.variance));
+        const auto expect_same = [&](const Reference& other, const char* what) {
+            EXPECT_EQ(other.specular.mean.values, whole.specular.mean.values) << what;
+            EXPECT_EQ(other.image.variance.values, whole.image.variance.values) << what;
+            EXPECT_EQ(other.directions.values, whole.directions.values) << what;
+        };
+        Reference one;
+        tbb::task_arena(1).execute([&] { one = render(settings); });
+        expect_same(one, "one thread");
 
-    struct Stop {};
-    ReferenceRun run;
-    fs::create_directories(folder);
-    run.state_file = folder / "state.exr";
-    run.seconds_between_reports = run.seconds_between_saves = 0;
-    const double uniform_share = 256 * double(whole.sample_count.pixel_count()) / [&] {
-        double sum = 0;
-        for (const float samples : whole.sample_count.values) sum += samples;
-        return sum;
-    }();
-    run.progress = [&, reports = 0](double fraction, double, double) mutable {
-        if (fraction > uniform_share && fraction < 1 && ++reports > 2) throw Stop{};
-    };
-    EXPECT_THROW(render(settings, run), Stop);
-    EXPECT_GT(std::ranges::max(read_reference_state(run.state_file).sample_goal.values), 256.0f)
-        << "stopped in the pass of all pixels, not in that of a few";
-    run.progress = {};
-    expect_same(render(settings, run), "stopped and continued");
+        struct Stop {};
+        fs::create_directories(folder);
+        ReferenceRun run{.state_file = folder / "state.exr", .seconds_between_saves = 0, .seconds_between_reports = 0};
+        run.progress = [reports = 0](double fraction, double, double) mutable {
+            if (fraction > 0.3 && fraction < 1 && ++reports > 2) throw Stop{};
+        };
+        EXPECT_THROW(render(settings, run), Stop);
+        run.progress = {};
+        expect_same(render(settings, run), "stopped and continued");
 
-    const auto cached = [&](const ReferenceSettings& wanted) {
-        return cached_reference(scene, pose, camera, extent, wanted, folder);
-    };
-    ReferenceSettings plain = settings;
-    plain.adaptive_share = 0;
-    cached(plain);
-    expect_same(cached(settings), "samples added to a file");
-    EXPECT_TRUE(cached(settings).from_cache);
-    plain.max_samples = 512;
-    EXPECT_EQ(cached(plain).specular.mean.values, render(plain).specular.mean.values) << "nothing is added to it";
-
+        const auto cached = [&](unsigned samples) {
+            ReferenceSettings wanted = settings;
+            wanted.max_samples = samples;
+            return cached_reference(scene, pose, camera, extent, wanted, folder);
+        };
+        cached(512);
+        expect_same(cached(1024), "samples added to a file");
+        EXPECT_TRUE(cached(1024).from_cache);
+        fs::remove_all(folder);
+    }
+    ReferenceSettings other = settings;
+    other.adaptive_share = 1;
+    const auto stream = [&](const ReferenceSettings& s) { return reference_stream(scene, pose, camera, extent, s); };
+    EXPECT_NE(stream(other), stream(settings));
+    other = settings, other.adaptive_image = false;
+    EXPECT_NE(stream(other), stream(settings));
     for (ReferenceSettings wrong : {ReferenceSettings{.adaptive_share = -1},
                                     {.adaptive_share = 9},
-                                    {.adaptive_share = 0.5f, .max_seconds = 1},
                                     {.adaptive_share = 0.5f, .target_relative_error = 0.1f},
                                     {.adaptive_share = 0.5f, .lit_only = true}})
         EXPECT_THROW(render(wrong), Error);
@@ -401,7 +402,8 @@ TEST_F(References, OfVersionsWithoutAnAdaptiveShareHaveNone) {
     Reference r = render(samples(16));
     write_reference(folder / "new.exr", r, samples(16));
     LayeredImage layers = read_exr(folder / "new.exr");
-    EXPECT_EQ(layers.attributes.erase("ssrlab.adaptive_share"), 1u);
+    for (const char* name : {"ssrlab.adaptive_share", "ssrlab.adaptive_image"})
+        EXPECT_EQ(layers.attributes.erase(name), 1u);
     write_exr(folder / "old.exr", layers);
     EXPECT_EQ(read_reference_state(folder / "old.exr").settings.adaptive_share, 0);
 }

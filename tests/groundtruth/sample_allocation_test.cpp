@@ -33,7 +33,7 @@ PixelTracer rare_bright_paths(double p, std::function<uint64_t(unsigned x, unsig
     return {.first_hit = [](unsigned, unsigned) { return FirstHit{.is_hit = true}; },
             .trace =
                 [p, seed_of](unsigned x, unsigned y, const FirstHit&, unsigned, unsigned count,
-                             std::span<SampleBatch> batches) {
+                             std::span<SampleBatch> batches, Directions) {
                     for (auto& [seed, estimate] : batches) {
                         Random random{hash_bits_64(seed ^ seed_of(x, y)) ^ hash_bits_64(uint64_t(y) << 32 | x)};
                         std::poisson_distribution<uint64_t> met(p * count);
@@ -128,8 +128,8 @@ TEST(SampleAllocation, GivesMoreToAPixelThatIsNoisyAlone) {
     const PixelTracer all = rare_bright_paths(0.5, [](unsigned, unsigned) { return 6; });
     PixelTracer one = all;
     one.trace = [&](unsigned x, unsigned y, const FirstHit& hit, unsigned first, unsigned count,
-                    std::span<SampleBatch> batches) {
-        if (glm::uvec2(x, y) == noisy) return all.trace(x, y, hit, first, count, batches);
+                    std::span<SampleBatch> batches, Directions directions) {
+        if (glm::uvec2(x, y) == noisy) return all.trace(x, y, hit, first, count, batches, directions);
         for (SampleBatch& batch : batches) batch.estimate.specular += glm::dvec3(count);
     };
     const Reference r = render(one, {.max_samples = 1 << 16, .target_relative_error = 0.02f});

@@ -106,14 +106,15 @@ CameraPose looking_at_origin(glm::vec3 normal, glm::vec3 towards, float cosine) 
     return looking_along(glm::vec3(view), glm::vec3(-view));
 }
 
-PixelMoments render_pixel(const PathTracer& tracer, unsigned x, unsigned y, unsigned samples_per_batch, uint64_t seed) {
+PixelMoments render_pixel(const PathTracer& tracer, unsigned x, unsigned y, unsigned samples_per_batch, uint64_t seed,
+                          Directions directions) {
     PixelMoments result;
     result.hit = tracer.first_hit(x, y);
     std::array<glm::dvec3, batch_count> means[5];
     double on_screen = 0, lobe = 0;
     std::array<SampleBatch, batch_count> batches;
     for (unsigned batch = 0; batch < batch_count; ++batch) batches[batch].seed = seed * 1000 + batch;
-    tracer.trace(x, y, result.hit, 0, samples_per_batch, batches);
+    tracer.trace(x, y, result.hit, 0, samples_per_batch, batches, directions);
     for (unsigned batch = 0; batch < batch_count; ++batch) {
         const PixelEstimate& estimate = batches[batch].estimate;
         means[0][batch] = estimate.diffuse / double(estimate.samples) + glm::dvec3(result.hit.emitted);

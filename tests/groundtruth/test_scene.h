@@ -51,7 +51,7 @@ struct PixelMoments {
 /// Renders one pixel with 16 independent batches; the standard error comes from their spread, so that it follows
 /// Student's t distribution with 15 degrees of freedom.
 PixelMoments render_pixel(const PathTracer& tracer, unsigned x, unsigned y, unsigned samples_per_batch,
-                          uint64_t seed = 1);
+                          uint64_t seed = 1, Directions directions = {});
 
 /// The one pixel of a camera.
 PixelMoments render(const TestScene& scene, const CameraPose& camera, unsigned samples_per_batch,

@@ -37,9 +37,12 @@ Keys reference_keys() {
                        "; no limit if `seconds` or `target_relative_error` is set"),
              "Largest number of samples per pixel, rounded up to 16 x 2^k"},
             {"adaptive_share", number(0, ReferenceSettings::most_adaptive_share), plain.adaptive_share,
-             "Further samples of a frame that is compared with the truth, as a share of `samples` on average over the "
-             "image. They go to the pixels whose noise decides the interval of `mse`. 0.25 is a good value; not with "
-             "`seconds` or `target_relative_error`"},
+             "Further specular directions of each sample, on average over the image, in frames that are compared with "
+             "the truth. The pixels whose noise decides the interval of `mse` get them. 0.25 is a good value; not with "
+             "`target_relative_error`"},
+            {"adaptive_image", flag(), plain.adaptive_image,
+             "`true`: the further directions are diffuse, too, and lower the noise of `image` relative to its "
+             "brightness, in place of the noise of `mse`"},
             {"lit_samples", whole(16, 1 << 24),
              otherwise("`samples`; at most " + std::to_string(ReferenceSettings::default_samples) +
                        " for frames without other samples and with `target_relative_error`"),
@@ -181,14 +184,18 @@ void read_reference(ConfigObject& study, Config& config) {
     if (object.has("samples")) settings.max_samples = object.get<unsigned>("samples");
     if (object.has("lit_samples")) settings.lit_samples = object.get<unsigned>("lit_samples");
     settings.adaptive_share = object.get<float>("adaptive_share");
+    settings.adaptive_image = object.get<bool>("adaptive_image");
     config.measures_lit_noise = object.get<bool>("lit_noise");
     config.filters_lit = object.get<bool>("lit_filter");
     settings.guide_samples = object.get<unsigned>("guide_samples");
     settings.max_seconds = object.get<float>("seconds");
     settings.target_relative_error = object.get<float>("target_relative_error");
-    if (settings.adaptive_share > 0 && (settings.max_seconds > 0 || settings.target_relative_error > 0))
+    if (settings.adaptive_share > 0 && settings.target_relative_error > 0)
         fail(object.at("adaptive_share"),
-             ": 'adaptive_share' adds to a fixed number of samples; leave out 'seconds' and 'target_relative_error'");
+             ": 'adaptive_share' and 'target_relative_error' both choose the noisy pixels; leave out one");
+    if (settings.adaptive_image && settings.adaptive_share == 0)
+        fail(object.at("adaptive_image"),
+             ": 'adaptive_image' says what 'adaptive_share' is for; set that, for example 1");
     settings.max_depth = object.get<unsigned>("max_depth");
     settings.seed = object.get<unsigned>("seed");
     object.finish();

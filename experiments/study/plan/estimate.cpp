@@ -109,8 +109,9 @@ private:
         // How many samples an error takes is not known: then those that a reference has by default.
         const unsigned of_specular = samples > 0 ? samples : ReferenceSettings::default_samples;
         const unsigned of_both = settings.lit_samples > 0 ? std::min(settings.lit_samples, of_specular) : of_specular;
-        const double of_specular_alone = of_specular * (1.0 + settings.adaptive_share) - of_both;
-        const double traced = rates.per_sample * pixels * (of_both + specular_share * of_specular_alone);
+        const double of_one_lobe = of_specular - of_both + settings.adaptive_share * of_specular +
+                                   (settings.adaptive_image ? settings.adaptive_share * of_both : 0.0);
+        const double traced = rates.per_sample * pixels * (of_both + specular_share * of_one_lobe);
         return seconds > 0 ? std::min(traced, double(seconds)) : traced;
     }
 

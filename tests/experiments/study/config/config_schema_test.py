@@ -25,7 +25,7 @@ ROOMS = {"scene": ["room:*"], "count": 2, "first": 3}
 MEASURED = {"metrics": ["mse"], "masks": ["all", "roughness_0.1_0.2"], "targets": "image", "frame_metrics": "mse", "frame_masks": "all"}
 BASE = {
     "$schema": "x", "title": "t", "shots": [SCENE, ROOMS, {"gbuffer": "capture", "reference": "truth.exr", "frames": [0, 1], **PLAYED}],
-    "seeds": [0, 1], "reference": {"samples": 16, "lit_samples": 16, "adaptive_share": 0.0, "lit_noise": True, "lit_filter": True, "guide_samples": 16, "seconds": 1.5, "target_relative_error": 0.5, "max_depth": 4, "seed": 1},
+    "seeds": [0, 1], "reference": {"samples": 16, "lit_samples": 16, "adaptive_share": 0.0, "adaptive_image": False, "lit_noise": True, "lit_filter": True, "guide_samples": 16, "seconds": 1.5, "target_relative_error": 0.5, "max_depth": 4, "seed": 1},
     "primary": {"metric": "mse", "mask": "all", "target": "image", "margin": 0.1}, "composite": "split_sum", "resolution": [64, 36],
     "hits": {"every": 4, "seeds": 1}, "costs": True, "gpu_compilers": ["navi21"], "images": "all", "timing": {"frames": 15, "warm_up": 1, "copies": False, "most_share": 0.5},
     **MEASURED, **SETTINGS, "reflective_max_roughness": 0.5, "reflective_min_reflectance": 0.1,
