@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <span>
 
 namespace {
 
@@ -163,12 +162,7 @@ Reference render_reference(const Scene& scene, const ScenePose& pose, const Came
                             .specular = !settings.lit_only,
                             .ladder = settings.ladder,
                             .keep_all = settings.keep_all});
-    const PixelTracer tracer{
-        .first_hit = [&](unsigned x, unsigned y) { return path_tracer.first_hit(x, y); },
-        .trace = [&](unsigned x, unsigned y, const FirstHit& hit, unsigned first, unsigned count,
-                     std::span<SampleBatch> batches,
-                     Directions directions) { path_tracer.trace(x, y, hit, first, count, batches, directions); },
-        .expect = [&](const HostImage& diffuse, const HostImage& specular) { path_tracer.expect(diffuse, specular); }};
+    const PixelTracer tracer = pixel_tracer(path_tracer);
     const bool needs_guide_variance = settings.target_relative_error > 0 && state.guide_variance.values.empty();
     const bool needs_directions = settings.adaptive_share > 0 && state.reference.directions.values.empty();
     // Of the lit colour alone few samples are asked, and a guide would take more than roulette by it saves.

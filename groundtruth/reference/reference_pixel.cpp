@@ -204,6 +204,15 @@ PixelCost add_alike(Reference& reference, const PixelTracer& tracer, glm::uvec2 
 
 }  // namespace
 
+PixelTracer pixel_tracer(PathTracer& path_tracer) {
+    return {
+        .first_hit = [&](unsigned x, unsigned y) { return path_tracer.first_hit(x, y); },
+        .trace = [&](unsigned x, unsigned y, const FirstHit& hit, unsigned first, unsigned count,
+                     std::span<SampleBatch> batches,
+                     Directions directions) { path_tracer.trace(x, y, hit, first, count, batches, directions); },
+        .expect = [&](const HostImage& diffuse, const HostImage& specular) { path_tracer.expect(diffuse, specular); }};
+}
+
 PixelCost add_samples(Reference& reference, const PixelTracer& tracer, unsigned x, unsigned y,
                       const SampleRequest& request) {
     const auto held = uint64_t(reference.sample_count.values[size_t(y) * reference.extent.x + x]);

@@ -16,6 +16,9 @@ struct PixelTracer {
     std::function<void(const HostImage& diffuse, const HostImage& specular)> expect = {};
 };
 
+/// `path_tracer` must outlive the result.
+PixelTracer pixel_tracer(PathTracer& path_tracer);
+
 inline constexpr unsigned batch_count = 16;  ///< per pass; the even ones make half A, the odd ones half B
 
 struct PixelCost {

@@ -5,7 +5,6 @@
 #include "metrics/masks.h"
 
 #include <tbb/parallel_for.h>
-#include <span>
 
 /// A scene as its path tracer sees it.
 struct View {
@@ -25,11 +24,7 @@ struct View {
           camera(pose_camera(scene.cameras.front(), pose, frame)),
           has_ladder(has_ladder),
           path_tracer(scene, pose, camera, extent, {.ladder = has_ladder}),
-          tracer{
-              [this](unsigned x, unsigned y) { return path_tracer.first_hit(x, y); },
-              [this](unsigned x, unsigned y, const FirstHit& hit, unsigned first, unsigned count,
-                     std::span<SampleBatch> batches) { path_tracer.trace(x, y, hit, first, count, batches); },
-              [this](const HostImage& diffuse, const HostImage& specular) { path_tracer.expect(diffuse, specular); }},
+          tracer(pixel_tracer(path_tracer)),
           guide(render_guide(tracer, extent, ReferenceSettings().guide_samples, {}).means) {
         path_tracer.expect(guide.diffuse, guide.specular);
     }
