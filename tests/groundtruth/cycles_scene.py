@@ -2,8 +2,8 @@
 
 usage: blender -b --factory-startup -P cycles_scene.py -- JOB.json
 
-JOB.json holds `scene` (a scene.json with absolute paths), `size` (pixels), `seconds` (CPU time that a render should take), `seeds` and `out`, a
-folder: it receives `0.exr`, `1.exr`, ... of the seeds and `times.json`.
+JOB.json holds `scene` (a scene.json with absolute paths), `size` (pixels), `seconds` (CPU time that a render should take), `adaptive` (whether
+pixels end by a noise threshold), `seeds` and `out`, a folder: it receives `0.exr`, `1.exr`, ... of the seeds and `times.json`.
 """
 
 import json
@@ -23,6 +23,7 @@ from cycles_materials import build_material, overridden  # noqa: E402
 np.bool = bool  # Debian's glTF importer of Blender 3.4 uses the name, which its numpy has no more
 BOUNCES = 64  # the default of `ssrlab reference --max-depth`
 MOST_SAMPLES = 1 << 14
+LEAST_THRESHOLD = 1e-3  # of noise, where pixels end by it
 
 
 def blender_vector(v):
@@ -145,6 +146,26 @@ def render(samples, seed, out):
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
+def sample_limit(seconds, least, out):
+    """Samples of each pixel for about `seconds`, and what they are called. `least`: the time of a render of one sample (s)."""
+    trial = max((render(16, 1, out / "warm_up.exr") - least) / 15, 1e-4)
+    samples = min(MOST_SAMPLES, 2 ** max(4, round(math.log2(seconds / trial))))  # powers of two suit Sobol' points best
+    return samples, f"{samples} samples"
+
+
+def adaptive_limit(seconds, least, out):
+    """The same, for pixels that end by a noise threshold, which is set."""
+    cycles = bpy.context.scene.cycles
+    cycles.use_adaptive_sampling, threshold = True, 1.0
+    spent = {}
+    while not spent or (spent[threshold] < seconds and threshold > LEAST_THRESHOLD):
+        threshold /= 2
+        cycles.adaptive_threshold = threshold
+        spent[threshold] = max(render(MOST_SAMPLES, 1, out / "warm_up.exr") - least, 1e-4)
+    cycles.adaptive_threshold = min(spent, key=lambda t: abs(math.log(spent[t] / seconds)))
+    return MOST_SAMPLES, f"a noise threshold of {cycles.adaptive_threshold:.4g}"
+
+
 def main():
     job = json.loads(Path(sys.argv[sys.argv.index("--") + 1]).read_text())
     out = Path(job["out"])
@@ -152,10 +173,9 @@ def main():
     set_up_cycles(job["size"])
     render(1, 1, out / "warm_up.exr")  # builds the BVH
     least = min(render(1, 1, out / "warm_up.exr") for _ in range(3))
-    trial = max((render(16, 1, out / "warm_up.exr") - least) / 15, 1e-4)
-    samples = min(MOST_SAMPLES, 2 ** max(4, round(math.log2(job["seconds"] / trial))))  # powers of two suit Sobol' points best
+    samples, limit = adaptive_limit(job["seconds"], least, out) if job["adaptive"] else sample_limit(job["seconds"], least, out)
     times = [render(samples, seed, out / f"{i}.exr") - least for i, seed in enumerate(job["seeds"])]
-    (out / "times.json").write_text(json.dumps({"samples": samples, "seconds": times}))
+    (out / "times.json").write_text(json.dumps({"limit": limit, "seconds": times}))
 
 
 main()

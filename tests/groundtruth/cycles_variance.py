@@ -2,10 +2,13 @@
 """Variance at equal CPU time of ssrlab's path tracer and of Cycles, of the same scenes. Needs Blender 3.4 and takes 15 minutes, so it is no part
 of the suite. Prints how far the means are apart, and the rows of the table in groundtruth/measurements.md.
 
-usage: cycles_variance.py SSRLAB [SCENE ...] [--size W H] [--samples N] [--repeats N] [--keep FOLDER]
+usage: cycles_variance.py SSRLAB [SCENE ...] [--size W H] [--samples N] [--repeats N] [--adaptive] [--keep FOLDER]
 
 Cycles renders with the power of two samples that comes nearest to half of ssrlab's time, which the comparison allows for. Third-party scenes lie on
 SSRLAB_SCENE_PATH.
+
+With --adaptive, noisy pixels get more in both. Of ssrlab, as many directions as without are traced in the mean, and the guide has 16 samples. Cycles
+ends its pixels by its noise threshold: the power of a half whose time comes nearest to half of ssrlab's.
 
 CPU time is user and system time of all threads. Both exclude loading and the BVH: of ssrlab the time of `ssrlab rays`, which does little else, is
 subtracted, so its guide and all that it learns count; of Cycles that of a render of one sample with the scene in memory.
@@ -36,6 +39,7 @@ SCENES = ("dark_room", "modern_hall", "breakfast_room", "sponza", "flight_helmet
 DARK = 0.01  # added to the squared mean that variances are relative to, as ssrlab's weights have it
 TRIMMED = 1e-3  # share of pixels, those of the greatest variance, that the trimmed mean leaves out
 ROUNDING = 1e-10  # relative variance of images that differ by the rounding of float alone
+ADAPTIVE_SHARE = 3  # of ours, with --adaptive: a quarter of the directions are the same for all pixels
 CYCLES_SHARE = 0.5  # time of a render of Cycles over that of ours: its variance times time hardly depends on it
 CARRIED = {"gltf", "also", "blended", "environment", "lights", "overrides", "back_faces", "cameras", "frame_count", "frame_rate"}
 
@@ -103,30 +107,32 @@ def scene_for_blender(name):
 def render_ours(ssrlab, name, arguments, place):
     """Images of shape (repeats, height, width, 3), their CPU time (s) each, and that of further samples alone, without guide and learning."""
     size = ("--size", *arguments.size)
+    adaptive = ("--adaptive-share", ADAPTIVE_SHARE, "--adaptive-image", "--guide-samples", 16) if arguments.adaptive else ()
+    most = arguments.samples // (1 + ADAPTIVE_SHARE) if arguments.adaptive else arguments.samples
 
     def reference(samples, seed):
         shutil.rmtree(place / "cache", ignore_errors=True)  # of what other runs learnt
         out = place / f"{samples}_{seed}.exr"
-        seconds = run(ssrlab, "reference", name, *size, "--samples", samples, "--seed", seed, "--cache", place / "cache", "--out", out)
+        seconds = run(ssrlab, "reference", name, *size, "--samples", samples, "--seed", seed, *adaptive, "--cache", place / "cache", "--out", out)
         return read_exr_rgb(out, "image"), seconds
 
     load = min(run(ssrlab, "rays", name, *size) for _ in range(2))
     start = min(reference(16, seed)[1] for seed in (1, 2))
-    rendered = [reference(arguments.samples, seed) for seed in range(1, arguments.repeats + 1)]
+    rendered = [reference(most, seed) for seed in range(1, arguments.repeats + 1)]
     seconds = np.mean([t for _, t in rendered])
-    further = (seconds - start) / (arguments.samples - 16) * arguments.samples
+    further = (seconds - start) / (most - 16) * most
     return np.stack([image for image, _ in rendered]).astype(float), np.array([t - load for _, t in rendered]), further
 
 
 def render_cycles(blender, scene, seconds, arguments, place):
-    """The same of Cycles, which takes about `seconds` each, and its samples."""
-    job = {"scene": scene, "size": arguments.size, "seconds": seconds, "seeds": list(range(1, arguments.repeats + 1)), "out": str(place)}
+    """The same of Cycles, which takes about `seconds` each, and what ended it."""
+    job = {"scene": scene, "size": arguments.size, "seconds": seconds, "adaptive": arguments.adaptive, "seeds": list(range(1, arguments.repeats + 1)), "out": str(place)}
     (place / "job.json").write_text(json.dumps(job))
     script = Path(__file__).parent / "cycles_scene.py"
     run(blender, "-b", "--factory-startup", "--python-exit-code", 1, "-P", script, "--", place / "job.json")
     times = read_json(place / "times.json")
     images = [read_exr_rgb(place / f"{i}.exr") for i in range(arguments.repeats)]
-    return np.stack(images).astype(float), np.array(times["seconds"]), times["samples"]
+    return np.stack(images).astype(float), np.array(times["seconds"]), times["limit"]
 
 
 def relative_variance(images, mean):
@@ -198,11 +204,11 @@ def measure(name, blender, arguments, place):
     for folder in folders:
         folder.mkdir(parents=True, exist_ok=True)
     ours, our_times, our_further = render_ours(arguments.ssrlab, name, arguments, folders[0])
-    theirs, their_times, samples = render_cycles(blender, scene, CYCLES_SHARE * our_times.mean(), arguments, folders[1])
+    theirs, their_times, limit = render_cycles(blender, scene, CYCLES_SHARE * our_times.mean(), arguments, folders[1])
     if ours.shape != theirs.shape or not np.isfinite(theirs).all():
         raise ResultsError(f"the images of {name} by Cycles are of another size, or not finite.")
     print(f"\n{name}: ours {arguments.samples} samples in {spread(our_times)} CPU seconds, {our_further:.1f} of them beside guide and learning; "
-          f"Cycles {samples} samples in {spread(their_times)}")  # fmt: skip
+          f"Cycles {limit} in {spread(their_times)}")  # fmt: skip
     return compared(name, ours, theirs, our_times, our_further, their_times)
 
 
@@ -213,11 +219,12 @@ def main():
     parser.add_argument("--size", nargs=2, type=int, default=(192, 108), metavar=("W", "H"), help="pixels; default: 192 108")
     parser.add_argument("--samples", type=int, default=256, help="of ours, a pixel; default: %(default)s")
     parser.add_argument("--repeats", type=int, default=8, help="renders with a seed of their own each, at least 3; default: %(default)s")
+    parser.add_argument("--adaptive", action="store_true", help="more samples for noisy pixels, in both")
     parser.add_argument("--keep", help="folder for the images; default: none")
     arguments = parser.parse_args()
     arguments.ssrlab = str(Path(arguments.ssrlab).resolve())
-    if arguments.repeats < 3 or arguments.samples < 32 or min(arguments.size) < 1:
-        raise ResultsError("--repeats is at least 3, --samples at least 32, and --size positive.")
+    if arguments.repeats < 3 or arguments.samples < (128 if arguments.adaptive else 32) or min(arguments.size) < 1:
+        raise ResultsError("--repeats is at least 3, --samples at least 32 (128 with --adaptive), and --size positive.")
     if not os.access(arguments.ssrlab, os.X_OK):
         raise ResultsError(f"{arguments.ssrlab} is no program: name the ssrlab that was built.")
     blender = shutil.which("blender")
