@@ -8,13 +8,14 @@
 
 namespace {
 
-/// The guide has few samples. A pixel's own variance alone misses bright paths that the guide did not meet, and wide
-/// windows alone spread the samples of a thin reflection.
+/// The guide has few samples. A pixel's own deviation alone misses bright paths that the guide did not meet, and wide
+/// windows alone spread the directions of a thin reflection. Means of deviations, not of variances: one bright path in
+/// the guide would else take the budget of its whole window.
 struct Window {
     int radius;  ///< pixels
     double weight;
 };
-constexpr Window windows[] = {{0, 0.25}, {1, 0.5}, {3, 0.25}};
+constexpr Window windows[] = {{0, 0.25}, {1, 0.25}, {3, 0.5}};
 
 constexpr double most_directions = 64;  ///< keeps a wrong estimate affordable
 
@@ -24,14 +25,14 @@ constexpr double floor_share = 0.1;
 
 double mean_of(glm::vec3 rgb) { return glm::dot(rgb, glm::vec3(1.0f / 3)); }
 
-/// Of `variance` (one channel), over the pixels with a surface.
-double mean_in_window(const HostImage& variance, const HostImage& material_id, glm::ivec2 at, int radius) {
-    const glm::ivec2 extent(variance.extent);
+/// Of `values` (one channel), over the pixels with a surface.
+double mean_in_window(const HostImage& values, const HostImage& material_id, glm::ivec2 at, int radius) {
+    const glm::ivec2 extent(values.extent);
     double sum = 0, count = 0;
     for (int y = std::max(at.y - radius, 0); y <= std::min(at.y + radius, extent.y - 1); ++y)
         for (int x = std::max(at.x - radius, 0); x <= std::min(at.x + radius, extent.x - 1); ++x)
             if (*material_id.pixel(unsigned(x), unsigned(y)) != 0)
-                sum += double(*variance.pixel(unsigned(x), unsigned(y))), ++count;
+                sum += double(*values.pixel(unsigned(x), unsigned(y))), ++count;
     return count > 0 ? sum / count : 0;
 }
 
@@ -52,19 +53,17 @@ std::vector<double> squared_brightness(const HostImage& image, const HostImage& 
 /// Of the mean over RGB, from variances over `units`; 0 where there is no surface.
 std::vector<double> deviations(const HostImage& guide_variance, const std::vector<double>& units,
                                const HostImage& material_id) {
-    HostImage variance(guide_variance.extent, 1);
-    for (size_t i = 0; i < variance.values.size(); ++i)
-        variance.values[i] = float(mean_of(guide_variance.rgb(i)) / units[i]);
-    std::vector<double> deviations(variance.values.size());
-    for (unsigned y = 0; y < variance.extent.y; ++y)
-        for (unsigned x = 0; x < variance.extent.x; ++x) {
+    HostImage own(guide_variance.extent, 1);
+    for (size_t i = 0; i < own.values.size(); ++i)
+        own.values[i] = float(std::sqrt(mean_of(guide_variance.rgb(i)) / units[i]));
+    std::vector<double> smooth(own.values.size());
+    for (unsigned y = 0; y < own.extent.y; ++y)
+        for (unsigned x = 0; x < own.extent.x; ++x) {
             if (*material_id.pixel(x, y) == 0) continue;
-            double smooth = 0;
             for (const auto& [radius, weight] : windows)
-                smooth += weight * mean_in_window(variance, material_id, {x, y}, radius);
-            deviations[y * variance.extent.x + x] = std::sqrt(smooth);
+                smooth[y * own.extent.x + x] += weight * mean_in_window(own, material_id, {x, y}, radius);
         }
-    return deviations;
+    return smooth;
 }
 
 /// Directions of a lobe where `wanted` are best.
