@@ -1,7 +1,6 @@
 #include "groundtruth/paths/path_tracer.h"
 
-#include "core/gbuffer/prefiltered_environment.h"
-#include "core/split_sum.h"
+#include "groundtruth/paths/composite_terms.h"
 #include "groundtruth/paths/path_lanes.h"
 #include "groundtruth/paths/pixel_samples.h"
 #include "groundtruth/paths/shadow_roulette.h"
@@ -12,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <type_traits>
 
 namespace {
@@ -32,10 +32,6 @@ struct FirstVertex {
 // Of scenes whose dielectrics reflect other than 0.04. Not inlined, so that the code of all others keeps its rounding.
 [[gnu::noinline]] Lobes lobes_of_own_f0(const FirstHit& hit, vec3 o, ReflectionModel model) {
     return make_lobes(hit.base_color, hit.metalness, hit.roughness, hit.specular, hit.dielectric_f0, o, model);
-}
-[[gnu::noinline]] glm::vec3 reflectance_of_own_f0(const FirstHit& hit, glm::vec2 ab) {
-    return specular_f0(hit.base_color, hit.metalness, hit.specular, hit.dielectric_f0) * ab.x +
-           specular_f90(hit.metalness, hit.specular) * ab.y;
 }
 
 /// Fills in all but the hit; false if the surface reflects nothing: the background, unlit materials, and where the
@@ -220,12 +216,6 @@ constexpr uint64_t light_seed = 0x6c69676874730a01u, radiance_seed = 0x726164696
 /// A pixel darker than this share of the image's mean promises paths as much as one that is so bright.
 constexpr double estimate_floor = 0.1;
 
-/// Made once. Isolated, since a thread that waits for it must not begin other work that waits for it too.
-const HostImage& split_sum_factors() {
-    static const HostImage table = tbb::this_task_arena::isolate([] { return split_sum_table(); });
-    return table;
-}
-
 }  // namespace
 
 struct PathTracer::State {
@@ -234,23 +224,8 @@ struct PathTracer::State {
     TracedScene scene;
     std::vector<LeftOut> left_out;
     HostImage per_estimate[2];  ///< 1 / luminance that a pixel is thought to hold, diffuse and specular; see expect()
-    // For the truth ladder:
-    PrefilteredEnvironment prefiltered;
-    const HostImage* split_sum = nullptr;
-
-    void add_composite_terms(FirstHit& hit) const;
+    std::optional<CompositeTerms> composite_terms;  ///< with PathTracerSettings::ladder
 };
-
-/// What a technique's result is composited with.
-void PathTracer::State::add_composite_terms(FirstHit& hit) const {
-    hit.fallback = mean_over_lobe(scene.scene.environment, prefiltered, reflect(-hit.view, hit.normal), hit.roughness);
-    const float mu_o = dot(hit.normal, hit.view);
-    if (mu_o <= 0 || hit.is_unlit) return;
-    const glm::vec2 ab = read_split_sum(*split_sum, mu_o, hit.roughness);
-    hit.reflectance = specular_f0(hit.base_color, hit.metalness, hit.specular) * ab.x +
-                      specular_f90(hit.metalness, hit.specular) * ab.y;
-    if (scene.materials.any_dielectric_f0()) hit.reflectance = reflectance_of_own_f0(hit, ab);
-}
 
 /// What paths from pixels all over the image take down, in an order that no number of threads changes. Each pixel
 /// stands somewhere else in its stretch of the rows, or images as wide as a multiple of the stretch would be looked at
@@ -311,10 +286,7 @@ void PathTracer::expect(const HostImage& diffuse, const HostImage& specular) {
 PathTracer::PathTracer(const Scene& scene, const ScenePose& pose, const CameraPose& camera, glm::uvec2 extent,
                        const PathTracerSettings& settings)
     : state_(new State{camera, extent, {scene, pose, CameraView(camera, extent), settings}, {}, {}, {}}) {
-    if (settings.ladder) {
-        state_->prefiltered = prefilter_environment(scene.environment);
-        state_->split_sum = &split_sum_factors();
-    }
+    if (settings.ladder) state_->composite_terms.emplace(state_->scene);
     state_->left_out = left_out_features(state_->scene);
     if (settings.learns_lights && state_->scene.lights.group_count() > 1 &&
         settings.strategy != LightStrategy::bsdf_only)
@@ -359,7 +331,7 @@ FirstHit PathTracer::first_hit(unsigned x, unsigned y) const {
     hit.material = scene.geometry.instance(instance).material;
     hit.instance = instance;
     add_highlight(scene, hit);
-    if (scene.settings.ladder) state_->add_composite_terms(hit);
+    if (state_->composite_terms) state_->composite_terms->add_to(hit);
     return hit;
 }
 

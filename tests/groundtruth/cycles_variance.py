@@ -2,13 +2,13 @@
 """Variance at equal CPU time of ssrlab's path tracer and of Cycles, of the same scenes. Needs Blender 3.4 and takes 15 minutes, so it is no part
 of the suite. Prints how far the means are apart, and the rows of the table in groundtruth/measurements.md.
 
-usage: cycles_variance.py SSRLAB [SCENE ...] [--size W H] [--samples N] [--repeats N] [--adaptive] [--keep FOLDER]
+usage: cycles_variance.py SSRLAB [SCENE ...] [--size W H] [--samples N] [--repeats N] [--adaptive ours|both] [--keep FOLDER]
 
 Cycles renders with the power of two samples that comes nearest to half of ssrlab's time, which the comparison allows for. Third-party scenes lie on
 SSRLAB_SCENE_PATH.
 
-With --adaptive, noisy pixels get more in both. Of ssrlab, as many directions as without are traced in the mean, and the guide has 16 samples. Cycles
-ends its pixels by its noise threshold: the power of a half whose time comes nearest to half of ssrlab's.
+With --adaptive, noisy pixels of ssrlab get more directions: in the mean as many as without, and the guide has 16 samples. With `both`, pixels of
+Cycles end by its noise threshold: the power of a half whose time comes nearest to half of ssrlab's.
 
 CPU time is user and system time of all threads. Both exclude loading and the BVH: of ssrlab the time of `ssrlab rays`, which does little else, is
 subtracted, so its guide and all that it learns count; of Cycles that of a render of one sample with the scene in memory.
@@ -126,7 +126,7 @@ def render_ours(ssrlab, name, arguments, place):
 
 def render_cycles(blender, scene, seconds, arguments, place):
     """The same of Cycles, which takes about `seconds` each, and what ended it."""
-    job = {"scene": scene, "size": arguments.size, "seconds": seconds, "adaptive": arguments.adaptive, "seeds": list(range(1, arguments.repeats + 1)), "out": str(place)}
+    job = {"scene": scene, "size": arguments.size, "seconds": seconds, "adaptive": arguments.adaptive == "both", "seeds": list(range(1, arguments.repeats + 1)), "out": str(place)}
     (place / "job.json").write_text(json.dumps(job))
     script = Path(__file__).parent / "cycles_scene.py"
     run(blender, "-b", "--factory-startup", "--python-exit-code", 1, "-P", script, "--", place / "job.json")
@@ -219,7 +219,7 @@ def main():
     parser.add_argument("--size", nargs=2, type=int, default=(192, 108), metavar=("W", "H"), help="pixels; default: 192 108")
     parser.add_argument("--samples", type=int, default=256, help="of ours, a pixel; default: %(default)s")
     parser.add_argument("--repeats", type=int, default=8, help="renders with a seed of their own each, at least 3; default: %(default)s")
-    parser.add_argument("--adaptive", action="store_true", help="more samples for noisy pixels, in both")
+    parser.add_argument("--adaptive", choices=("ours", "both"), help="more samples for noisy pixels, of ssrlab or of both")
     parser.add_argument("--keep", help="folder for the images; default: none")
     arguments = parser.parse_args()
     arguments.ssrlab = str(Path(arguments.ssrlab).resolve())
