@@ -1,7 +1,6 @@
 #include "groundtruth/paths/composite_terms.h"
 
 #include "core/split_sum.h"
-#include "groundtruth/paths/path_tracer.h"
 
 #include <tbb/task_arena.h>
 

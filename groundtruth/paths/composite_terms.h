@@ -2,8 +2,6 @@
 #include "core/gbuffer/prefiltered_environment.h"
 #include "groundtruth/paths/traced_scene.h"
 
-struct FirstHit;
-
 /// What a technique's result is composited with, of the truth ladder: FirstHit::reflectance and fallback.
 class CompositeTerms {
 public:

@@ -83,7 +83,7 @@ HostImage adaptive_directions(const RenderedGuide& guide, double share, bool for
     const double budget = share * surfaces * (for_image ? 2 : 1);
     const double largest = std::max(std::ranges::max(of_lobes[0]), std::ranges::max(of_lobes[1]));
     HostImage directions(material_id.extent, 2, 1.0f);
-    if (!(largest > 0)) return directions;
+    if (!(largest > 0) || std::isinf(largest)) return directions;  // variances may be beyond float
 
     const auto added_at = [&](double per_deviation) {
         double sum = 0;

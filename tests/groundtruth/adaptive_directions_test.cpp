@@ -103,6 +103,9 @@ TEST(AdaptiveDirections, AreAlikeForPixelsThatAreAlike) {
     guide = guide_with_block(20);
     guide.image = HostImage(extent, 3, 0.0f);
     EXPECT_GT(added(adaptive_directions(guide, 1, true)), 0) << "black";
+    guide.specular_variance.values[100] = HUGE_VALF;
+    EXPECT_EQ(added(adaptive_directions(guide, 1, true)), 0) << "a variance beyond float";
+    guide = guide_with_block(20);
     guide.material_id = HostImage(extent, 1, 0.0f);
     EXPECT_EQ(added(adaptive_directions(guide, 1, true)), 0) << "no surface";
 }
