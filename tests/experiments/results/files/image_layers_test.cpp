@@ -32,7 +32,7 @@ Names written(bool has_ladder) {
     const fs::path file = fs::temp_directory_path() / "image_layers_test.exr";
     const Scene scene = load_scene("fence", {fs::path(SSRLAB_SOURCE_DIR) / "scenes"});
     const ScenePose pose = pose_scene(scene, 0);
-    const ReferenceSettings settings{.max_samples = 16, .ladder = has_ladder};
+    const ReferenceSettings settings{.max_samples = 16, .adaptive_share = 1, .ladder = has_ladder};
     Reference reference = render_reference(scene, pose, pose_camera(scene.cameras.front(), pose, 0), {8, 4}, settings);
     write_reference(file, reference, settings);
     Names names;
