@@ -4,7 +4,8 @@
 
 namespace {
 
-/// BSDF sampling alone finds a constant sky, or a gradient, as well as a table would.
+/// BSDF sampling alone finds an open sky, constant or a gradient, as well as a table would. A sky that walls hide
+/// nearly everywhere it finds with more noise, but lamps then keep all light samples.
 bool samples_environment(const Scene& scene, LightStrategy strategy) {
     if (strategy == LightStrategy::bsdf_only) return false;
     return strategy == LightStrategy::light_only || scene.environment.type == Environment::Type::image;
@@ -61,7 +62,7 @@ std::vector<LeftOut> left_out_features(const TracedScene& traced) {
                             "All light comes from the environment, which the paths find themselves."});
     if (!traced.lights.has_environment_table())
         features.push_back({"environment importance table", "no environment image",
-                            "Sampling the lobes finds a constant environment or a gradient as well as a table would."});
+                            "Sampling the lobes finds an open sky, constant or a gradient, as well as a table would."});
     if (!traced.has_environment)
         features.push_back({"environment lookups", "black environment", "A path that leaves the scene adds nothing."});
     if (std::ranges::none_of(scene.materials, reflects))
