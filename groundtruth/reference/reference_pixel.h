@@ -33,7 +33,7 @@ struct SampleRequest {
     uint64_t seed = 0;
     SampleSet set = SampleSet::reference;
     unsigned batch_samples = 1;  ///< in each of batch_count batches
-    Directions directions;
+    Directions directions;       ///< of each sample
     uint64_t most_lit = 0;  ///< samples of `diffuse` that the pixel may have, a multiple of batch_count; 0: no limit
 };
 

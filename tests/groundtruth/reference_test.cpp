@@ -129,7 +129,7 @@ TEST_F(References, WithAnAdaptiveShareAreTheSameHoweverTheyAreRendered) {
         EXPECT_EQ(std::ranges::min(whole.directions.values), 1.0f);
         expect_same_mean(whole.image, plain.image);
         expect_same_mean(whole.incident, plain.incident);
-        EXPECT_LT(noise(whole), 0.8 * noise(plain));
+        EXPECT_LT(noise(whole), 0.6 * noise(plain));  // found: 0.18 and 0.44; directions of the wrong pixels leave 1
         const auto expect_same = [&](const Reference& other, const char* what) {
             EXPECT_EQ(other.specular.mean.values, whole.specular.mean.values) << what;
             EXPECT_EQ(other.image.variance.values, whole.image.variance.values) << what;
