@@ -13,6 +13,7 @@ struct LightObservation {
     uint32_t group;
     uint32_t light;      ///< of the group: see LightClusters::Choice
     float contribution;  ///< luminance that it added to the pixel, weights and visibility included
+    float rarity = 0;    ///< density of the light sample over that with which the lobe finds the direction
     float relative = 0;  ///< contribution over the luminance of all light of the pixel
 };
 

@@ -33,7 +33,7 @@ constexpr float lamp_radius = 1e-3f;
 /// Of any light (m^2), so that no distance is zero.
 constexpr float least_square_radius = 1e-30f;
 
-constexpr uint32_t in_environment = ~0u;
+constexpr uint32_t in_environment = ~0u, in_mirror = ~1u;
 
 /// Barycentrics that are uniform over a triangle (Turk 1990).
 glm::vec2 triangle_barycentrics(glm::vec2 u) {
@@ -72,7 +72,7 @@ PunctualArrival arrival(const PunctualLight& light, glm::vec3 point) {
 }
 
 LightSampler::LightSampler(const Scene& scene, const ScenePose& pose, const EmbreeScene& geometry,
-                           const MaterialTable& materials, bool sample_environment, bool compensate)
+                           const MaterialTable& materials, bool sample_environment, bool compensate, bool mirror_lamps)
     : geometry_(geometry), materials_(materials), first_triangle_(scene.instances.size(), no_light) {
     for (uint32_t i = 0; i < scene.instances.size(); ++i)
         if (materials.emits(geometry.instance(i).material)) add_triangles(scene, i);
@@ -98,6 +98,8 @@ LightSampler::LightSampler(const Scene& scene, const ScenePose& pose, const Embr
 
     if (sample_environment && !scene.environment.is_black())
         environment_ = EnvironmentTable(scene.environment, compensate);
+    first_image_ = uint32_t(groups_.size()) + environment_.part_count();
+    if (mirror_lamps) mirrored_ = MirroredLamps(scene, geometry, lights_, diagonal);
     if (!empty()) choice_ = LightChoice(shares());
     needs_more_ = !lights_.empty() || has_environment_table();
     for (const Triangle& light : triangles_) needs_more_ |= light.emission_varies;
@@ -126,16 +128,19 @@ void LightSampler::group_lights(float diagonal) {
         }
 }
 
-/// Of each group: all emissive triangles together, all parts of the environment together and each group of lamps have
-/// the same share, so that no kind of light is short of samples because another was divided into many groups.
+/// Of each group: all emissive triangles together, all parts of the environment together, all mirrored lamps together
+/// and each group of lamps have the same share, so that no kind of light is short of samples because another was
+/// divided into many groups.
 std::vector<double> LightSampler::shares() const {
     uint32_t of_triangles = 0;
     for (const Group& group : groups_) of_triangles += group.lights[0] < triangle_count_;
     const uint32_t lamps = uint32_t(groups_.size()) - of_triangles, parts = environment_.part_count();
-    const double share = 1.0 / (lamps + (of_triangles > 0) + (parts > 0));
+    const uint32_t images = mirrored_.count();
+    const double share = 1.0 / (lamps + (of_triangles > 0) + (parts > 0) + (images > 0));
     std::vector<double> shares(of_triangles, share / of_triangles);
     shares.resize(groups_.size(), share);
-    shares.resize(group_count(), share / parts);
+    shares.resize(first_image_, share / parts);
+    shares.resize(group_count(), share / images);
     return shares;
 }
 
@@ -199,8 +204,9 @@ void LightSampler::add_triangles(const Scene& scene, uint32_t instance_index) {
     }
 }
 
-void LightSampler::learn(std::span<const LightObservation> observations, bool may_cluster) {
+void LightSampler::learn(std::vector<LightObservation> observations, bool may_cluster) {
     if (may_cluster) cluster_groups(observations);
+    if (mirrored_.count() > 0) drop_images(observations);
     choice_.learn(observations, grid_);
 }
 
@@ -227,6 +233,37 @@ void LightSampler::cluster_groups(std::span<const LightObservation> observations
         if (!(saved[g] > worthwhile_saving * double(observations.size()))) groups_[g].clusters.reset();
 }
 
+/// An image is sampled where this saves more variance than it costs. A contribution c of density p would be c p / q if
+/// the lobe had found it by chance, with its density q: sums of c^2 p / q estimate the second moment that samples of
+/// the image save. They take their share s of the samples from other lights. The variance of these grows by s of the
+/// squared light, and the image's own is about as much. All is relative to the light of the pixel; s is the mean of c.
+void LightSampler::drop_images(std::vector<LightObservation>& observations) {
+    std::vector<double> gain(mirrored_.count(), 0.0);
+    for (const LightObservation& seen : observations) {
+        const double c = double(seen.relative);
+        if (image(seen.group) != MirroredLamps::none && c > 0)
+            gain[image(seen.group)] += c * c * double(seen.rarity) - 2 * c;
+    }
+    const std::vector<double> shares_before = shares();
+    std::vector<uint32_t> kept;
+    for (uint32_t i = 0; i < gain.size(); ++i)
+        if (gain[i] > 0) kept.push_back(i);
+    mirrored_.keep(kept);
+
+    // The observations as the images that are left would have brought them.
+    const std::vector<double> shares_now = shares();
+    std::vector<uint32_t> group_now(shares_before.size(), no_group);
+    for (uint32_t g = 0; g < first_image_; ++g) group_now[g] = g;
+    for (uint32_t i = 0; i < kept.size(); ++i) group_now[first_image_ + kept[i]] = first_image_ + i;
+    std::erase_if(observations, [&](const LightObservation& seen) { return group_now[seen.group] == no_group; });
+    for (LightObservation& seen : observations) {
+        const uint32_t now = group_now[seen.group];
+        seen.contribution *= float(shares_before[seen.group] / shares_now[now]);
+        seen.group = now;
+    }
+    choice_ = LightChoice(shares_now);
+}
+
 void LightSampler::sample(const Lanes<uint32_t>& is_wanted, const LanesVec3& point, const Lanes<uint32_t>& cell,
                           const Lanes<uint32_t>& x, const Lanes<uint32_t>& y, LightLanes& lights) const {
     Lanes<uint32_t> choice, rest, emits_behind;
@@ -238,7 +275,7 @@ void LightSampler::sample(const Lanes<uint32_t>& is_wanted, const LanesVec3& poi
         lights.group[lane] = group.group;
         probability[lane] = choice_.probability(cell[lane], group.group);
         if (group.group >= groups_.size()) {
-            choice[lane] = in_environment;
+            choice[lane] = group.group < first_image_ ? in_environment : in_mirror;
             lights.light[lane] = 0;
             rest[lane] = group.rest;
             continue;
@@ -287,6 +324,9 @@ void LightSampler::sample(const Lanes<uint32_t>& is_wanted, const LanesVec3& poi
         }
         if (index == in_environment)
             to_environment |= 1u << lane;
+        else if (index == in_mirror)
+            sample_image(image(lights.group[lane]), point.get(lane), {unit_float(rest[lane]), unit_float(y[lane])},
+                         probability[lane], lane, lights);
         else
             sample_punctual(lights_[index - triangle_count_], point.get(lane), probability[lane], lane, lights);
     }
@@ -329,6 +369,15 @@ void LightSampler::sample_punctual(const PunctualLight& light, glm::vec3 point, 
     lights.normal.set(lane, glm::vec3(0.0f));
 }
 
+void LightSampler::sample_image(uint32_t image, glm::vec3 point, glm::vec2 u, float probability, int lane,
+                                LightLanes& lights) const {
+    const MirroredLamps::Sample sample = mirrored_.sample(image, point, u);
+    lights.is_infinite[lane] = 1;  // the ray finds the mirror
+    lights.pdf[lane] = sample.pdf * probability;
+    lights.direction.set(lane, sample.direction);
+    lights.radiance.set(lane, glm::vec3(sample.radiance));
+}
+
 float LightSampler::triangle_pdf(uint32_t cell, glm::vec3 point, uint32_t instance, uint32_t triangle, glm::vec3 normal,
                                  glm::vec3 direction, float distance) const {
     if (first_triangle_[instance] == no_light) return 0.0f;
@@ -343,4 +392,11 @@ float LightSampler::triangle_pdf(uint32_t cell, glm::vec3 point, uint32_t instan
 float LightSampler::environment_pdf(uint32_t cell, glm::vec2 place) const {
     const EnvironmentTable::Density density = environment_.density(place);
     return density.pdf * choice_.probability(cell, uint32_t(groups_.size()) + density.part);
+}
+
+float LightSampler::image_pdf(uint32_t cell, glm::vec3 point, glm::vec3 direction, uint32_t mirror, uint32_t group,
+                              uint32_t light) const {
+    const uint32_t image = mirrored_.image(mirror, groups_[group].lights[light] - triangle_count_);
+    if (image == MirroredLamps::none) return 0.0f;
+    return choice_.probability(cell, first_image_ + image) * mirrored_.pdf(image, point, direction);
 }

@@ -2,6 +2,7 @@
 #include "groundtruth/lights/environment_table.h"
 #include "groundtruth/lights/light_choice.h"
 #include "groundtruth/lights/light_clusters.h"
+#include "groundtruth/lights/mirrored_lamps.h"
 #include "groundtruth/sampling/lanes.h"
 #include "groundtruth/scene/material_table.h"
 
@@ -10,14 +11,15 @@
 /// Directions in which light may arrive at a point per lane, before visibility is known.
 struct LightLanes {
     LanesVec3 direction;  ///< unit, towards the light
-    LanesVec3 radiance;   ///< for a delta light: irradiance at normal incidence; else W sr^-1 m^-2
+    LanesVec3 radiance;   ///< for a delta light: irradiance at normal incidence; else W sr^-1 m^-2; see arriving() for
+                          ///< a mirrored lamp
     Lanes<float>
         pdf;  ///< sr^-1, times the probability of the choice; for a delta light: that probability; 0: no sample
     LanesVec3 position, error,
         normal;  ///< of the point on the light, unless infinite; a punctual light has neither error nor normal
     Lanes<uint32_t> is_delta, is_infinite;
     Lanes<uint32_t> group;  ///< group number of LightChoice
-    Lanes<uint32_t> light;  ///< index in the group, see LightClusters::Choice; 0 for the environment
+    Lanes<uint32_t> light;  ///< index in the group, see LightClusters::Choice; 0 for the environment and mirrored lamps
     // Rays that test visibility, filled in by aim_shadow_ray():
     LanesVec3 shadow_origin, shadow_direction;
     Lanes<float> shadow_far;  ///< in units of shadow_direction
@@ -32,25 +34,30 @@ struct PunctualArrival {
 /// `point`: m, world space. Range and cone follow KHR_lights_punctual.
 PunctualArrival arrival(const PunctualLight& light, glm::vec3 point);
 
-/// Chooses among emissive triangles, punctual lights and the environment: a group by LightChoice, and a light of it in
-/// proportion to power, or by LightClusters where learning finds that this pays. Groups are neighbouring triangles,
-/// neighbouring lamps (each its own, if there are few) and the parts of the environment.
+/// Chooses among emissive triangles, punctual lights, the environment and mirrored lamps: a group by LightChoice, and a
+/// light of it in proportion to power, or by LightClusters where learning finds that this pays. Groups are neighbouring
+/// triangles, neighbouring lamps (each its own, if there are few), the parts of the environment, and each mirrored
+/// lamp.
 class LightSampler {
 public:
     /// `sample_environment`: also sample a constant or gradient one, which BSDF sampling finds as well. `compensate`:
-    /// see EnvironmentTable.
+    /// see EnvironmentTable. `mirror_lamps`: also sample the images of lamps in mirrors.
     LightSampler(const Scene& scene, const ScenePose& pose, const EmbreeScene& geometry, const MaterialTable& materials,
-                 bool sample_environment, bool compensate);
+                 bool sample_environment, bool compensate, bool mirror_lamps);
 
     bool empty() const { return group_count() == 0; }
-    uint32_t group_count() const { return uint32_t(groups_.size()) + environment_.part_count(); }
-    /// See LightChoice::learn(). `may_cluster`: also decides which groups use LightClusters. Call it once.
-    void learn(std::span<const LightObservation> observations, bool may_cluster);
+    uint32_t group_count() const { return first_image_ + mirrored_.count(); }
+    /// See LightChoice::learn(). Also decides which mirrored lamps are sampled and, with `may_cluster`, which groups
+    /// use LightClusters. Call it once.
+    void learn(std::vector<LightObservation> observations, bool may_cluster);
     /// The cells of all that is learnt of the scene.
     const LearningGrid& grid() const { return grid_; }
     const LightChoice& choice() const { return choice_; }
     const std::vector<PunctualLight>& punctual_lights() const { return lights_; }  ///< those that shine
     bool has_environment_table() const { return environment_.part_count() > 0; }
+    const MirroredLamps& mirrored_lamps() const { return mirrored_; }
+    /// The image of a lamp that a group is, or MirroredLamps::none.
+    uint32_t image(uint32_t group) const { return group < first_image_ ? MirroredLamps::none : group - first_image_; }
 
     /// `x`, `y`: 2-D uniform, 32-bit fixed point. `point`: where the light arrives; `cell`: its cell. The sampler must
     /// not be empty(). Lanes that are not wanted get anything.
@@ -63,6 +70,9 @@ public:
                        glm::vec3 direction, float distance) const;
     /// The same (sr^-1) for a direction of environment(), of which a place is given.
     float environment_pdf(uint32_t cell, glm::vec2 place) const;
+    /// The same (sr^-1) for a direction from `point` to the image in `mirror` of a lamp, the light of `group`.
+    float image_pdf(uint32_t cell, glm::vec3 point, glm::vec3 direction, uint32_t mirror, uint32_t group,
+                    uint32_t light) const;
     /// Only where has_environment_table().
     const EnvironmentTable& environment() const { return environment_; }
 
@@ -94,10 +104,13 @@ private:
     std::vector<double> shares() const;
     void add_group(std::vector<uint32_t> lights);
     void cluster_groups(std::span<const LightObservation> observations);
+    void drop_images(std::vector<LightObservation>& observations);
     void sample_environment(uint32_t lanes, const Lanes<uint32_t>& x, const Lanes<uint32_t>& y,
                             const Lanes<float>& probability, LightLanes& lights) const;
     void sample_punctual(const PunctualLight& light, glm::vec3 point, float probability, int lane,
                          LightLanes& lights) const;
+    void sample_image(uint32_t image, glm::vec3 point, glm::vec2 u, float probability, int lane,
+                      LightLanes& lights) const;
 
     const EmbreeScene& geometry_;
     const MaterialTable& materials_;
@@ -107,8 +120,10 @@ private:
     std::vector<PunctualLight> lights_;
     std::vector<LightExtent> extents_;  ///< of triangles_, then lights_
     EnvironmentTable environment_;
+    MirroredLamps mirrored_;
+    uint32_t first_image_ = 0;   ///< group of the first of mirrored_
     bool needs_more_ = false;    ///< there is more to sample than triangles of constant emission
-    std::vector<Group> groups_;  ///< LightChoice counts these, then the parts of environment_
+    std::vector<Group> groups_;  ///< LightChoice counts these, then the parts of environment_, then mirrored_
     LightChoice choice_;
     LearningGrid grid_;
 };

@@ -3,6 +3,7 @@
 #include "groundtruth/paths/prefetched_hits.h"
 #include "groundtruth/paths/shadow_roulette.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <utility>
@@ -41,6 +42,14 @@ vec3 to_camera(const CameraView& camera, vec3 position, vec3 normal) {
 }
 
 }  // namespace
+
+PathLanes::PathLanes(const TracedScene& scene, PathGoal goal)
+    : scene_(scene),
+      goal_(goal),
+      has_lights_(!scene.lights.empty()),
+      has_images_(scene.lights.mirrored_lamps().count() > 0) {
+    std::ranges::fill(mirrored_weight_.value, 1.0f);
+}
 
 void PathLanes::start(const PathStart& path) {
     while (resume_branches(), busy_ == all_lanes) advance();
@@ -133,6 +142,8 @@ void PathLanes::meet(int lane, const RTCRayHit& ray) {
         roughness_[lane] = surface.roughness;
         specular_[lane] = surface.specular;
         continues_[lane] = !surface.is_unlit;
+        if (has_images_) [[unlikely]]
+            mirror_[lane] = scene_.lights.mirrored_lamps().mirror(instance, triangle);
         if (goal_ == PathGoal::lit_color && depth_[lane] == 1)
             is_on_screen_[lane] =
                 is_on_screen(scene_, surface.origin, surface.error, surface.geometric_normal, *estimate_[lane]);
@@ -150,10 +161,24 @@ void PathLanes::sample_lights() {
     scene_.lights.sample(continues_, position_, light_cell_, x, y, lights_);
 }
 
+/// Light that a mirror reflects to the vertex before may have been found by a light sample of that vertex as well.
+/// `reached`: the lanes whose path has a new vertex.
+void PathLanes::weigh_images(uint32_t reached) {
+    FOR_EACH_LANE { mirrored_weight_[lane] = 1.0f; }
+    for_each_bit(reached, [&](int lane) {
+        if (mirror_[lane] == MirroredLamps::none || !lights_.is_delta[lane]) return;
+        const float pdf = scene_.lights.image_pdf(last_cell_[lane], origin_.get(lane), direction_.get(lane),
+                                                  mirror_[lane], lights_.group[lane], lights_.light[lane]);
+        mirrored_weight_[lane] = scene_.mis.of_bsdf(pdf_[lane], pdf);
+    });
+}
+
 void PathLanes::look_ahead() {
     const bool splits = scene_.settings.splitting && goal_ == PathGoal::reflection;
     const LightChoice& choice = scene_.lights.choice();
     for_each_bit(bits_of(continues_), [&](int lane) {
+        if (has_images_) [[unlikely]]
+            last_cell_[lane] = light_cell_[lane];
         light_cell_[lane] = choice.cell(learnt_index_[lane]);
         choice.prefetch_cell(light_cell_[lane]);
     });
@@ -267,8 +292,10 @@ void PathLanes::scatter() {
             const float weight = lights_.is_delta[lane] ? 1.0f : mis.of_light(light_pdf, bsdf_pdf);
             const bool is_used =
                 reflects & !is_last & (light_pdf > 0) & (bsdf_pdf > 0) & (dot(to_light, geometric_normal) > 0);
-            const vec3 direct = throughput * (f.diffuse + f.specular * specular_share) * lights_.radiance.get(lane) *
-                                (weight / light_pdf);
+            const float light_share = specular_share * mirrored_weight_[lane];
+            rarity_[lane] = light_pdf / bsdf_pdf;
+            const vec3 direct =
+                throughput * (f.diffuse + f.specular * light_share) * lights_.radiance.get(lane) * (weight / light_pdf);
             const float promised = luminance(weight_.get(lane) * direct) * per_estimate_[lane];
             const float chance = shadow_ray_chance(promised, has_shadow_roulette & (per_estimate_[lane] > 0.0f));
             const bool is_traced = sequence(lane).random(reversed_sample_[lane], pair_[lane] + 1) < chance;
@@ -312,35 +339,38 @@ void PathLanes::scatter() {
 /// `reached`: the lanes whose path has a new vertex.
 void PathLanes::trace_shadow_rays(uint32_t reached) {
     for_each_bit(reached, [&](int lane) {
-        const vec3 direct = direct_.get(lane);
-        const bool arrives = direct != vec3(0.0f) && is_visible(scene_, lights_, lane, *estimate_[lane]);
+        const vec3 promised = direct_.get(lane);
+        const vec3 direct = promised == vec3(0.0f)
+                                ? promised
+                                : promised * arriving(scene_, lights_, lane, depth_[lane], *estimate_[lane]);
+        const bool arrives = direct != vec3(0.0f);
         if (arrives) radiance_.set(lane, radiance_.get(lane) + direct);
         std::vector<LightObservation>* const lights = estimate_[lane]->light_record;
         if (lights && depth_[lane] <= scene_.settings.max_depth) [[unlikely]]  // not the last vertex
             lights->push_back({position_.get(lane), geometric_normal_.get(lane), lights_.group[lane],
-                               lights_.light[lane], arrives ? luminance(weight_.get(lane) * direct) : 0.0f});
+                               lights_.light[lane], arrives ? luminance(weight_.get(lane) * direct) : 0.0f,
+                               rarity_[lane]});
     });
 }
 
 template <bool has_dielectric_f0>
 void PathLanes::scatter() {
     constexpr PathGoal lit_color = PathGoal::lit_color, reflection = PathGoal::reflection;
-    const bool has_lights = !scene_.lights.empty();
     if (goal_ == lit_color)
-        has_lights ? scatter<true, lit_color, has_dielectric_f0>() : scatter<false, lit_color, has_dielectric_f0>();
+        has_lights_ ? scatter<true, lit_color, has_dielectric_f0>() : scatter<false, lit_color, has_dielectric_f0>();
     else
-        has_lights ? scatter<true, reflection, has_dielectric_f0>() : scatter<false, reflection, has_dielectric_f0>();
+        has_lights_ ? scatter<true, reflection, has_dielectric_f0>() : scatter<false, reflection, has_dielectric_f0>();
 }
 
 /// One segment of every path: to the next vertex, light there, and a new direction.
 void PathLanes::advance() {
     trace_rays();
-    const bool has_lights = !scene_.lights.empty();
     look_ahead();
     const uint32_t reached = bits_of(continues_) & ~std::exchange(resumed_, 0);  // branches took their light before
-    if (has_lights) sample_lights();
+    if (has_lights_) sample_lights();
+    if (has_images_) weigh_images(reached);
     scene_.materials.any_dielectric_f0() ? scatter<true>() : scatter<false>();
-    if (has_lights) trace_shadow_rays(reached);
+    if (has_lights_) trace_shadow_rays(reached);
     const uint32_t continuing = bits_of(continues_);
     for_each_bit(busy_ & ~continuing, [&](int lane) { end(lane); });
     busy_ &= continuing;

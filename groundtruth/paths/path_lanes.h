@@ -33,7 +33,7 @@ enum class PathGoal {
 /// finish().
 class PathLanes {
 public:
-    PathLanes(const TracedScene& scene, PathGoal goal) : scene_(scene), goal_(goal) {}
+    PathLanes(const TracedScene& scene, PathGoal goal);
 
     void start(const PathStart& path);
     void finish();
@@ -46,6 +46,7 @@ private:
     void sample_lights();
     template <bool has_dielectric_f0>
     void scatter();
+    void weigh_images(uint32_t reached);
     template <bool has_lights, PathGoal goal, bool has_dielectric_f0>
     void scatter();
     void trace_shadow_rays(uint32_t reached);
@@ -73,6 +74,7 @@ private:
 
     const TracedScene& scene_;
     const PathGoal goal_;
+    const bool has_lights_, has_images_;      ///< light samples find lights; and lamps in mirrors
     uint32_t busy_ = 0;                       ///< bit per lane: it holds a path
     uint32_t resumed_ = 0;                    ///< bit per lane: its path is a branch that stands at its vertex
     std::vector<Branch> branches_;            ///< that wait for a lane
@@ -85,6 +87,7 @@ private:
     LanesVec3 origin_, direction_, throughput_, radiance_, weight_;
     Lanes<float> pdf_;            ///< with which direction_ was drawn
     Lanes<uint32_t> light_cell_;  ///< of the last vertex that took a light sample
+    Lanes<uint32_t> last_cell_;   ///< of the vertex before it
     Lanes<uint32_t> depth_, pair_, reversed_sample_, is_specular_;
     Lanes<float> per_estimate_;
     Lanes<uint32_t> is_on_screen_;  ///< what it met first
@@ -93,8 +96,11 @@ private:
     LanesVec3 position_, error_, geometric_normal_, normal_, base_color_, dielectric_f0_;
     Lanes<float> metalness_, roughness_, specular_;
     Lanes<uint32_t> learnt_index_;  ///< of LightSampler::grid()
+    Lanes<uint32_t> mirror_;        ///< see MirroredLamps
     LightLanes lights_;
-    LanesVec3 direct_;  ///< what the light sample adds, if it is visible
+    Lanes<float> mirrored_weight_;  ///< of the light sample's specular part
+    Lanes<float> rarity_;           ///< see LightObservation
+    LanesVec3 direct_;              ///< what the light sample adds, if it is visible
     Lanes<float>
         promise_;  ///< expected light of a path of weight 1 beyond the vertex, relative to the pixel's; 0: unknown
     Lanes<float> part_;  ///< part of the path that goes on in this lane: below 1 if it was split here

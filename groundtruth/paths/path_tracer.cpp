@@ -135,18 +135,25 @@ void add_direct_light(const TracedScene& scene, const FirstVertex& vertex, const
     }
     for (int lane = 0; lane < samples.count; ++lane) {
         PixelEstimate& estimate = *samples.estimate[lane];
-        const vec3 parts[3] = {diffuse.get(lane), specular.get(lane), incident.get(lane)};
+        vec3 parts[3] = {diffuse.get(lane), specular.get(lane), incident.get(lane)};
         const vec3 sum = parts[0] + parts[1] + parts[2];
         estimate.non_finite += !is_finite(sum);
-        const bool arrives = sum != vec3(0.0f) && is_finite(sum) && is_visible(scene, lights, lane, estimate);
-        if (estimate.light_record) [[unlikely]]
+        const bool is_used = sum != vec3(0.0f) && is_finite(sum);
+        const vec3 arriving = is_used ? ::arriving(scene, lights, lane, 1, estimate) : vec3(0.0f);
+        const bool arrives = arriving != vec3(0.0f);
+        for (vec3& part : parts) part = part * arriving;
+        if (estimate.light_record) [[unlikely]] {
+            const LobeValues f = evaluate(lobes, lights.direction.get(lane) * world_from_local);
             estimate.light_record->push_back({hit.ray_origin, hit.geometric_normal, lights.group[lane],
-                                              lights.light[lane], arrives ? luminance(parts[0] + parts[1]) : 0.0f});
+                                              lights.light[lane], arrives ? luminance(parts[0] + parts[1]) : 0.0f,
+                                              lights.pdf[lane] / max(f.diffuse_pdf, f.specular_pdf)});
+        }
         if (!arrives) continue;
         estimate.diffuse += glm::dvec3(parts[0] * vertex.share);
         estimate.specular += glm::dvec3(parts[1] * vertex.share);
         estimate.incident += glm::dvec3(parts[2]);
-        if (scene.settings.ladder) add_emission(scene, lights, lane, parts[2], estimate);
+        const bool is_emitted = scene.lights.image(lights.group[lane]) == MirroredLamps::none;
+        if (scene.settings.ladder && is_emitted) add_emission(scene, lights, lane, parts[2], estimate);
     }
 }
 
@@ -260,7 +267,8 @@ std::vector<Observation> PathTracer::learn(uint64_t seed, unsigned wanted_sample
 
 void PathTracer::learn_light_choice() {
     LightSampler& lights = state_->scene.lights;
-    const unsigned samples = lights.group_count() > few_groups ? learning_samples_of_more : learning_samples_of_few;
+    const uint32_t groups = lights.group_count() - lights.mirrored_lamps().count();  // of images few are left
+    const unsigned samples = groups > few_groups ? learning_samples_of_more : learning_samples_of_few;
     lights.learn(learn(light_seed, samples, &PixelEstimate::light_record), state_->scene.settings.light_clusters);
 }
 

@@ -20,6 +20,7 @@ struct PathTracerSettings {
     bool learns_lights =
         true;  ///< learns which lights reach which places (LightChoice); else groups of lights share the samples
     bool light_clusters = true;  ///< with learns_lights: lights of a group by LightClusters where this is found to pay
+    bool mirrored_lamps = true;  ///< light samples also find punctual lights in mirrors: see MirroredLamps
     bool ladder = false;    ///< also estimate the lower rungs of the truth ladder, see PixelEstimate: twice the rays
     bool keep_all = false;  ///< also trace and evaluate what left_out() names: the same image, slower
 };

@@ -71,12 +71,15 @@ TEST(highlight, of_what_is_reflected_is_part_of_the_reflection) {
     const glm::dvec3 view = glm::normalize(glm::dvec3(0, 1, 1)), met(0, 2, -2), light(1, 3, 1);
     scene.scene.lights = {{.intensity = glm::vec3(10), .position = light}};
     const PixelMoments pixel = render(scene, camera_at(view), 256, {.ladder = true});
-    const double from_wall =
-        10 * metal_reflection({0, 0, 1}, glm::normalize(-met), glm::normalize(light - met), f0, roughness) /
-        glm::dot(light - met, light - met);
+    const auto from = [&](glm::dvec3 place) {
+        const glm::dvec3 to_light = place - met;
+        return 10 * metal_reflection({0, 0, 1}, glm::normalize(-met), glm::normalize(to_light), f0, roughness) /
+               glm::dot(to_light, to_light);
+    };
+    const double from_image = from({light.x, -light.y, light.z}), from_wall = from(light) + from_image;
     ASSERT_GT(from_wall, 0.05);
-    // What the wall mirrors on is the floor's highlight, 1e-6 of the light; the lobe's tails widen what is seen of the
-    // wall.
+    ASSERT_GT(from_image, 0.01 * from_wall);
+    // The floor shows the lamp to the wall as well. The lobe's tails widen what is seen of the wall.
     EXPECT_NEAR(pixel.incident.mean.x, from_wall, 2e-3 * from_wall);
     EXPECT_NEAR(pixel.specular.mean.x, from_wall, 2e-3 * from_wall);
     EXPECT_LT(pixel.hit.highlight.x, 1e-4);
