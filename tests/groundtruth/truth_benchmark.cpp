@@ -32,17 +32,19 @@ constexpr double floor_share = 0.1;
 
 struct Learnt {
     const char *name, *title;
-    bool lights, clusters = false, roulette = false, splitting = false, shadow_rays = false,
+    bool lights, clusters = false, roulette = false, splitting = false, shadow_rays = false, mirrored_lamps = false,
                  has_few_guide_samples = false;
 };
 constexpr Learnt neither{"neither", "neither", false};
-constexpr Learnt learnt[] = {{"roulette", "roulette alone", false, false, true},
-                             {"lights", "lights", true},
-                             {"clusters", "and clusters", true, true},
-                             {"both", "and roulette", true, true, true},
-                             {"splitting", "and splitting", true, true, true, true},
-                             {"all", "and shadow rays", true, true, true, true, true},
-                             {"all_few_guide_samples", "all, guide of 16 samples", true, true, true, true, true, true}};
+constexpr Learnt learnt[] = {
+    {"roulette", "roulette alone", false, false, true},
+    {"lights", "lights", true},
+    {"clusters", "and clusters", true, true},
+    {"both", "and roulette", true, true, true},
+    {"splitting", "and splitting", true, true, true, true},
+    {"shadow_rays", "and shadow rays", true, true, true, true, true},
+    {"all", "and mirrored lamps", true, true, true, true, true, true},
+    {"all_few_guide_samples", "all, guide of 16 samples", true, true, true, true, true, true, true}};
 
 struct Spent {
     double variance = 0, rays = 0, cpu_seconds = 0;  ///< the first: mean over pixels, relative to their radiance
@@ -77,7 +79,8 @@ public:
                           {.splitting = what.splitting,
                            .shadow_roulette = what.shadow_rays,
                            .learns_lights = what.lights,
-                           .light_clusters = what.clusters});
+                           .light_clusters = what.clusters,
+                           .mirrored_lamps = what.mirrored_lamps});
         const Guide& guide = what.has_few_guide_samples ? few_samples_guide_ : guide_;
         if (what.roulette) tracer.expect(guide.diffuse, guide.specular);
         std::vector<Spent> of_seeds(seeds);
