@@ -1,6 +1,5 @@
 #include "groundtruth/lights/light_sampler.h"
 
-#include "core/shared/punctual_light.h"
 #include "groundtruth/lights/light_groups.h"
 #include "groundtruth/sampling/lobes.h"
 #include "groundtruth/sampling/sobol.h"
@@ -59,17 +58,6 @@ double punctual_power(const PunctualLight& light, double scene_radius) {
 }
 
 }  // namespace
-
-PunctualArrival arrival(const PunctualLight& light, glm::vec3 point) {
-    if (light.type == LightType::directional) return {-light.direction, light.intensity, true};
-    const glm::vec3 to_light = light.position - point;
-    const float distance = glm::length(to_light);
-    PunctualArrival arriving{to_light / distance, light.intensity * punctual_falloff(distance, light.range), false};
-    if (light.type == LightType::spot)
-        arriving.irradiance *= spot_attenuation(-glm::dot(arriving.direction, light.direction), light.inner_cone_cos,
-                                                light.outer_cone_cos);
-    return arriving;
-}
 
 LightSampler::LightSampler(const Scene& scene, const ScenePose& pose, const EmbreeScene& geometry,
                            const MaterialTable& materials, bool sample_environment, bool compensate, bool mirror_lamps)

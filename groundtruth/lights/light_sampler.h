@@ -3,6 +3,7 @@
 #include "groundtruth/lights/light_choice.h"
 #include "groundtruth/lights/light_clusters.h"
 #include "groundtruth/lights/mirrored_lamps.h"
+#include "groundtruth/lights/punctual_arrival.h"
 #include "groundtruth/sampling/lanes.h"
 #include "groundtruth/scene/material_table.h"
 
@@ -24,15 +25,6 @@ struct LightLanes {
     LanesVec3 shadow_origin, shadow_direction;
     Lanes<float> shadow_far;  ///< in units of shadow_direction
 };
-
-/// What a punctual light sends to a point, before visibility is known.
-struct PunctualArrival {
-    glm::vec3 direction;   ///< unit, towards the light; not a number if the point is the light's own
-    glm::vec3 irradiance;  ///< at normal incidence (W m^-2)
-    bool is_infinite;      ///< the light has no place
-};
-/// `point`: m, world space. Range and cone follow KHR_lights_punctual.
-PunctualArrival arrival(const PunctualLight& light, glm::vec3 point);
 
 /// Chooses among emissive triangles, punctual lights, the environment and mirrored lamps: a group by LightChoice, and a
 /// light of it in proportion to power, or by LightClusters where learning finds that this pays. Groups are neighbouring

@@ -51,12 +51,14 @@ private:
     void scatter();
     void trace_shadow_rays(uint32_t reached);
     void look_ahead();
-    void split(int lane, unsigned parts);
+    void split(int lane, float wanted_parts);
     void resume_branches();
     void record(uint32_t continuing);
     void end(int lane);
 
     SobolSequence sequence(int lane) const { return {seed_a_[lane], seed_b_[lane]}; }
+
+    static constexpr uint32_t all_lanes = (1ull << lane_count) - 1;  ///< bit per lane
 
     /// A part of a path that was split, at the vertex from which it is to go on.
     struct Branch {
