@@ -15,7 +15,7 @@ public:
     static constexpr uint32_t none = ~0u;
 
     MirroredLamps() = default;
-    /// `lamps`: that shine. Takes the images that get the most power, up to a limit.
+    /// `lamps`: that shine. `diagonal`: of the scene (m). Takes the brightest images, 16 at most.
     MirroredLamps(const Scene& scene, const EmbreeScene& geometry, std::span<const PunctualLight> lamps,
                   float diagonal);
 
@@ -53,7 +53,7 @@ private:
     };
     struct Reflection;
     struct Found;
-    std::vector<Found> find_mirrors(const Scene& scene, const EmbreeScene& geometry, float diagonal);
+    static std::vector<Found> find_mirrors(const Scene& scene, const EmbreeScene& geometry, float diagonal);
     bool reflect(uint32_t image, glm::vec3 point, Reflection& reflection) const;
 
     std::vector<PunctualLight> lamps_;
