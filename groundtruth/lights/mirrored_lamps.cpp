@@ -128,12 +128,15 @@ MirroredLamps::MirroredLamps(const Scene& scene, const EmbreeScene& geometry, st
         double worth;
         uint32_t mirror, lamp;
     };
-    std::vector<Candidate> candidates;
+    std::vector<Candidate> candidates;  // the best so far, since scenes may have millions
     for (uint32_t m = 0; m < found.size(); ++m)
-        for (uint32_t l = 0; l < lamps.size(); ++l)
-            if (const double worth = found[m].worth(lamps[l]); worth > 0) candidates.push_back({worth, m, l});
-    std::ranges::stable_sort(candidates, std::ranges::greater{}, &Candidate::worth);
-    if (candidates.size() > most_images) candidates.resize(most_images);
+        for (uint32_t l = 0; l < lamps.size(); ++l) {
+            const double worth = found[m].worth(lamps[l]);
+            if (!(worth > 0)) continue;
+            const auto at = std::ranges::upper_bound(candidates, worth, std::ranges::greater{}, &Candidate::worth);
+            candidates.insert(at, {worth, m, l});
+            if (candidates.size() > most_images) candidates.pop_back();
+        }
 
     std::vector<uint32_t> taken(found.size(), none);
     for (const Candidate& candidate : candidates) {

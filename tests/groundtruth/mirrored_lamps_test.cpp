@@ -224,6 +224,9 @@ TEST(MirroredLamps, NeedAFlatSmoothSurfaceWithTheLampBeforeIt) {
     EXPECT_EQ(images_of(two_sided, below), 1u);
     EXPECT_EQ(images_of(metal_material(0.5f, 0.5f)), 0u);
     EXPECT_EQ(images_of(unlit), 0u);
+    TestScene many = wall_over(mirror);
+    many.scene.lights.assign(40, {.intensity = glm::vec3(1), .position = lamp_at});
+    EXPECT_EQ(images(many), 16u);
     TestScene scene = wall_over(bumpy);
     scene.scene.textures.push_back({.name = "bumps", .extent = {1, 1}, .rgba = make_texels({128, 128, 255, 255})});
     scene.scene.lights = {{.intensity = glm::vec3(1), .position = lamp_at}};
