@@ -13,10 +13,12 @@ namespace {
 /// Rougher surfaces are no mirrors: sampling lobes finds what they reflect. In `sponza` with a floor of 0.25, lit by
 /// the sun alone, images take more time than noise.
 constexpr float most_roughness = 0.2f;
+/// In `street:10004`, 16, 32 and 64 images leave 0.29, 0.38 and 0.31 of the variance: no difference beyond noise.
 constexpr size_t most_images = 16;
 
 /// Triangles of one material are one mirror where their normals and planes fall into the same cell of this size; of
-/// planes, relative to the scene's diagonal. Where they do not, a surface becomes several mirrors.
+/// planes, relative to the scene's diagonal. Where they do not, a surface becomes several mirrors. A normal may so be
+/// off by the slope of the narrowest lobes, which costs variance alone.
 constexpr float normal_cell = 1.0f / 512, offset_cell = 1e-4f;
 
 /// What is promised must not be zero where something may arrive.

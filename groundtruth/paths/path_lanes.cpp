@@ -1,5 +1,6 @@
 #include "groundtruth/paths/path_lanes.h"
 
+#include "groundtruth/paths/lamp_reflection.h"
 #include "groundtruth/paths/prefetched_hits.h"
 #include "groundtruth/paths/shadow_roulette.h"
 

@@ -1,6 +1,7 @@
 #include "groundtruth/paths/path_tracer.h"
 
 #include "groundtruth/paths/composite_terms.h"
+#include "groundtruth/paths/lamp_reflection.h"
 #include "groundtruth/paths/path_lanes.h"
 #include "groundtruth/paths/pixel_samples.h"
 #include "groundtruth/paths/shadow_roulette.h"
@@ -55,18 +56,9 @@ void add_highlight(const TracedScene& scene, FirstHit& hit) {
     FirstVertex vertex{.hit = hit};
     if (scene.lights.punctual_lights().empty() || !prepare(scene, vertex) || !vertex.wants_specular) return;
     PixelEstimate cost;
-    for (const PunctualLight& light : scene.lights.punctual_lights()) {
-        const PunctualArrival arriving = arrival(light, hit.position);
-        const vec3 f = evaluate(vertex.lobes, arriving.direction * vertex.world_from_local).specular;
-        const vec3 reflected = f * arriving.irradiance;
-        if (!(dot(arriving.direction, hit.geometric_normal) > 0) || reflected == vec3(0.0f)) continue;
-        LightLanes shadow;
-        shadow.direction.set(0, arriving.direction);
-        shadow.position.set(0, light.position);
-        shadow.is_infinite[0] = arriving.is_infinite;
-        aim_shadow_ray(hit.ray_origin, hit.position_error, hit.geometric_normal, 0, shadow);
-        if (is_visible(scene, shadow, 0, cost)) hit.highlight += reflected;
-    }
+    const ReflectingPoint point{hit.position, hit.ray_origin, hit.position_error, hit.geometric_normal};
+    for (const PunctualLight& light : scene.lights.punctual_lights())
+        hit.highlight += specular_reflection(scene, light, point, vertex.lobes, vertex.world_from_local, cost);
     hit.shadow_rays = unsigned(cost.rays);
     hit.is_highlight_finite = is_finite(hit.highlight);
     if (!hit.is_highlight_finite) hit.highlight = vec3(0.0f);

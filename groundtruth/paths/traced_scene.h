@@ -116,21 +116,6 @@ inline bool is_visible(const TracedScene& scene, const LightLanes& lights, int l
     return !is_occluded(scene.geometry.handle(), origin, direction, lights.shadow_far[lane]);
 }
 
-/// The part of the promised LightLanes::radiance of a mirrored lamp that arrives, by channel.
-glm::vec3 mirrored_part(const TracedScene& scene, const LightLanes& lights, int lane, uint32_t image,
-                        PixelEstimate& estimate);
-
-/// The part of LightLanes::radiance that arrives: 1 or 0, but for mirrored lamps. `reflections`: of the path, with the
-/// one where the light arrives.
-inline glm::vec3 arriving(const TracedScene& scene, const LightLanes& lights, int lane, unsigned reflections,
-                          PixelEstimate& estimate) {
-    const uint32_t image = scene.lights.image(lights.group[lane]);
-    if (image != MirroredLamps::none) [[unlikely]]
-        return reflections < scene.settings.max_depth ? mirrored_part(scene, lights, lane, image, estimate)
-                                                      : glm::vec3(0.0f);
-    return glm::vec3(is_visible(scene, lights, lane, estimate) ? 1.0f : 0.0f);
-}
-
 /// Whether the image of the camera shows a point on the side that `normal` (unit, geometric) points to.
 bool is_on_screen(const TracedScene& scene, glm::vec3 position, glm::vec3 error, glm::vec3 normal,
                   PixelEstimate& estimate);

@@ -8,12 +8,12 @@
 
 namespace {
 
-const glm::vec3 up(0, 1, 0), looked_at(0, 0.6f, 0), lamp_at(1.5f, 1, 0.3f);
+const glm::vec3 looked_at(0, 0.6f, 0), lamp_at(1.5f, 1, 0.3f);
 
-/// A wall at x = 0 and a floor before it, which has the last material.
-TestScene wall_over(const Material& floor) {
+/// A wall at x = 0, and a floor before it.
+TestScene wall_over(const Material& floor, const Material& wall = lambert_material(0.5f)) {
     TestScene scene;
-    scene.quad({0, 0, 1}, {0, 0, -1}, {0, 2, -1}, {0, 2, 1}, scene.add(lambert_material(0.5f)));
+    scene.quad({0, 0, 1}, {0, 0, -1}, {0, 2, -1}, {0, 2, 1}, scene.add(wall));
     scene.quad({0, 0, 3}, {6, 0, 3}, {6, 0, -3}, {0, 0, -3}, scene.add(floor));
     return scene;
 }
@@ -69,7 +69,7 @@ TEST(MirroredLamps, LightAWallAsTheirMirrorImagesWould) {
         // alpha of 1e-3, over which the cosines and distances are averaged.
         EXPECT_NEAR(both.mean.x, exact, 6 * both.standard_error.x + 1e-3 * exact);
         EXPECT_LT(both.standard_error.x, 3e-3 * exact);
-        // One reflection less leaves the lamp itself.
+        // One reflection less leaves the lamp itself. 1e-6: some ten roundings of float32.
         const Moments direct = render_wall(scene, 64, {.max_depth = 1}).diffuse;
         EXPECT_NEAR(direct.mean.x, per_irradiance * expected.direct, 6 * direct.standard_error.x + 1e-6);
     }
@@ -92,9 +92,7 @@ TEST(MirroredLamps, LeaveToLobesWhatOtherSurfacesReflect) {
 }
 
 TEST(MirroredLamps, AreNoLitColor) {
-    TestScene scene;
-    scene.quad({0, 0, 1}, {0, 0, -1}, {0, 2, -1}, {0, 2, 1}, scene.add(metal_material(0.7f, 0.4f)));
-    scene.quad({0, 0, 3}, {6, 0, 3}, {6, 0, -3}, {0, 0, -3}, scene.add(metal_material(0.6f, 0.0f)));
+    TestScene scene = wall_over(metal_material(0.6f, 0.0f), metal_material(0.7f, 0.4f));
     scene.scene.lights = {{.intensity = glm::vec3(3), .position = lamp_at}};
     ASSERT_EQ(images(scene), 1u);
     const PixelMoments pixel =
